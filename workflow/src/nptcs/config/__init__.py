@@ -1,0 +1,1 @@
+"""The study's configuration: one strict schema, a description for each key."""

@@ -1,0 +1,78 @@
+"""The material card: constants with their uncertainty and where they came from."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+from pydantic import Field
+
+from nptcs.config.base import Strict
+
+PLY_CONSTANTS = (
+    "e1_mpa",
+    "e2_mpa",
+    "e3_mpa",
+    "nu12",
+    "nu13",
+    "nu23",
+    "g12_mpa",
+    "g13_mpa",
+    "g23_mpa",
+)
+
+
+class Quantity(Strict):
+    """One constant: its value, its uncertainty and its origin."""
+
+    value: float
+    unit: str = Field(description="'MPa' or '1' (dimensionless)")
+    standard_error: float | None = Field(
+        None, description="Standard error of the mean over specimens; none for an assumption"
+    )
+    origin: Literal["measured", "assumed"]
+    rule: str = Field(description="Standard, range and statistic, or the stated assumption")
+    specimens: tuple[str, ...] = Field((), description="Specimens that it rests on")
+
+
+class Covariance(Strict):
+    """Covariance matrix of the measured constants, in the order of `names`."""
+
+    names: tuple[str, ...]
+    matrix: tuple[tuple[float, ...], ...] = Field(description="Unit: product of the two units")
+
+
+class PlyCard(Strict):
+    """The nine constants of an orthotropic ply, table 2 of the paper."""
+
+    name: str
+    synthetic: bool = Field(description="True if any source specimen is synthetic")
+    constants: dict[str, Quantity] = Field(description="Keys: " + ", ".join(PLY_CONSTANTS))
+    covariance: Covariance | None = None
+    checks: tuple[str, ...] = Field((), description="What the consistency checks found, in words")
+
+    def values(self) -> dict[str, float]:
+        """Return the bare numbers, by constant name."""
+        return {name: quantity.value for name, quantity in self.constants.items()}
+
+
+class RubberCard(Strict):
+    """Hyperelastic constants of one rubber; the study's model is neo-Hookean."""
+
+    name: str
+    synthetic: bool = Field(description="True if any source specimen is synthetic")
+    model: str = Field("neo_hookean", description="Name of the hyperelastic model")
+    constants: dict[str, Quantity] = Field(description="For neo-Hookean: c10_mpa")
+    covariance: Covariance | None = None
+    strain_range: tuple[float, float] = Field(description="Nominal strain range of the fit")
+    fit_quality: dict[str, float] = Field(
+        default_factory=dict, description="rmse_mpa, largest_error_percent, drucker_stable, …"
+    )
+    checks: tuple[str, ...] = ()
+
+
+class MaterialCard(Strict):
+    """Everything that the solvers may know of the materials, in one JSON file."""
+
+    format: Literal["nptcs-material-card/1"] = "nptcs-material-card/1"
+    plies: dict[str, PlyCard]
+    rubbers: dict[str, RubberCard]

@@ -1,0 +1,1 @@
+"""Solvers: one contract, one registry, one module or folder a solver."""

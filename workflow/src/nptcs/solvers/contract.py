@@ -1,0 +1,120 @@
+"""What a solver is: a function from one case to one result, and what it says of itself.
+
+A solver is a module with a constant ``SOLVER`` of class `Solver`. To add one, write the module
+and name it in `nptcs.solvers.registry` (or name its file in the configuration).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+from typing import Any
+
+from pydantic import BaseModel, ConfigDict, Field
+
+from nptcs.config.base import Strict
+from nptcs.config.tyre import TyreGeometry
+
+
+class Status(StrEnum):
+    """How a case ended."""
+
+    OK = "ok"
+    DIVERGED = "diverged"
+    TIMEOUT = "timeout"
+    LICENCE = "licence"
+    ERROR = "error"
+
+
+class SolverOptions(Strict):
+    """Base of a solver's own section ``solvers: NAME:`` in the configuration."""
+
+    timeout_s: float = Field(
+        600.0, gt=0, description="Wall time after which a case is stopped and recorded as timeout"
+    )
+
+    def tables(self) -> Mapping[str, str]:
+        """Name the CSV files that the solver reads: a key for the solver → path."""
+        return {}
+
+
+@dataclass(frozen=True)
+class CaseInputs:
+    """All that a solver may look at.
+
+    Parameters
+    ----------
+    case_id : str
+        For messages only; results must not depend on it.
+    values : mapping of str to float
+        Factor values of the case and the study's fixed values, e.g. ``spacing_mm``,
+        ``thickness_mm``, ``angle_deg``, ``shear_band_c10_mpa``, ``spoke_c10_mpa``.
+    load_n : float
+        Vertical load at which the secant stiffness is taken.
+    tyre : TyreGeometry
+        Dimensions of the tyre.
+    ply : mapping of str to float or None
+        The nine ply constants (`nptcs.materials.PLY_CONSTANTS`), where the solver needs them.
+    options : SolverOptions
+        The solver's own options.
+    tables : mapping of str to a sequence of rows
+        Content of ``options.tables()``; a row is a mapping of column name to value.
+    """
+
+    case_id: str
+    values: Mapping[str, float]
+    load_n: float
+    tyre: TyreGeometry
+    options: Any
+    ply: Mapping[str, float] | None = None
+    tables: Mapping[str, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
+
+
+class SolverResult(BaseModel):
+    """What a solver returns: a status with a message, and the responses if it has any."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    status: Status
+    message: str = ""
+    vertical_stiffness_n_per_mm: float | None = Field(None, description="Secant F/δ at the load")
+    displacement_mm: float | None = Field(None, description="Vertical displacement δ at the load")
+    extra: dict[str, float] = Field(
+        default_factory=dict, description="Further scalars, unit in the name (theta_c_deg, …)"
+    )
+    curve: dict[str, list[float]] | None = Field(
+        None, description="Columns of equal length, e.g. displacement_mm and force_n"
+    )
+
+
+@dataclass(frozen=True)
+class Solver:
+    """A solver and what it says of itself.
+
+    Parameters
+    ----------
+    name : str
+        Name in the configuration and in every table.
+    version : str
+        Version of its physics: change it with any change that may alter a result. It is part
+        of the key under which results are kept.
+    solve : callable
+        ``CaseInputs → SolverResult``. It may raise: the campaign records the exception.
+    factors : frozenset of str
+        The factors that it can see. A study that varies any other is refused.
+    required : frozenset of str
+        Values that must be given for each case, as factor or as fixed value.
+    options : type of SolverOptions
+        Its section of the configuration.
+    needs_ply : bool
+        Whether the ply constants are handed to it (and are part of the key).
+    """
+
+    name: str
+    version: str
+    solve: Callable[[CaseInputs], SolverResult]
+    factors: frozenset[str]
+    required: frozenset[str] = frozenset()
+    options: type[SolverOptions] = SolverOptions
+    needs_ply: bool = False
