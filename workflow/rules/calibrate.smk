@@ -48,7 +48,7 @@ rule calibrate_rubber:
 
 rule material_card:
     input:
-        ply="results/3_calibrate/ply.json" if PLY_SERIES else [],
+        ply=["results/3_calibrate/ply.json"] if PLY_SERIES else [],
         rubbers=expand("results/3_calibrate/{rubber}.json", rubber=RUBBERS),
         models=expand("results/3_calibrate/{rubber}_models.csv", rubber=RUBBERS),
         ranges=expand("results/3_calibrate/{rubber}_ranges.csv", rubber=RUBBERS),
