@@ -38,7 +38,18 @@ def test_tables_have_the_documented_columns_and_plausible_numbers(finished):
     assert ranked[0]["factor"] == "spoke_c10_mpa"
     specimens = finished.rows("specimens.csv")
     assert list(specimens[0])[:10] == (
-        ["specimen", "test", "material", "property", "value", "unit", "rule", "range", "points", "flags"]
+        [
+            "specimen",
+            "test",
+            "material",
+            "property",
+            "value",
+            "unit",
+            "rule",
+            "range",
+            "points",
+            "flags",
+        ]
     )
     card = json.loads(finished.path("results/material_card.json").read_text())
     assert card["plies"]["cfrp"]["synthetic"] is True

@@ -4,12 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
+from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
 from snakemake.script import snakemake
 
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.materials import MaterialCard, PlyCard, RubberCard
-from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
 from nptcs.tables.io import read_table, write_table
 
 

@@ -5,16 +5,16 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+from nptcs.config.reduction import ReductionSettings
+from nptcs.reduce import reduce_specimen
+from nptcs.tables.properties import PropertiesTable, empty_properties
 from snakemake.script import snakemake
 
-from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.errors import InputError
-from nptcs.reduce import reduce_specimen
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.properties import PropertiesTable, empty_properties
 from nptcs.tables.specimens import Specimen
 
 

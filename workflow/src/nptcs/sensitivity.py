@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from nptcs.config.root import AveragingRule
+from nptcs.config.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
 
 GRID_POINTS = 2_000_000

@@ -1,4 +1,4 @@
-"""``nptcs check``: is the configuration sound, and the specimen sheet, before anything runs?"""
+"""``nptcs check``: find faults of the configuration and the specimen sheet before a run."""
 
 from __future__ import annotations
 

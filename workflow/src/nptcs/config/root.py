@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal, Self
+from typing import Any, Self
 
 from pydantic import Field, ValidationError, model_validator
 
@@ -12,11 +12,10 @@ from nptcs.config.calibration import CalibrationSettings
 from nptcs.config.explain import describe
 from nptcs.config.ingest import IngestSettings
 from nptcs.config.reduction import ReductionSettings
+from nptcs.config.sensitivity import Sensitivity
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
-
-AveragingRule = Literal["domain_mean_absolute", "design_mean_absolute", "domain_mean_signed"]
 
 
 class LabData(Strict):
@@ -39,19 +38,6 @@ class Campaign(Strict):
     )
     cores_per_batch: int = Field(
         2, ge=1, description="Cases that a batch solves at a time; no more than `-j` allows"
-    )
-
-
-class Sensitivity(Strict):
-    """How gradients of the response surfaces are averaged."""
-
-    rules: tuple[AveragingRule, ...] = Field(
-        ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed"),
-        min_length=1,
-        description="Averaging rules; the first is the one that the ranking and the figures show",
-    )
-    published_impact: str | None = Field(
-        None, description="CSV with the paper's table 9 (study, factor, gradient, range, impact)"
     )
 
 
