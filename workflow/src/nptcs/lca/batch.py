@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nptcs.errors import InputError
 from nptcs.lca.contact import LARGEST_KAPPA_ANGLE, hardness
-from nptcs.lca.diagnosis import diagnose, doubts
+from nptcs.lca.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
 from nptcs.lca.newton import Target, by_brackets, is_solution, newton, start_angle
 from nptcs.lca.scaling import Array, Ring
 from nptcs.lca.system import Arcs, Joined, join
@@ -259,6 +259,7 @@ def _finish(
     numbers["balance_residual"] = diagnosis.balance_residual
     numbers["lowest_pressure_mpa"] = diagnosis.lowest_pressure * numbers["mean_pressure_mpa"]
     solved = is_solution(joined, target, value[rows])
+    solved &= np.abs(diagnosis.balance_residual) <= LARGEST_RESIDUAL
     solved &= np.sqrt(ring.kappa2) * joined.contact_angle <= LARGEST_KAPPA_ANGLE
     beyond = solved & (numbers["displacement_mm"] > table["largest"])
     message = doubts(diagnosis)
