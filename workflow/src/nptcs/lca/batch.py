@@ -1,0 +1,233 @@
+"""A table of designs in, a table of results out, without a Python loop over the designs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from concurrent.futures import ThreadPoolExecutor
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from nptcs.errors import InputError
+from nptcs.lca.diagnosis import diagnose, doubts
+from nptcs.lca.newton import Target, find_angles
+from nptcs.lca.scaling import Array, Ring
+from nptcs.lca.system import Arcs, Joined, join
+
+CHUNK = 2048
+"""Designs solved at once; more than this no longer fits the processor's cache."""
+DESIGN_COLUMNS = (
+    "axial_stiffness_n",
+    "shear_stiffness_n",
+    "bending_stiffness_n_mm2",
+    "radius_mm",
+    "width_mm",
+    "tension_n_per_mm",
+    "compression_n_per_mm",
+    "spoke_count",
+)
+"""What a design needs: the fields of `RingSection` and of `LinearSpokes`."""
+RESULT_COLUMNS = (
+    "displacement_mm",
+    "load_n",
+    "theta_c_deg",
+    "theta_t_deg",
+    "stiffness_n_per_mm",
+    "tangent_stiffness_n_per_mm",
+    "contact_force_n",
+    "ring_force_n",
+    "mean_pressure_mpa",
+    "lowest_pressure_mpa",
+    "balance_residual",
+)
+_TARGETS: dict[str, Target] = {
+    "load_n": "force",
+    "displacement_mm": "sinking",
+    "theta_c_deg": "contact_angle",
+}
+STATUSES = ("ok", "doubtful", "beyond_model", "bad_input", "no_convergence")
+"""``doubtful``: solved, but one of the model's assumptions does not hold; the message says which.
+``beyond_model``: no solution below the largest displacement. Only the first two have numbers."""
+
+
+@dataclass(frozen=True)
+class Batch:
+    """Results of n designs: numbers by column (NaN where there are none), status and message."""
+
+    columns: dict[str, Array]
+    status: NDArray[np.str_]
+    message: list[str]
+
+
+def solve_batch(
+    designs: Mapping[str, ArrayLike],
+    *,
+    load_n: ArrayLike | None = None,
+    displacement_mm: ArrayLike | None = None,
+    theta_c_deg: ArrayLike | None = None,
+    largest_displacement_mm: ArrayLike | None = None,
+    workers: int = 1,
+) -> Batch:
+    """Solve the linear model for a table of designs.
+
+    Parameters
+    ----------
+    designs : mapping of str to array-like
+        Columns `DESIGN_COLUMNS`, each a number or n numbers (units in the names).
+    load_n, displacement_mm, theta_c_deg : array-like
+        Exactly one of them: what is given for each design.
+    largest_displacement_mm : array-like, optional
+        Displacement at which the band meets the rim; without it the radius R.
+    workers : int
+        Threads among which the table is shared out.
+
+    Returns
+    -------
+    Batch
+        Columns `RESULT_COLUMNS`. A row that cannot be solved is marked, the rest go on.
+
+    Raises
+    ------
+    InputError
+        A column is missing, or not exactly one target is given.
+    """
+    given = {"load_n": load_n, "displacement_mm": displacement_mm, "theta_c_deg": theta_c_deg}
+    name, value = _only_target({k: v for k, v in given.items() if v is not None})
+    table = _columns(designs, value, largest_displacement_mm)
+    bad = _bad_rows(table, name)
+    status = np.where(bad != "", "bad_input", "").astype(object)
+    message = list(bad)
+    good = np.flatnonzero(bad == "")
+    results = {column: np.full(len(bad), np.nan) for column in RESULT_COLUMNS}
+    chunks = [good[start : start + CHUNK] for start in range(0, len(good), CHUNK)]
+
+    def run(rows: NDArray[np.intp]) -> None:
+        part = {column: values[rows] for column, values in table.items()}
+        numbers, states, texts = _solve_chunk(part, name)
+        for column, values in numbers.items():
+            results[column][rows] = values
+        status[rows] = states
+        for row, text in zip(rows, texts, strict=True):
+            message[row] = text
+
+    if workers == 1:
+        for rows in chunks:
+            run(rows)
+    else:
+        with ThreadPoolExecutor(workers) as pool:
+            list(pool.map(run, chunks))
+    return Batch(results, status.astype(str), message)
+
+
+def _only_target(given: dict[str, ArrayLike]) -> tuple[str, ArrayLike]:
+    """Return the name and value of the single target."""
+    if len(given) != 1:
+        raise InputError(
+            "exactly one of load_n, displacement_mm and theta_c_deg must be given",
+            remedy="give one of them",
+            value=sorted(given),
+        )
+    return next(iter(given.items()))
+
+
+def _columns(
+    designs: Mapping[str, ArrayLike], target: ArrayLike, largest: ArrayLike | None
+) -> dict[str, Array]:
+    """All columns as float arrays of one length."""
+    for column in DESIGN_COLUMNS:
+        if column not in designs:
+            raise InputError("column is missing", remedy=f"give {column}", column=column)
+    raw = {column: np.asarray(designs[column], dtype=float) for column in DESIGN_COLUMNS}
+    raw["target"] = np.asarray(target, dtype=float)
+    raw["largest"] = raw["radius_mm"] if largest is None else np.asarray(largest, dtype=float)
+    broadcast = np.broadcast_arrays(*(np.atleast_1d(values) for values in raw.values()))
+    return dict(zip(raw, broadcast, strict=True))
+
+
+def _bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
+    """Return what is wrong with each row, or an empty text."""
+    texts = np.full(len(table["target"]), "", dtype=object)
+    for column, values in table.items():
+        name = {"target": target, "largest": "largest_displacement_mm"}.get(column, column)
+        wrong = ~(np.isfinite(values) & (values > 0)) & (texts == "")
+        for row in np.flatnonzero(wrong):
+            texts[row] = f"{name} must be a finite number above zero, got {values[row]:g}"
+    if target == "theta_c_deg":
+        for row in np.flatnonzero((table["target"] >= 85) & (texts == "")):
+            texts[row] = f"theta_c_deg must be below 85, got {table['target'][row]:g}"
+    return texts
+
+
+def scaled(table: Mapping[str, Array]) -> Ring:
+    """Return the dimensionless designs of a table with `DESIGN_COLUMNS`."""
+    shear, radius = table["shear_stiffness_n"], table["radius_mm"]
+    # R² k/GA with k = k_t N/(2πR)
+    foundation = radius * table["spoke_count"] / (2 * np.pi * shear)
+    return Ring(
+        shear / table["axial_stiffness_n"],
+        shear * radius**2 / table["bending_stiffness_n_mm2"],
+        foundation * table["compression_n_per_mm"],
+        foundation * table["tension_n_per_mm"],
+    )
+
+
+def _scaled_target(table: dict[str, Array], target: str) -> Array:
+    """Return F/GA, δ/R or θc in radians."""
+    if target == "theta_c_deg":
+        return np.radians(table["target"])
+    return table["target"] / table["shear_stiffness_n" if target == "load_n" else "radius_mm"]
+
+
+def _solve_chunk(
+    table: dict[str, Array], target: str
+) -> tuple[dict[str, Array], NDArray[np.str_], list[str]]:
+    """Solve rows that are known to be well formed."""
+    ring = scaled(table)
+    arcs = Arcs.of(ring)
+    angles = find_angles(ring, arcs, _TARGETS[target], _scaled_target(table, target))
+    joined = join(ring, arcs, angles.contact, angles.transition)
+    diagnosis = diagnose(ring, arcs, joined)
+    numbers = _numbers(table, ring, joined)
+    numbers["balance_residual"] = diagnosis.balance_residual
+    numbers["lowest_pressure_mpa"] = diagnosis.lowest_pressure * numbers["mean_pressure_mpa"]
+    texts = doubts(diagnosis)
+    beyond = angles.found & (numbers["displacement_mm"] > table["largest"])
+    conditions = [~angles.found, beyond, np.array([text != "" for text in texts])]
+    status = np.select(conditions, ["no_convergence", "beyond_model", "doubtful"], "ok")
+    for row in np.flatnonzero(beyond):
+        texts[row] = (
+            f"needs a displacement of {numbers['displacement_mm'][row]:.4g} mm, more than the "
+            f"{table['largest'][row]:.4g} mm that the wheel allows"
+        )
+    for row in np.flatnonzero(~angles.found):
+        texts[row] = "no contact and transition angle meet the conditions"
+    without = ~angles.found | beyond
+    for values in numbers.values():
+        values[without] = np.nan
+    return numbers, status, texts
+
+
+def _numbers(table: dict[str, Array], ring: Ring, joined: Joined) -> dict[str, Array]:
+    """Return the result columns in N, mm, MPa and degrees."""
+    shear, radius = table["shear_stiffness_n"], table["radius_mm"]
+    displacement, load = joined.sinking[:, 0] * radius, joined.force[:, 0] * shear
+    spokes = 2 * ring.compression * joined.sinking[:, 0] * joined.contact_angle * shear
+    return {
+        "displacement_mm": displacement,
+        "load_n": load,
+        "theta_c_deg": np.degrees(joined.contact_angle),
+        "theta_t_deg": np.degrees(joined.transition_angle),
+        "stiffness_n_per_mm": load / displacement,
+        "tangent_stiffness_n_per_mm": _tangent(joined) * shear / radius,
+        "contact_force_n": spokes,
+        "ring_force_n": load - spokes,
+        "mean_pressure_mpa": load / (2 * radius * joined.contact_angle * table["width_mm"]),
+    }
+
+
+def _tangent(joined: Joined) -> Array:
+    """dF/dδ along the solutions, on which u(θt) = 0 fixes dθt/dθc."""
+    by_c = -joined.transition[:, 1] / joined.transition[:, 2]
+    force = joined.force[:, 1] + joined.force[:, 2] * by_c
+    return np.asarray(force / (joined.sinking[:, 1] + joined.sinking[:, 2] * by_c))
