@@ -1,5 +1,4 @@
 # The configuration and the specimen sheet, checked; what the rules ask of them.
-import json
 import time
 from pathlib import Path
 
@@ -7,6 +6,7 @@ from snakemake.exceptions import WorkflowError
 
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
+from nptcs.files import sha256_of_file
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import check_study, load, module_of, read_options
 from nptcs.tables.specimens import read_sheet

@@ -7,20 +7,18 @@ def raw_files(wildcards):
     return [str(path) for path in paths if path.is_file()]
 
 
-def format_profiles():
-    """Content of the format profiles, which decide how files are read."""
-    folder = Path(CONFIG.lab_data.formats)
-    return {path.name: path.read_text(encoding="utf-8") for path in sorted(folder.glob("*.yaml"))}
-
-
-FORMAT_PROFILES = format_profiles()
+# the profiles decide how files are read: their content, not their time stamps
+PROFILES = {
+    path.name: sha256_of_file(path) for path in sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
+}
 
 
 def ingest_job(wildcards):
     return {
         "specimen": plain(SPECIMEN[wildcards.specimen]),
         "folder": str(SHEET.parent),
-        "formats": FORMAT_PROFILES,
+        "formats": CONFIG.lab_data.formats,
+        "profiles": PROFILES,
         "settings": plain(CONFIG.ingest),
         "code": code_hash("nptcs.ingest"),
     }

@@ -3,11 +3,10 @@
 from collections.abc import Sequence
 from typing import Any
 
+from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
+
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
 from nptcs.config.calibration import CalibrationSettings
-from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
-from snakemake.script import snakemake
-
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.tables.curves import Curve

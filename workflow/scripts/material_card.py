@@ -5,12 +5,11 @@ from pathlib import Path
 
 import pandas as pd
 from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
-from snakemake.script import snakemake
 
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.materials import MaterialCard, PlyCard, RubberCard
-from nptcs.tables.io import read_table, write_table
+from nptcs.tables.io import empty_table, read_table, write_table
 
 
 def join_cards(plies: Sequence[str], rubbers: Sequence[str]) -> MaterialCard:
@@ -25,9 +24,8 @@ def join_cards(plies: Sequence[str], rubbers: Sequence[str]) -> MaterialCard:
 
 
 def join_tables(files: Sequence[str], contract: type, joined: str) -> None:
-    empty = pd.DataFrame(columns=list(contract.to_schema().columns))
     tables = [read_table(file, contract) for file in files]
-    write_table(joined, pd.concat(tables) if tables else empty, contract)
+    write_table(joined, pd.concat(tables) if tables else empty_table(contract), contract)
 
 
 if __name__ == "__main__":

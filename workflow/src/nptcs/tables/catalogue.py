@@ -6,7 +6,8 @@ from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
 from nptcs.tables.impact import Impact
-from nptcs.tables.lca_validation import LcaShape, LcaValidation
+from nptcs.tables.lca_shape import LcaShape
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaValidation
 from nptcs.tables.problems import Problems
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.statistics import StatisticsTable
@@ -23,6 +24,7 @@ TABLES: dict[str, type[pa.DataFrameModel]] = {
     "surface_quality.csv": SurfaceQuality,
     "impact.csv": Impact,
     "lca_validation.csv": LcaValidation,
+    "lca_against_fem.csv": LcaAgainstFem,
     "lca_shape.csv": LcaShape,
     "problems.csv": Problems,
 }
