@@ -1,7 +1,8 @@
 """The published results beside ours: table 11, the loads of figure 15, the FE values of table 7.
 
-Published numbers come in as tables. Figure 15 prints no numbers but the largest errors of the
-paper's model against its FE results at each load, so at its other loads ours stand alone.
+Published numbers come in as tables. Of figure 15's FE results the paper prints no numbers but the
+largest error of its model at each load, so away from table 11's load ours can stand beside that
+error only.
 """
 
 from __future__ import annotations
@@ -14,12 +15,11 @@ import pandas as pd
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
-from nptcs.lca.section import SECTION_KINDS, RingSection
+from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
 from nptcs.lca.single import design_row, solve
 from nptcs.lca.spoke_table import SpokeTable
 from nptcs.lca.state import LcaState
 
-FIGURE_15_LOADS_N = (3000.0, 4000.0, 5000.0, 6000.0)
 TABLE_11_SHEAR_BAND_C10_MPA = 5.0
 _COMPARED = {
     "theta_c_deg": "theta_c_deg",
@@ -58,9 +58,9 @@ def _percent(ours: pd.Series[float], published: pd.Series[float]) -> pd.Series[f
 def lca_validation(
     spoke_table: pd.DataFrame,
     table_11: pd.DataFrame,
+    load_errors: pd.DataFrame,
     tyre: TyreGeometry,
     sections: Sequence[str] = SECTION_KINDS,
-    loads_n: Sequence[float] = FIGURE_15_LOADS_N,
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
 ) -> pd.DataFrame:
     """Return the rows of ``lca_validation.csv`` (`nptcs.tables.lca_validation.LcaValidation`).
@@ -72,28 +72,34 @@ def lca_validation(
     table_11 : DataFrame
         Table 11: spoke_c10_mpa, lca_force_n, theta_c_deg, theta_t_deg, lca_displacement_mm,
         lca_stiffness_n_per_mm, fem_stiffness_n_per_mm.
+    load_errors : DataFrame
+        Figure 15: load_n, largest_relative_error_percent of the paper's model.
     tyre : TyreGeometry
         The tyre.
     sections : sequence of str
         Sections to solve with.
-    loads_n : sequence of float
-        Loads (N); those of figure 15.
     shear_band_c10_mpa : float
         C10 of the band in table 11 and figure 15 (MPa).
     """
+    errors = load_errors.astype(float).rename(
+        columns={"largest_relative_error_percent": "published_largest_error_percent"}
+    )
     parts = []
     for section in sections:
-        cases = pd.MultiIndex.from_product(
-            [table_11["spoke_c10_mpa"].astype(float), np.asarray(loads_n, dtype=float)],
-            names=["spoke_c10_mpa", "load_n"],
-        ).to_frame(index=False)
+        cases = (
+            table_11[["spoke_c10_mpa"]]
+            .astype(float)
+            .merge(errors[["load_n", "published_largest_error_percent"]], how="cross")
+        )
         solved = _solve_cases(
             cases.assign(shear_band_c10_mpa=shear_band_c10_mpa), spoke_table, tyre, section
         )
         part = pd.concat([cases, solved[[*_COMPARED, "balance_residual"]]], axis=1)
         part.insert(0, "section", section)
         parts.append(part)
-    return _beside_table_11(pd.concat(parts, ignore_index=True), table_11)
+    compared = _beside_table_11(pd.concat(parts, ignore_index=True), table_11)
+    last = "published_largest_error_percent"
+    return compared[[*compared.columns.drop(last), last]]
 
 
 def _beside_table_11(ours: pd.DataFrame, table_11: pd.DataFrame) -> pd.DataFrame:
@@ -182,10 +188,37 @@ def ring_shape(state: LcaState, points: int = 721) -> pd.DataFrame:
     return shape[["theta_deg", "region", "x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]]
 
 
-def table_11_state(
-    spoke_table: pd.DataFrame, tyre: TyreGeometry, spoke_c10_mpa: float, load_n: float = 5000.0
-) -> LcaState:
-    """Solve one of table 11's designs with the sandwich section, for the figures."""
+def ring_shapes(
+    spoke_table: pd.DataFrame,
+    table_11: pd.DataFrame,
+    tyre: TyreGeometry,
+    section: SectionKind = "sandwich",
+    shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
+    points: int = 721,
+) -> pd.DataFrame:
+    """Return the ring shapes of table 11's designs under its loads (contract `LcaShape`).
+
+    Parameters
+    ----------
+    spoke_table, table_11 : DataFrame
+        Tables 10 and 11.
+    tyre : TyreGeometry
+        The tyre.
+    section : {"sandwich", "printed"}
+        Section to solve with.
+    shear_band_c10_mpa : float
+        C10 of the band (MPa).
+    points : int
+        Points around each ring.
+    """
     spokes = SpokeTable.from_rows(spoke_table.to_dict("records"))
-    section = RingSection.from_tyre(tyre, TABLE_11_SHEAR_BAND_C10_MPA)
-    return solve(section, spokes.spokes(spoke_c10_mpa, tyre.spoke_count), load_n=load_n)
+    ring = RingSection.from_tyre(tyre, shear_band_c10_mpa, section)
+    shapes = []
+    for c10, load in zip(table_11["spoke_c10_mpa"], table_11["lca_force_n"], strict=True):
+        state = solve(ring, spokes.spokes(float(c10), tyre.spoke_count), load_n=float(load))
+        shape = ring_shape(state, points)
+        for name, value in (("load_n", load), ("spoke_c10_mpa", c10)):
+            shape.insert(0, name, float(value))
+        shape.insert(0, "section", section)
+        shapes.append(shape)
+    return pd.concat(shapes, ignore_index=True)
