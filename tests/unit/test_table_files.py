@@ -75,8 +75,13 @@ def test_a_table_that_breaks_its_contract_is_not_written(tmp_path, impact):
 def test_an_interrupted_write_leaves_the_old_file_alone(tmp_path):
     target = tmp_path / "file.txt"
     target.write_text("old")
-    with pytest.raises(RuntimeError), atomic_path(target) as temporary:
-        temporary.write_text("half of the ne")
-        raise RuntimeError("out of power")
+
+    def write_half():
+        with atomic_path(target) as temporary:
+            temporary.write_text("half of the ne")
+            raise RuntimeError("out of power")
+
+    with pytest.raises(RuntimeError):
+        write_half()
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]

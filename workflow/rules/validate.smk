@@ -5,6 +5,7 @@ rule lca_validation:
     input:
         spoke_stiffness=CONFIG.lca_validation.spoke_stiffness,
         published=CONFIG.lca_validation.published,
+        published_loads=CONFIG.lca_validation.published_loads,
         published_fem=CONFIG.lca_validation.published_fem,
     output:
         validation="results/tables/lca_validation.csv",

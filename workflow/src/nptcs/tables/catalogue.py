@@ -6,8 +6,7 @@ from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
 from nptcs.tables.impact import Impact
-from nptcs.tables.lca_shape import LcaShape
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaValidation
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
 from nptcs.tables.problems import Problems
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.statistics import StatisticsTable
