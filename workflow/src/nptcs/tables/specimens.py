@@ -74,7 +74,9 @@ class Specimen(Strict):
         "", description="Channel that is axial (e.g. exx); empty: found from the data"
     )
     time_offset_s: float | None = Field(
-        None, description="Added to the strain file's time; empty: found from the data"
+        None,
+        description="Added to the strain file's time; empty: from the force that both files "
+        "hold, else 0 and checked",
     )
     include: bool = Field(True, description="yes or no: enters statistics and material card")
     reason: str = Field("", description="Why the specimen is left out; required with no")
