@@ -17,8 +17,8 @@ NAN = float("nan")
 def mnr_critical(n: int, significance: float = 0.05) -> float:
     """Critical value of the maximum normed residual of `n` specimens.
 
-    C = (n-1)/√n √(t²/(n-2+t²)) with t = t(1 - α/2n, n-2): CMH-17 volume 1, 8.3.3.1. NaN for
-    n < 3.
+    C = (n-1)/√n √(t²/(n-2+t²)) with t = t(1 - α/2n, n-2): CMH-17-1G, 8.3.3.1 and
+    table 8.5.7. NaN for n < 3.
     """
     if n < 3:
         return NAN
@@ -30,8 +30,8 @@ def b_basis_factor(n: int, degrees_of_freedom: int | None = None) -> float:
     """One-sided tolerance factor k_B of a normal B-basis value x̄ - k_B s.
 
     Covers 90 % of the population with 95 % confidence: k_B is the 0.95 quantile of the
-    noncentral t distribution with noncentrality z(0.90)√n, divided by √n (CMH-17 volume 1,
-    8.5.10). With a standard deviation pooled over groups its degrees of freedom are given.
+    noncentral t distribution with noncentrality z(0.90)√n, divided by √n (CMH-17-1G,
+    table 8.5.10). With a standard deviation pooled over groups its degrees of freedom are given.
     """
     free = n - 1 if degrees_of_freedom is None else degrees_of_freedom
     noncentrality = stats.norm.ppf(0.90) * np.sqrt(n)
