@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from numbers import Number
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 from pandera.errors import SchemaError, SchemaErrors
@@ -82,7 +82,7 @@ def _explain(
         return InputError(
             f"the value breaks the rule {getattr(error, 'check', None)}",
             file=file,
-            line=int(index) + 2 if isinstance(index, Number) and index == index else None,
+            line=int(index) + 2 if isinstance(index, int | np.integer) else None,
             column=getattr(schema, "name", None),
             value=first["failure_case"],
             remedy=remedy,
