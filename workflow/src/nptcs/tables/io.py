@@ -5,7 +5,6 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any, cast
 
-import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 from pandera.errors import SchemaError, SchemaErrors
@@ -78,11 +77,11 @@ def _explain(
     if isinstance(cases, pd.DataFrame) and len(cases) and "index" in cases:
         first = cases.iloc[0]
         schema = getattr(error, "schema", None)
-        index: Any = first["index"]
+        index: Any = first["index"]  # empty where the whole column is at fault
         return InputError(
             f"the value breaks the rule {getattr(error, 'check', None)}",
             file=file,
-            line=int(index) + 2 if isinstance(index, int | np.integer) else None,
+            line=None if pd.isna(index) else int(index) + 2,
             column=getattr(schema, "name", None),
             value=first["failure_case"],
             remedy=remedy,
