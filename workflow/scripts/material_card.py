@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
-from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
 
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.materials import MaterialCard, PlyCard, RubberCard
+from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import empty_table, read_table, write_table
 
 
@@ -32,5 +32,5 @@ if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
         source, output = snakemake.input, snakemake.output
         write_text(output.card, join_cards(source.ply, source.rubbers).model_dump_json(indent=1))
-        join_tables(source.models, HyperelasticModels, output.models)
-        join_tables(source.ranges, C10AgainstRange, output.ranges)
+        join_tables(source.models, ModelComparison, output.models)
+        join_tables(source.ranges, RangeTable, output.ranges)

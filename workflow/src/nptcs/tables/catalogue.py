@@ -4,7 +4,7 @@ import pandera.pandas as pa
 
 from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
-from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
+from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
 from nptcs.tables.problems import Problems
@@ -16,8 +16,8 @@ TABLES: dict[str, type[pa.DataFrameModel]] = {
     "files.csv": Files,
     "specimens.csv": PropertiesTable,
     "statistics.csv": StatisticsTable,
-    "hyperelastic_models.csv": HyperelasticModels,
-    "c10_against_range.csv": C10AgainstRange,
+    "hyperelastic_models.csv": ModelComparison,
+    "c10_against_range.csv": RangeTable,
     "cases.csv": Cases,
     "STUDY_surface.csv": SurfaceTable,
     "surface_quality.csv": SurfaceQuality,

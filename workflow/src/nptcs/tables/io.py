@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from numbers import Number
 from pathlib import Path
 from typing import Any, cast
 
@@ -78,11 +77,11 @@ def _explain(
     if isinstance(cases, pd.DataFrame) and len(cases) and "index" in cases:
         first = cases.iloc[0]
         schema = getattr(error, "schema", None)
-        index: Any = first["index"]
+        index: Any = first["index"]  # empty where the whole column is at fault
         return InputError(
             f"the value breaks the rule {getattr(error, 'check', None)}",
             file=file,
-            line=int(index) + 2 if isinstance(index, Number) and index == index else None,
+            line=None if pd.isna(index) else int(index) + 2,
             column=getattr(schema, "name", None),
             value=first["failure_case"],
             remedy=remedy,
