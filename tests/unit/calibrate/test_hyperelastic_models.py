@@ -76,9 +76,7 @@ def test_tangent_is_the_hessian_of_the_energy(model: Any, constants: Any, mode: 
 
 @pytest.mark.parametrize("mode", MODES)
 @pytest.mark.parametrize(("model", "constants"), CASES, ids=IDS)
-def test_jacobian_is_the_derivative_by_the_constants(
-    model: Any, constants: Any, mode: str
-) -> None:
+def test_jacobian_is_the_derivative_by_the_constants(model: Any, constants: Any, mode: str) -> None:
     c, step = np.array(constants), 1e-6
     jacobian = model.jacobian(mode, STRETCH, c)
     for k in range(len(c)):
