@@ -148,6 +148,23 @@ def test_rubber_groups_have_no_orientation_and_report_the_median(make_specimen: 
     assert (row["median"], row["reported_statistic"]) == (2.0, "median")
 
 
+def test_speed_of_testing_has_no_b_basis_and_strengths_are_not_pooled(
+    make_specimen: Make,
+) -> None:
+    table = properties([1.0, 2.0, 3.0, 4.0, 5.0], property="strain_rate")
+    row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
+    assert row["mean"] == 3.0
+    assert np.isnan(row["b_basis"])
+    assert row["notes"] == ""
+    table = pd.concat(
+        [
+            properties([1.0, 2.0], property="strength"),
+            properties([3.0, 4.0], "compression", "C", property="strength"),
+        ]
+    )
+    assert set(group_statistics(table, sheet(table, make_specimen), SETTINGS)["scope"]) == {"group"}
+
+
 def test_specimen_that_the_sheet_does_not_know_is_an_error(make_specimen: Make) -> None:
     table = properties([1.0, 2.0])
     with pytest.raises(InputError, match="specimen T-2: has properties but no row"):

@@ -46,7 +46,7 @@ class Model(Protocol):
         """Shear modulus of the undeformed material, MPa."""
 
     def remarks(self, constants: Array) -> list[str]:
-        """What a reader must know of these constants."""
+        """Say what a reader must know of these constants."""
 
 
 @dataclass(frozen=True)

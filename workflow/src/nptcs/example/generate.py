@@ -60,8 +60,8 @@ strength and size, drawn around these; each channel has noise, preload or toe.
 | T0 | WDW machine (GBK, kN) and VIC-3D (semicolon, group row) | two rates, lost frames, exx and \
 eyy change places |
 | T90 | Bluehill (CSV, quoted, strain in %) | preload; T90-6 broke in the grip and is left out |
-| C0, C90 | testXpert (German, latin-1, decimal comma) | compression positive, strain gauges on two faces, \
-the sheet names the profile |
+| C0, C90 | testXpert (German, latin-1, decimal comma) | compression positive, strain gauges on \
+two faces, the sheet names the profile |
 | S45 | Bluehill (CSV) and VIC-3D | two rates, two clocks on one trigger |
 | R75, R88, R92 | Bluehill (CSV, extensometer in mm) | preload and toe |
 

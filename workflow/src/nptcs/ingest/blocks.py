@@ -26,16 +26,47 @@ def find_blocks(source: Source, path: Path, unnamed: str) -> list[Block]:
     unnamed : str
         Where surplus columns without a name stand (`FormatProfile.unnamed_columns`).
     """
-    blocks = [block for block in _runs(source, path) if len(block.rows_of_data) >= SMALLEST_BLOCK]
+    blocks = [block for block in _runs(source) if len(block.rows_of_data) >= SMALLEST_BLOCK]
     for number, block in enumerate(blocks, 1):
         block.part = str(number)
+        _refuse_broken(source, block, path)
         _trim(source, block, path)
         above = _rows_above(source, block)
         describe_columns(block, above, unnamed)
+        _settle_unnamed(source, block, unnamed, path)
     return blocks
 
 
-def _runs(source: Source, path: Path) -> list[Block]:
+def _refuse_broken(source: Source, block: Block, path: Path) -> None:
+    for row in block.broken:
+        raise InputError(
+            "row inside a table is not one of numbers",
+            "correct or delete the row",
+            path,
+            row + 1,
+            value=" | ".join(source.cells(row))[:80],
+        )
+
+
+def _settle_unnamed(source: Source, block: Block, unnamed: str, path: Path) -> None:
+    """Drop phantom columns at the end; a column of numbers without a name is an error."""
+    surplus = block.unnamed_at_end
+    if not surplus or unnamed == "last":
+        return
+    first = block.width - surplus
+    for row in block.rows_of_data:
+        if any(source.cells(row)[first:]):
+            raise InputError(
+                f"{block.width} columns, but {first} names: it is open which has none",
+                "state unnamed_columns (first or last) in a profile",
+                path,
+                row + 1,
+            )
+    block.columns = block.columns[:first]
+    block.notes.append(f"{surplus} phantom column(s) without name and values left out")
+
+
+def _runs(source: Source) -> list[Block]:
     """Consecutive rows of data; what may interrupt a table is decided here."""
     runs: list[Block] = []
     gap: list[int] = []
@@ -47,7 +78,7 @@ def _runs(source: Source, path: Path) -> list[Block]:
         width = len(source.cells(row))
         last = runs[-1] if runs else None
         if last is not None and _continues(source, last, gap, width):
-            _note_gap(source, last, gap, path)
+            _note_gap(source, last, gap)
             last.rows_of_data.append(row)
             last.last = row + 1
             last.width = max(last.width, width)
@@ -66,17 +97,11 @@ def _continues(source: Source, block: Block, gap: list[int], width: int) -> bool
     return len(odd) == 1 and odd[0] == "other" and abs(width - block.width) <= 1
 
 
-def _note_gap(source: Source, block: Block, gap: list[int], path: Path) -> None:
+def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
     for row in gap:
         kind = source.kinds[row]
-        if kind == "other" and len(block.rows_of_data) >= SMALLEST_BLOCK:
-            raise InputError(
-                "row inside a table is not one of numbers",
-                "correct or delete the row",
-                path,
-                row + 1,
-                value=" | ".join(source.cells(row))[:80],
-            )
+        if kind == "other":
+            block.broken.append(row)
         if kind == "remark":
             text = " ".join(cell for cell in source.cells(row) if cell)
             block.notes.append(f"line {row + 1} is a remark: {text[:60]!r}")

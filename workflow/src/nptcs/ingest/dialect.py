@@ -21,6 +21,7 @@ MISSING = frozenset(
 )
 SMALLEST_TABLE = 3
 """Rows of numbers that a dialect must read before it is believed."""
+_HEAD = 250
 SEPARATOR_NAMES = {"\t": "tab", "spaces": "spaces"}
 
 
@@ -103,31 +104,61 @@ def find_dialect(lines: Sequence[str], profile: FormatProfile, path: Path) -> Di
         If no dialect reads a table, or several read different numbers.
     """
     sample = _sample(lines)
-    readings = {dialect: _rows(dialect, sample) for dialect in candidates(profile)}
-    most = max(len(rows) for rows in readings.values())
-    if most < SMALLEST_TABLE:
+    tied = _tied(candidates(profile), sample)
+    if not tied:
         raise InputError(
             "no table of numbers found",
             "check that the raw data were exported, not only the results; numbers need one "
             "decimal mark and one delimiter",
             path,
         )
-    best = _widest({dialect: rows for dialect, rows in readings.items() if len(rows) == most})
-    if len({_numbers(dialect, rows) for dialect, rows in best.items()}) > 1:
-        best = {dialect: _rows(dialect, lines) for dialect in best}
-        most = max(len(rows) for rows in best.values())
-        best = {dialect: rows for dialect, rows in best.items() if len(rows) == most}
-    if len({_numbers(dialect, rows) for dialect, rows in best.items()}) > 1:
+    best = _different(tied)
+    unseen = lines[_HEAD:] if len(sample) < len(lines) else []
+    others = [dialect for dialect in tied if _may_differ(dialect, best[0], unseen)]
+    if len(best) > 1 or others:
+        best = _different(_tied([best[0], *best[1:], *others], lines))
+    if len(best) > 1:
         raise _ambiguous(best, lines, path)
-    return next(iter(best))
+    return best[0]
+
+
+Reading = tuple[tuple[str, ...], ...]
+
+
+def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Reading]:
+    """Dialects that read most rows with fewest cells left, and the numbers that they read."""
+    readings = {dialect: _rows(dialect, lines) for dialect in dialects}
+    most = max(len(rows) for rows in readings.values())
+    if most < SMALLEST_TABLE:
+        return {}
+    full = {dialect: rows for dialect, rows in readings.items() if len(rows) == most}
+    return {dialect: _numbers(dialect, rows) for dialect, rows in _fewest_unread(full).items()}
+
+
+def _different(tied: dict[Dialect, Reading]) -> list[Dialect]:
+    """One dialect, the first, for each different reading."""
+    first: dict[Reading, Dialect] = {}
+    for dialect, reading in tied.items():
+        first.setdefault(reading, dialect)
+    return list(first.values())
+
+
+def _may_differ(dialect: Dialect, chosen: Dialect, lines: Sequence[str]) -> bool:
+    """Tell whether a file has marks that two dialects, equal in the sample, may read apart."""
+    if (dialect.decimal, dialect.thousands) == (chosen.decimal, chosen.thousands):
+        return False
+    marks = {dialect.decimal, dialect.thousands} ^ {chosen.decimal, chosen.thousands}
+    if dialect.delimiter in marks:
+        return any('"' in line for line in lines)
+    return any(mark in line for mark in marks if mark for line in lines)
 
 
 def _sample(lines: Sequence[str]) -> Sequence[str]:
     """Head, middle and end of a long file."""
-    if len(lines) <= 600:
+    if len(lines) <= 2 * _HEAD:
         return lines
     middle = len(lines) // 2
-    return [*lines[:300], *lines[middle : middle + 100], *lines[-100:]]
+    return [*lines[:_HEAD], *lines[middle : middle + 100], *lines[-100:]]
 
 
 def _rows(dialect: Dialect, lines: Sequence[str]) -> list[list[str]]:
@@ -135,8 +166,7 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> list[list[str]]:
     return [cells for cells in rows if dialect.is_data(cells)]
 
 
-def _widest(readings: dict[Dialect, list[list[str]]]) -> dict[Dialect, list[list[str]]]:
-    """Keep the dialects of the best delimiter: the one that leaves fewest cells unread."""
+def _fewest_unread(readings: dict[Dialect, list[list[str]]]) -> dict[Dialect, list[list[str]]]:
     unread = {
         dialect: sum(
             not dialect.is_number(cell) and cell.casefold() not in MISSING
@@ -149,7 +179,7 @@ def _widest(readings: dict[Dialect, list[list[str]]]) -> dict[Dialect, list[list
     return {dialect: rows for dialect, rows in readings.items() if unread[dialect] == least}
 
 
-def _numbers(dialect: Dialect, rows: list[list[str]]) -> tuple[tuple[str, ...], ...]:
+def _numbers(dialect: Dialect, rows: list[list[str]]) -> Reading:
     """Return the numbers as text in one notation, so that equal readings compare equal."""
 
     def plain(cell: str) -> str:
@@ -159,23 +189,20 @@ def _numbers(dialect: Dialect, rows: list[list[str]]) -> tuple[tuple[str, ...], 
     return tuple(tuple(plain(cell) for cell in cells if dialect.is_number(cell)) for cells in rows)
 
 
-def _ambiguous(
-    best: dict[Dialect, list[list[str]]], lines: Sequence[str], path: Path
-) -> InputError:
-    first, second = list(best)[:2]
-    for number, line in enumerate(lines, 1):
-        cells = [(dialect, dialect.split(line)) for dialect in (first, second)]
-        if (
-            all(dialect.is_data(row) for dialect, row in cells)
-            and len({_numbers(dialect, [row]) for dialect, row in cells}) > 1
-        ):
-            choices = "; or ".join(dialect.describe() for dialect in best)
-            return InputError(
-                f"the numbers can be read in {len(best)} ways: {choices}",
-                "name a profile that states 'decimal' (and 'thousands') in the sheet's "
-                "force_format or strain_format",
-                path,
-                number,
-                value=line.strip()[:80],
-            )
-    raise AssertionError("two readings differ, yet no line does")
+def _ambiguous(best: Sequence[Dialect], lines: Sequence[str], path: Path) -> InputError:
+    """Name the first line that the dialects read differently."""
+
+    def readings(line: str) -> set[Reading]:
+        cells = [(dialect, dialect.split(line)) for dialect in best]
+        return {_numbers(dialect, [row] if dialect.is_data(row) else []) for dialect, row in cells}
+
+    number = next(number for number, line in enumerate(lines) if len(readings(line)) > 1)
+    return InputError(
+        f"the numbers can be read in {len(best)} ways: "
+        + "; or ".join(dialect.describe() for dialect in best),
+        "name a profile that states 'decimal' (and 'thousands') in the sheet's "
+        "force_format or strain_format",
+        path,
+        number + 1,
+        value=lines[number].strip()[:80],
+    )

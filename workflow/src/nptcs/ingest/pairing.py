@@ -8,8 +8,10 @@ from nptcs.config.ingest import Pairing
 from nptcs.errors import InputError
 from nptcs.ingest.rawtable import RawTable
 from nptcs.ingest.signals import STRAIN_CHANNELS, Array, Signals, largest
+from nptcs.ingest.units import FACTORS
 
 FEWEST_COMMON_ROWS = 5
+FORCE_UNITS = ("N", "kN", "lbf", "kgf")
 _LEVELS = np.linspace(0.1, 0.8, 15)
 
 
@@ -40,6 +42,8 @@ def pair(
         If nothing links the files, or the link contradicts itself.
     """
     shared = "force" in force.values and "force" in strain.values
+    if shared and not strain.units["force"]:
+        _settle_force_unit(force, strain, settings, specimen)
     if shared:
         _require_equal_force(force, strain, settings, specimen)
     if "time" in force.values and "time" in strain.values:
@@ -52,6 +56,30 @@ def pair(
         strain.path,
         specimen=specimen,
     )
+
+
+def _settle_force_unit(force: RawTable, strain: RawTable, settings: Pairing, specimen: str) -> None:
+    """Tell the unit of the strain file's force from the peak that both files recorded."""
+    ours, theirs = abs(largest(force.values["force"])), abs(largest(strain.values["force"]))
+    fitting = {
+        unit: abs(theirs * FACTORS["force"][unit] / ours - 1)
+        for unit in FORCE_UNITS
+        if abs(theirs * FACTORS["force"][unit] / ours - 1) <= settings.force_tolerance
+    }
+    if len(fitting) != 1:
+        raise InputError(
+            f"force has no unit, and its peak {theirs:.6g} fits the machine's {ours:.6g} N in "
+            f"{' and '.join(fitting) or 'none of ' + ', '.join(FORCE_UNITS)}",
+            "state the unit in a profile, or check that both files belong to one specimen",
+            strain.path,
+            None,
+            strain.columns["force"],
+            specimen,
+        )
+    unit = next(iter(fitting))
+    strain.units["force"] = unit
+    strain.values["force"] = strain.values["force"] * FACTORS["force"][unit]
+    strain.notes = (*strain.notes, f"force: taken as {unit}, its peak is the machine's")
 
 
 def _require_equal_force(

@@ -46,6 +46,9 @@ class FormatProfile(Strict):
     encoding: str = Field("", description="E.g. cp1252, gb18030; empty: detect")
     delimiter: Literal["", ",", ";", "tab", "|", "spaces"] = Field("", description="empty: detect")
     decimal: Literal["", ".", ","] = Field("", description="Decimal mark; empty: detect")
+    decimal_in_head: str = Field(
+        "", description="Regular expression whose group 1 is the decimal mark in the file's head"
+    )
     thousands: Literal["", ".", ",", " ", "'"] = Field(
         "", description="Thousands mark; counts only with a declared decimal mark"
     )
@@ -75,11 +78,11 @@ class FormatProfile(Strict):
 
     @model_validator(mode="after")
     def _coherent(self) -> Self:
-        for pattern in self.signature:
+        for pattern in (*self.signature, self.decimal_in_head):
             try:
                 re.compile(pattern)
             except re.error as error:
-                raise ValueError(f"signature {pattern!r}: {error}") from error
+                raise ValueError(f"expression {pattern!r}: {error}") from error
         for quantity, unit in [*self.units.items(), *self.wrong_units.items()]:
             if find_unit(DIMENSION[quantity], unit) is None:
                 choices = ", ".join(FACTORS[DIMENSION[quantity]])
@@ -89,6 +92,11 @@ class FormatProfile(Strict):
         if self.delimiter and self.delimiter == self.decimal:
             raise ValueError("delimiter and decimal mark are the same")
         return self
+
+    def for_head(self, head: str) -> FormatProfile:
+        """Return the profile with the decimal mark that a file's head states."""
+        found = re.search(self.decimal_in_head, head) if self.decimal_in_head else None
+        return self.model_copy(update={"decimal": found.group(1)}) if found else self
 
     def matches(self, head: str) -> bool:
         """Tell whether every expression of the signature occurs in `head`."""

@@ -18,6 +18,7 @@ from nptcs.ingest.dialect import Dialect, find_dialect
 from nptcs.ingest.labels import LabelValue, read_labels
 from nptcs.ingest.profiles import PLAIN, FormatProfile
 from nptcs.ingest.sources import Source, TextSource, split_lines
+from nptcs.ingest.table import Column
 from nptcs.ingest.units import FACTORS
 from nptcs.ingest.workbooks import is_workbook, read_workbook
 
@@ -214,6 +215,7 @@ def _read(
     detected: bool = False,
 ) -> RawTable:
     path = opened.path
+    profile = profile.for_head(opened.head)
     sources, dialect = sources_of(opened, profile)
     tests = [
         test
@@ -223,7 +225,7 @@ def _read(
         )
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
-    values, units, notes = _values(test, profile, path)
+    values, units, notes = _values(test, profile, path, role)
     block = test.block
     return RawTable(
         path,
@@ -239,13 +241,13 @@ def _read(
         decimal="" if dialect is None else dialect.decimal,
         header_line=None if block.names_row is None else block.names_row + 1,
         first_line=block.first + 1,
-        labels=_labels(test, profile, dialect),
+        labels=header_labels(test, profile, dialect),
         notes=(*reasons, *opened.notes, *block.notes, *notes),
     )
 
 
 def _values(
-    test: Test, profile: FormatProfile, path: Path
+    test: Test, profile: FormatProfile, path: Path, role: str
 ) -> tuple[dict[str, NDArray[np.float64]], dict[str, str], list[str]]:
     """Read the mapped columns and bring them to base units; rows without any load are left."""
     quantities = test.quantities
@@ -253,6 +255,11 @@ def _values(
     stated = any(column.unit for column in test.block.columns)
     units, scales, notes = {}, [], []
     for quantity, column in quantities.items():
+        if quantity == "force" and role == "strain" and not _has_unit(column, profile):
+            units[quantity] = ""
+            scales.append(1.0)
+            notes.append("force: no unit, to be told from the force file's peak")
+            continue
         unit, scale, note = unit_of(quantity, column, profile, stated, path, line)
         units[quantity] = unit
         scales.append(scale)
@@ -265,7 +272,13 @@ def _values(
     return dict(zip(quantities, numbers[filled].T, strict=True)), units, notes
 
 
-def _labels(test: Test, profile: FormatProfile, dialect: Dialect | None) -> dict[str, LabelValue]:
+def _has_unit(column: Column, profile: FormatProfile) -> bool:
+    return bool(column.unit or "force" in profile.units or "force" in profile.wrong_units)
+
+
+def header_labels(
+    test: Test, profile: FormatProfile, dialect: Dialect | None
+) -> dict[str, LabelValue]:
     """Header entries; in a text the header may use another delimiter than the table."""
     last = test.block.names_row if test.block.names_row is not None else test.block.first
     if dialect is None:

@@ -121,9 +121,9 @@ class TextSource:
         rows = [row for row in block.rows_of_data if self.kinds[row] == "odd data"]
         for row in rows:
             self._check_cells(block, row, positions)
-        if self.dialect.thousands:
-            return self._numbers_with_thousands(block, positions)
         lines = [self.lines[row] for row in block.rows_of_data]
+        if self._uses_thousands("\n".join(lines)):
+            return self._numbers_with_thousands(block, positions)
         frame = pd.read_csv(
             io.StringIO("\n".join(lines)),
             sep=r"\s+" if self.dialect.delimiter == "spaces" else self.dialect.delimiter,
@@ -136,7 +136,6 @@ class TextSource:
             na_values=self._missing_as_written(block, rows, positions),
             keep_default_na=False,
             skipinitialspace=True,
-            float_precision="round_trip",
         )
         if len(frame) != len(lines):
             raise InputError(
@@ -174,6 +173,13 @@ class TextSource:
                 cells[p] for p in positions if p < len(cells) and self.is_missing(cells[p])
             )
         return sorted(found)
+
+    def _uses_thousands(self, text: str) -> bool:
+        mark = self.dialect.thousands
+        if not mark:
+            return False
+        before = r"\d" if self._marks_apart else r'"[+-]?\d{1,3}'
+        return re.search(rf"{before}{re.escape(mark)}\d{{3}}", text, re.ASCII) is not None
 
     def _numbers_with_thousands(
         self, block: Block, positions: Sequence[int]

@@ -19,6 +19,7 @@ from nptcs.ingest.conditioning import (
     mark_dead,
     zero_force,
 )
+from nptcs.ingest.folder import find_file
 from nptcs.ingest.origin import correct_origin
 from nptcs.ingest.pairing import pair
 from nptcs.ingest.plausible import check_labels, check_machine_area, check_physics
@@ -112,7 +113,7 @@ def _read(
         declared = choose(format_name, profiles, specimen.specimen) if format_name else None
         try:
             table = read_raw(
-                folder / name,
+                find_file(folder, name),
                 profiles,
                 declared=declared,
                 part=part,

@@ -91,7 +91,7 @@ def _single(
             path,
             specimen=specimen.specimen,
         )
-    length = values[name]
+    length = values[name] - values[name][~np.isnan(values[name])][0]
     if name == "displacement" and compliance is not None:
         length = length - compliance * values["force"]
         signals.note("compliance", "travel - compliance × force", compliance_mm_per_n=compliance)

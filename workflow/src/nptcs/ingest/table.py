@@ -34,6 +34,8 @@ class Block:
     part: str = ""
     notes: list[str] = field(default_factory=list)
     rows_of_data: list[int] = field(default_factory=list)
+    unnamed_at_end: int = 0
+    broken: list[int] = field(default_factory=list)
 
 
 def describe_columns(block: Block, above: Sequence[tuple[int, list[str]]], unnamed: str) -> None:
@@ -90,10 +92,7 @@ def _shift(block: Block, names: list[str], unnamed: str) -> int:
         return 0
     if unnamed == "first":
         return surplus
-    block.notes.append(
-        f"{surplus} more column(s) than names; the names count from the first column"
-        + ("" if unnamed else ", which holds only if the surplus is empty")
-    )
+    block.unnamed_at_end = surplus
     return 0
 
 

@@ -71,7 +71,6 @@ FACTORS: dict[str, dict[str, float]] = {
         "ustrain": 1e-6,
         "microstrain": 1e-6,
         "mε": 1e-3,
-        "strain": 1,
     },
     "stretch": {"1": 1, "-": 1, "mm/mm": 1, "m/m": 1},
     "area": {"mm²": 1, "mm2": 1, "mm^2": 1, "cm²": 100, "cm2": 100, "cm^2": 100, "in²": _INCH**2},
@@ -178,6 +177,6 @@ def split_unit(name: str) -> tuple[str, str | None]:
             rest = f"{name[: match.start()].rstrip()} {name[match.end() :].lstrip()}".strip()
             return rest, inner
     tail = _TAIL.match(name.strip())
-    if tail and is_unit(tail.group(2)) and tail.group(2) != "-":
+    if tail and is_unit(tail.group(2)) and tail.group(2) not in ("-", "1"):
         return tail.group(1), clean_unit(tail.group(2))
     return name.strip(), None

@@ -10,8 +10,9 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from nptcs.errors import InputError
+from nptcs.lca.contact import LARGEST_KAPPA_ANGLE, hardness
 from nptcs.lca.diagnosis import diagnose, doubts
-from nptcs.lca.newton import Target, find_angles
+from nptcs.lca.newton import Target, by_brackets, is_solution, newton, start_angle
 from nptcs.lca.scaling import Array, Ring
 from nptcs.lca.system import Arcs, Joined, join
 
@@ -92,24 +93,24 @@ def solve_batch(
     InputError
         A column is missing, or not exactly one target is given.
     """
-    given = {"load_n": load_n, "displacement_mm": displacement_mm, "theta_c_deg": theta_c_deg}
-    name, value = _only_target({k: v for k, v in given.items() if v is not None})
-    table = _columns(designs, value, largest_displacement_mm)
-    bad = _bad_rows(table, name)
+    name, value = only_target(load_n, displacement_mm, theta_c_deg)
+    table = columns(designs, value, largest_displacement_mm)
+    bad = bad_rows(table, name)
     status = np.where(bad != "", "bad_input", "").astype(object)
     message = list(bad)
-    good = np.flatnonzero(bad == "")
+    good = _by_hardness(table, name, np.flatnonzero(bad == ""))
     results = {column: np.full(len(bad), np.nan) for column in RESULT_COLUMNS}
     chunks = [good[start : start + CHUNK] for start in range(0, len(good), CHUNK)]
 
     def run(rows: NDArray[np.intp]) -> None:
         part = {column: values[rows] for column, values in table.items()}
-        numbers, states, texts = _solve_chunk(part, name)
-        for column, values in numbers.items():
-            results[column][rows] = values
-        status[rows] = states
-        for row, text in zip(rows, texts, strict=True):
-            message[row] = text
+        for piece in solve_rows(part, name):
+            where = rows[piece.rows]
+            for column, values in piece.numbers.items():
+                results[column][where] = values
+            status[where] = piece.status
+            for row, text in zip(where, piece.message, strict=True):
+                message[row] = text
 
     if workers == 1:
         for rows in chunks:
@@ -120,18 +121,22 @@ def solve_batch(
     return Batch(results, status.astype(str), message)
 
 
-def _only_target(given: dict[str, ArrayLike]) -> tuple[str, ArrayLike]:
-    """Return the name and value of the single target."""
-    if len(given) != 1:
+def only_target(
+    load_n: ArrayLike | None, displacement_mm: ArrayLike | None, theta_c_deg: ArrayLike | None
+) -> tuple[str, ArrayLike]:
+    """Return the name and value of the single target that is given."""
+    given = {"load_n": load_n, "displacement_mm": displacement_mm, "theta_c_deg": theta_c_deg}
+    present = [(name, value) for name, value in given.items() if value is not None]
+    if len(present) != 1:
         raise InputError(
             "exactly one of load_n, displacement_mm and theta_c_deg must be given",
             remedy="give one of them",
-            value=sorted(given),
+            value=[name for name, _ in present],
         )
-    return next(iter(given.items()))
+    return present[0]
 
 
-def _columns(
+def columns(
     designs: Mapping[str, ArrayLike], target: ArrayLike, largest: ArrayLike | None
 ) -> dict[str, Array]:
     """All columns as float arrays of one length."""
@@ -145,7 +150,7 @@ def _columns(
     return dict(zip(raw, broadcast, strict=True))
 
 
-def _bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
+def bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
     """Return what is wrong with each row, or an empty text."""
     texts = np.full(len(table["target"]), "", dtype=object)
     for column, values in table.items():
@@ -179,33 +184,98 @@ def _scaled_target(table: dict[str, Array], target: str) -> Array:
     return table["target"] / table["shear_stiffness_n" if target == "load_n" else "radius_mm"]
 
 
-def _solve_chunk(
-    table: dict[str, Array], target: str
-) -> tuple[dict[str, Array], NDArray[np.str_], list[str]]:
-    """Solve rows that are known to be well formed."""
-    ring = scaled(table)
-    arcs = Arcs.of(ring)
-    angles = find_angles(ring, arcs, _TARGETS[target], _scaled_target(table, target))
-    joined = join(ring, arcs, angles.contact, angles.transition)
+def _by_hardness(table: dict[str, Array], target: str, rows: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Put rows in the order of their contact regions' difficulty, the easy ones first."""
+    part = {column: values[rows] for column, values in table.items()}
+    ring = scaled(part)
+    angle = start_angle(ring, _TARGETS[target], _scaled_target(part, target))
+    return rows[np.argsort(hardness(ring.kappa2, angle), kind="stable")]
+
+
+@dataclass(frozen=True)
+class Piece:
+    """Some rows of a table, solved.
+
+    Parameters
+    ----------
+    rows : array of int
+        Their places in the table.
+    numbers : dict of str to array
+        Columns `RESULT_COLUMNS`.
+    status, message : array of str, list of str
+        One a row.
+    ring, arcs, joined : Ring, Arcs, Joined
+        The scaled designs and their solutions.
+    """
+
+    rows: NDArray[np.intp]
+    numbers: dict[str, Array]
+    status: NDArray[np.str_]
+    message: list[str]
+    ring: Ring
+    arcs: Arcs
+    joined: Joined
+
+
+def solve_rows(table: dict[str, Array], name: str) -> list[Piece]:
+    """Solve rows that are known to be well formed; the stubborn ones make a second piece.
+
+    Parameters
+    ----------
+    table : dict of str to array
+        `DESIGN_COLUMNS`, ``target`` and ``largest`` (largest displacement in mm).
+    name : str
+        What the target is: ``load_n``, ``displacement_mm`` or ``theta_c_deg``.
+    """
+    ring, target = scaled(table), _TARGETS[name]
+    arcs, value = Arcs.of(ring), _scaled_target(table, name)
+    angles = newton(ring, arcs, target, value, start_angle(ring, target, value))
+    quick, rest = np.flatnonzero(angles.found), np.flatnonzero(~angles.found)
+    pieces = []
+    if len(quick):
+        found = angles.contact[quick], angles.transition[quick]
+        pieces.append(_finish(table, ring, arcs, target, value, quick, found))
+    if len(rest):
+        slow = by_brackets(ring.take(rest), arcs.take(rest), target, value[rest])
+        pieces.append(_finish(table, ring, arcs, target, value, rest, slow))
+    return pieces
+
+
+def _finish(
+    table: dict[str, Array],
+    ring: Ring,
+    arcs: Arcs,
+    target: Target,
+    value: Array,
+    rows: NDArray[np.intp],
+    angles: tuple[Array, Array],
+) -> Piece:
+    """Turn angles into numbers, a status and a message."""
+    table = {column: values[rows] for column, values in table.items()}
+    ring, arcs = ring.take(rows), arcs.take(rows)
+    joined = join(ring, arcs, *angles)
     diagnosis = diagnose(ring, arcs, joined)
     numbers = _numbers(table, ring, joined)
     numbers["balance_residual"] = diagnosis.balance_residual
     numbers["lowest_pressure_mpa"] = diagnosis.lowest_pressure * numbers["mean_pressure_mpa"]
-    texts = doubts(diagnosis)
-    beyond = angles.found & (numbers["displacement_mm"] > table["largest"])
-    conditions = [~angles.found, beyond, np.array([text != "" for text in texts])]
-    status = np.select(conditions, ["no_convergence", "beyond_model", "doubtful"], "ok")
+    solved = is_solution(joined, target, value[rows])
+    solved &= np.sqrt(ring.kappa2) * joined.contact_angle <= LARGEST_KAPPA_ANGLE
+    beyond = solved & (numbers["displacement_mm"] > table["largest"])
+    message = doubts(diagnosis)
+    doubtful = np.array([text != "" for text in message])
+    status = np.select(
+        [~solved, beyond, doubtful], ["no_convergence", "beyond_model", "doubtful"], "ok"
+    )
     for row in np.flatnonzero(beyond):
-        texts[row] = (
+        message[row] = (
             f"needs a displacement of {numbers['displacement_mm'][row]:.4g} mm, more than the "
             f"{table['largest'][row]:.4g} mm that the wheel allows"
         )
-    for row in np.flatnonzero(~angles.found):
-        texts[row] = "no contact and transition angle meet the conditions"
-    without = ~angles.found | beyond
+    for row in np.flatnonzero(~solved):
+        message[row] = "no contact and transition angle meet the conditions to rounding"
     for values in numbers.values():
-        values[without] = np.nan
-    return numbers, status, texts
+        values[~solved | beyond] = np.nan
+    return Piece(rows, numbers, status, message, ring, arcs, joined)
 
 
 def _numbers(table: dict[str, Array], ring: Ring, joined: Joined) -> dict[str, Array]:

@@ -5,10 +5,11 @@ and the vertical one, W = V cos θ - N sin θ, is half the ground's force on |θ
 Flatness, u cos θ - v sin θ = 1 - cos θ - δ, leaves
 
     (cos² θ + ε sin² θ) W = cos θ [Φ - H (1 - ε) sin θ] + sin θ,
-    Φ = κ² (m θ + ∬ V),  V = W cos θ + H sin θ
+    Φ = κ² ∫₀^θ M,  M = m - ∫_θ^θc V,  V = W cos θ + H sin θ
 
 for W, an odd function of θ. It is solved at Chebyshev points by exact integration of the odd
-polynomial through them; m, the moment at θ = 0, H and δ stay free.
+polynomial through them; m, the moment at θc, H and δ stay free. (The moment at the centre would
+do as well on paper; but then W grows as exp κθ and digits are lost.)
 """
 
 from __future__ import annotations
@@ -21,10 +22,12 @@ from numpy.polynomial import chebyshev
 
 from nptcs.lca.scaling import Array
 
-POINTS = 16
-"""Points on 0 < θ ≤ θc, that is an odd polynomial of degree 31."""
+_POINTS = ((0.5, 8), (1.25, 16), (13.0, 40), (np.inf, 64))
+"""Largest max(θc, κθc/6) and the points on 0 < θ ≤ θc that resolve it to 1e-12."""
+LARGEST_KAPPA_ANGLE = 200.0
+"""Largest κθc that the most points resolve."""
 COLUMNS = ("m", "h", "delta", "one")
-"""Columns of the contact states: moment at the centre, H, δ, and what is there without them."""
+"""Columns of the contact states: moment at θc, H, δ, and what is there without them."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +38,7 @@ class Rule:
     to_odd: Array
     to_even: Array
     once_odd: Array
-    twice_odd: Array
+    rotation_odd: Array
     end_even: Array
     slope_odd: Array
 
@@ -44,8 +47,8 @@ class Rule:
 def rule(points: int) -> Rule:
     """Return integration matrices, all from 0.
 
-    ``once_odd`` integrates an odd function to the nodes, ``twice_odd`` does it twice,
-    ``end_even`` integrates an even function to 1, ``slope_odd`` differentiates an odd one at 0
+    ``once_odd`` integrates an odd function V to the nodes, ``rotation_odd`` integrates
+    -∫_τ^1 V from 0 to the nodes, ``end_even`` integrates an even function to 1, ``slope_odd`` differentiates an odd one at 0
     and at the nodes, ``to_odd`` and ``to_even`` give Chebyshev coefficients.
     """
     nodes = np.cos(np.pi * np.arange(points - 1, -1, -1) / (2 * points - 1))
@@ -67,7 +70,7 @@ def rule(points: int) -> Rule:
         odd.T @ to_odd,
         even.T @ to_even,
         values(once) @ to_odd,
-        values(twice) @ to_odd,
+        values(twice) @ to_odd - np.outer(nodes, (values(once) @ to_odd)[-1]),
         to_even.T @ end,
         slope @ to_odd,
     )
@@ -95,32 +98,46 @@ class Contact:
     pressure: Array
 
 
+def hardness(kappa2: Array, angle: Array) -> Array:
+    """Return what decides on the number of points, max(θc, κθc/6)."""
+    return np.asarray(np.maximum(angle, np.sqrt(kappa2) * angle / 6))
+
+
+def points_for(kappa2: Array, angle: Array) -> int:
+    """Return the number of points that resolves all of n designs."""
+    hardest = float(hardness(kappa2, angle).max(initial=0.0))
+    return next(points for limit, points in _POINTS if hardest <= limit)
+
+
 def _forcing(theta: Array, epsilon: Array, kappa2: Array, angle: Array, r: Rule) -> Array:
     """Right-hand side of the system for W, by the columns of `COLUMNS`."""
     sine, cosine = np.sin(theta), np.cos(theta)
     force = np.zeros((*theta.shape, 4))
     force[..., 0] = cosine * kappa2[:, None] * theta
-    bending = (kappa2 * angle**2)[:, None] * (sine @ r.twice_odd.T)
+    bending = (kappa2 * angle**2)[:, None] * (sine @ r.rotation_odd.T)
     force[..., 1] = cosine * (bending - sine * (1 - epsilon)[:, None])
     force[..., 3] = sine
     return force
 
 
-def solve_contact(epsilon: Array, kappa2: Array, angle: Array, points: int = POINTS) -> Contact:
+def solve_contact(
+    epsilon: Array, kappa2: Array, angle: Array, points: int | None = None
+) -> Contact:
     """Solve the contact region of n designs for given contact angles.
 
     Parameters
     ----------
     epsilon, kappa2, angle : array, shape (n,)
         ε = GA/EA, κ² = GA R²/EI and θc in radians, 0 < θc < π/2.
-    points : int
-        Points of the spectral system.
+    points : int, optional
+        Points of the spectral system; without it, as many as `points_for` asks for.
     """
+    points = points_for(kappa2, angle) if points is None else points
     r = rule(points)
     theta = angle[:, None] * r.nodes
     sine, cosine = np.sin(theta), np.cos(theta)
     weight = (kappa2 * angle**2)[:, None] * cosine
-    matrix = -weight[:, :, None] * r.twice_odd * cosine[:, None, :]
+    matrix = -weight[:, :, None] * r.rotation_odd * cosine[:, None, :]
     diagonal = np.arange(points)
     matrix[:, diagonal, diagonal] += cosine**2 + epsilon[:, None] * sine**2
     vertical = np.linalg.solve(matrix, _forcing(theta, epsilon, kappa2, angle, r))
@@ -135,9 +152,9 @@ def _edge_states(
     sine, cosine, tangent = np.sin(theta), np.cos(theta), np.tan(theta)
     shear = vertical * cosine[..., None]
     shear[..., 1] += sine
-    moment = angle[:, None] * np.einsum("p,npc->nc", r.once_odd[-1], shear)
-    moment[:, 0] += 1
-    phi = (kappa2 * angle**2)[:, None] * np.einsum("p,npc->nc", r.twice_odd[-1], shear)
+    moment = np.zeros_like(shear[:, 0])
+    moment[:, 0] = 1
+    phi = (kappa2 * angle**2)[:, None] * np.einsum("p,npc->nc", r.rotation_odd[-1], shear)
     phi[:, 0] += kappa2 * angle
     slip = -np.einsum("np,npc->nc", angle[:, None] * r.end_even * tangent, vertical)
     slip[:, 1] += angle

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nptcs.lca.fields import compression_states, ground_pressure, tension_states
+from nptcs.lca.fields import ground_pressure, radial_displacements
 from nptcs.lca.scaling import Array, Ring
 from nptcs.lca.system import SINKING, Arcs, Joined
 
@@ -42,8 +42,7 @@ def diagnose(ring: Ring, arcs: Arcs, joined: Joined) -> Diagnosis:
     theta_c, theta_t = joined.contact_angle, joined.transition_angle
     near, near_weights = _gauss(theta_c, theta_t, _COMPRESSION_POINTS)
     far, far_weights = _gauss(theta_t, np.full_like(theta_t, np.pi), _TENSION_POINTS)
-    u_near = compression_states(arcs, joined, near)[..., 0]
-    u_far = tension_states(arcs, joined, far)[..., 0]
+    u_near, u_far = radial_displacements(arcs, joined, near, far)
     spokes = ring.compression * np.sum(near_weights * u_near * np.cos(near), axis=1)
     spokes += ring.tension * np.sum(far_weights * u_far * np.cos(far), axis=1)
     sinking, force = joined.unknowns[:, SINKING], joined.force[:, 0]

@@ -18,8 +18,11 @@ from nptcs.lca.scaling import Array, Ring
 from nptcs.lca.system import Arcs, Joined, join
 
 Target = Literal["force", "sinking", "contact_angle"]
-TOLERANCE = 1e-11
-"""Relative change of θc and absolute change of θt (radians) at which Newton's method stops."""
+STEP = 1e-7
+"""Relative step of θc and step of θt (radians) after which Newton's method, whose error is of the
+order of the step's square, has arrived."""
+MISFIT = 1e-11
+"""Largest relative misfit of the target, and of u(θt) to δ, in a solution."""
 LARGEST_CONTACT = np.radians(85)
 """Contact angles above are no tyre's; the flat constraint is singular at 90°."""
 NEWTON_STEPS, BRACKET_STEPS = 20, 80
@@ -95,7 +98,7 @@ def newton(ring: Ring, arcs: Arcs, target: Target, value: Array, theta_c: Array)
         new_c = here_c + by_c
         angles.contact[open_rows] = new_c
         angles.transition[open_rows] = np.maximum(here_t + by_t, new_c * (1 + 1e-6))
-        done = (np.abs(by_c) < TOLERANCE * here_c) & (np.abs(by_t) < TOLERANCE)
+        done = (np.abs(by_c) < STEP * here_c) & (np.abs(by_t) < STEP)
         angles.found[open_rows[done]] = True
         open_rows = open_rows[~done]
         if len(open_rows) == 0:
@@ -111,12 +114,12 @@ def _bracketed(
     for _ in range(BRACKET_STEPS):
         value, slope = function(x)
         low, high = np.where(value < 0, x, low), np.where(value < 0, high, x)
-        with np.errstate(divide="ignore", invalid="ignore"):
-            new = x - value / slope
-        new = np.where((new > low) & (new < high) & (slope > 0), new, (low + high) / 2)
+        rising = slope > 0
+        new = x - value / np.where(rising, slope, 1.0)
+        new = np.where(rising & (new > low) & (new < high), new, (low + high) / 2)
         moved = np.abs(new - x)
         x = new
-        if np.all(moved <= 1e-15 * (1 + np.abs(x))):
+        if np.all(moved <= 1e-14 * np.abs(x)):
             break
     return x
 
@@ -132,48 +135,31 @@ def transition_for(ring: Ring, arcs: Arcs, theta_c: Array) -> Array:
     return _bracketed(function, low, high, _first_transition(ring, theta_c))
 
 
-def by_brackets(ring: Ring, arcs: Arcs, target: Target, value: Array) -> Angles:
-    """Find both angles with nested brackets; slow and sure, for the few that need it."""
+def by_brackets(ring: Ring, arcs: Arcs, target: Target, value: Array) -> tuple[Array, Array]:
+    """Find θc and θt with nested brackets; slow and sure, for the few that need it."""
     if target == "contact_angle":
-        theta_c = value.copy()
-    else:
+        return value.copy(), transition_for(ring, arcs, value)
 
-        def function(theta_c: Array) -> tuple[Array, Array]:
-            joined = join(ring, arcs, theta_c, transition_for(ring, arcs, theta_c))
-            misfit = _misfit(joined, target, value)
-            return misfit[:, 0], misfit[:, 1]
+    def function(theta_c: Array) -> tuple[Array, Array]:
+        joined = join(ring, arcs, theta_c, transition_for(ring, arcs, theta_c))
+        misfit = _misfit(joined, target, value)
+        return misfit[:, 0], misfit[:, 1]
 
-        low, high = np.full_like(value, 1e-9), np.full_like(value, LARGEST_CONTACT)
-        theta_c = _bracketed(function, low, high, np.minimum(first_guess(ring, value), 1.0))
-    theta_t = transition_for(ring, arcs, theta_c)
-    joined = join(ring, arcs, theta_c, theta_t)
-    scale = np.abs(value)
-    near = np.abs(_misfit(joined, target, value)[:, 0]) < 1e-9 * scale
-    crossing = np.abs(joined.transition[:, 0]) < 1e-9 * np.abs(joined.sinking[:, 0])
-    return Angles(theta_c, theta_t, near & crossing)
+    low, high = np.full_like(value, 1e-9), np.full_like(value, LARGEST_CONTACT)
+    theta_c = _bracketed(function, low, high, start_angle(ring, target, value))
+    return theta_c, transition_for(ring, arcs, theta_c)
 
 
-def find_angles(ring: Ring, arcs: Arcs, target: Target, value: Array) -> Angles:
-    """Find θc and θt of n designs; `found` is false where the model has no solution.
-
-    Parameters
-    ----------
-    ring, arcs : Ring, Arcs
-        n designs and their characteristic roots.
-    target : {"force", "sinking", "contact_angle"}
-        What is given.
-    value : array, shape (n,)
-        F/GA, δ/R or θc in radians.
-    """
+def start_angle(ring: Ring, target: Target, value: Array) -> Array:
+    """Contact angle to start from for a given target."""
     if target == "contact_angle":
-        start = value
-    else:
-        force = value if target == "force" else 3 * value
-        start = np.minimum(first_guess(ring, force), 1.2)
-    angles = newton(ring, arcs, target, value, start)
-    rest = np.flatnonzero(~angles.found)
-    if len(rest):
-        slow = by_brackets(ring.take(rest), arcs.take(rest), target, value[rest])
-        angles.contact[rest], angles.transition[rest] = slow.contact, slow.transition
-        angles.found[rest] = slow.found
-    return angles
+        return value.copy()
+    # a ring on spokes sinks by roughly a third of what it carries, in these units
+    return np.minimum(first_guess(ring, value if target == "force" else 3 * value), 1.2)
+
+
+def is_solution(joined: Joined, target: Target, value: Array) -> NDArray[np.bool_]:
+    """Whether the target is met and u_r changes its sign at θt, to rounding."""
+    misfit = np.abs(_misfit(joined, target, value)[:, 0])
+    crossing = np.abs(joined.transition[:, 0])
+    return (misfit <= MISFIT * value) & (crossing <= MISFIT * np.abs(joined.sinking[:, 0]))

@@ -9,15 +9,21 @@ import pandas as pd
 from numpy.typing import ArrayLike
 
 from nptcs.errors import InputError
-from nptcs.lca.batch import RESULT_COLUMNS, Batch, scaled, solve_batch
+from nptcs.lca.batch import (
+    RESULT_COLUMNS,
+    Batch,
+    bad_rows,
+    columns,
+    only_target,
+    solve_batch,
+    solve_rows,
+)
 from nptcs.lca.scaling import Array
 from nptcs.lca.section import RingSection
 from nptcs.lca.spokes import LinearSpokes
 from nptcs.lca.state import LcaState
-from nptcs.lca.system import Arcs, join
 
 REMEDIES = {
-    "bad_input": "give numbers that a tyre can have",
     "beyond_model": "give a smaller load, or a stiffer ring or spokes",
     "no_convergence": "check the units of the ring's and the spokes' stiffness",
 }
@@ -68,27 +74,21 @@ def solve(
     ModelError
         The model cannot reach the target; the text gives the reason.
     """
-    row = design_row(section, spokes)
-    batch = solve_batch(
-        row,
-        load_n=load_n,
-        displacement_mm=displacement_mm,
-        theta_c_deg=theta_c_deg,
-        largest_displacement_mm=largest_displacement_mm,
-    )
-    status = str(batch.status[0])
-    if status in REMEDIES:
-        kind = InputError if status == "bad_input" else ModelError
-        raise kind(f"load-bearing model: {batch.message[0]}", remedy=REMEDIES[status])
-    numbers = {column: float(batch.columns[column][0]) for column in RESULT_COLUMNS}
-    ring = scaled({column: np.atleast_1d(value).astype(float) for column, value in row.items()})
-    arcs = Arcs.of(ring)
-    theta_c, theta_t = (
-        np.atleast_1d(np.radians(numbers[column])) for column in ("theta_c_deg", "theta_t_deg")
-    )
-    joined = join(ring, arcs, theta_c, theta_t)
+    name, value = only_target(load_n, displacement_mm, theta_c_deg)
+    table = columns(design_row(section, spokes), value, largest_displacement_mm)
+    if bad := bad_rows(table, name)[0]:
+        raise InputError(f"load-bearing model: {bad}", remedy="give numbers that a tyre can have")
+    (piece,) = solve_rows(table, name)
+    if (status := str(piece.status[0])) in REMEDIES:
+        raise ModelError(f"load-bearing model: {piece.message[0]}", remedy=REMEDIES[status])
     return LcaState(
-        section, spokes, **numbers, doubts=batch.message[0], _ring=ring, _arcs=arcs, _joined=joined
+        section,
+        spokes,
+        **{column: float(piece.numbers[column][0]) for column in RESULT_COLUMNS},
+        doubts=piece.message[0],
+        _ring=piece.ring,
+        _arcs=piece.arcs,
+        _joined=piece.joined,
     )
 
 

@@ -1,7 +1,7 @@
 """All three regions joined, for given contact and transition angles: a linear system of eleven.
 
 Unknowns: four modes and the rotation of the compression arc, two modes of the tension arc, the
-constant C = N + M that both arcs share, and the contact region's moment m, force H and sinking δ.
+constant C = N + M that both arcs share, and the contact region's edge moment m, force H and sinking δ.
 Equations: u, v, Φ, V, M continuous at θt (N then is), u, v, Φ, N, V, M continuous at θc.
 """
 
@@ -13,12 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nptcs.lca.arc import Foundation
-from nptcs.lca.contact import POINTS, Contact, solve_contact
+from nptcs.lca.contact import Contact, solve_contact
 from nptcs.lca.scaling import Array, Ring
 
 UNKNOWNS = 11
 COMPRESSION, ROTATION, TENSION, CONSTANT = slice(0, 4), 4, slice(5, 7), 7
-CENTRE_MOMENT, HORIZONTAL, SINKING = 8, 9, 10
+EDGE_MOMENT, HORIZONTAL, SINKING = 8, 9, 10
 _TRANSITION_ROWS = [0, 1, 2, 4, 5]
 COMPRESSION_UNKNOWNS = [0, 1, 2, 3, 4, 7]
 
@@ -72,17 +72,20 @@ class Joined:
 
 def compression_columns(arc: Foundation, theta: Array, start: Array, end: Array) -> Array:
     """Columns of the unknowns 0…4 and 7 in the compression arc, shape ``(n, 6, 6)``."""
-    rotation = np.zeros((*theta.shape, 6, 1))
-    rotation[..., 1:3, 0] = 1
-    near, far = arc.decaying(theta - start, -1), arc.decaying(end - theta, 1)
-    constant = arc.uniform(theta - end)[..., None]
-    return np.concatenate([near, far, rotation, constant], axis=-1)
+    columns = np.zeros((len(theta), 6, 6))
+    columns[:, :, 0:2] = arc.falling(theta - start)
+    columns[:, :, 2:4] = arc.growing(end - theta)
+    columns[:, 1:3, 4] = 1
+    columns[:, :, 5] = arc.uniform(theta - end)
+    return columns
 
 
 def tension_columns(arc: Foundation, theta: Array, start: Array) -> Array:
     """Columns of the unknowns 5…7 in the tension arc, shape ``(n, 6, 3)``."""
-    modes = arc.symmetric(np.pi - theta, np.pi - start)
-    return np.concatenate([modes, arc.uniform(theta - np.pi)[..., None]], axis=-1)
+    columns = np.empty((len(theta), 6, 3))
+    columns[:, :, :2] = arc.symmetric(np.pi - theta, np.pi - start)
+    columns[:, :, 2] = arc.uniform(theta - np.pi)
+    return columns
 
 
 def _assemble(contact: Contact, at_t: Array, beyond: Array, at_c: Array) -> tuple[Array, Array]:
@@ -107,7 +110,9 @@ def _dot(columns: Array, coefficients: Array) -> Array:
     return np.einsum("...c,...c->...", columns, coefficients)
 
 
-def join(ring: Ring, arcs: Arcs, theta_c: Array, theta_t: Array, points: int = POINTS) -> Joined:
+def join(
+    ring: Ring, arcs: Arcs, theta_c: Array, theta_t: Array, points: int | None = None
+) -> Joined:
     """Solve n designs for given angles θc < θt (radians), with derivatives by both.
 
     A boundary that moves changes the loads only, so the derivative of the solution is what a

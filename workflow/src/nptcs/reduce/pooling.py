@@ -37,7 +37,8 @@ def pooled_rows(
         Which tests are pooled, and the smallest n of a B-basis value.
     """
     included = properties[[sheet[s].include for s in properties["specimen"]]]
-    included = included[included["value"].notna()]
+    wanted = included["property"].isin(settings.pool_properties)
+    included = included[included["value"].notna() & wanted]
     rows: list[dict[str, object]] = []
     for tests in settings.pool_tests:
         chosen = included[included["test"].isin(tests)]

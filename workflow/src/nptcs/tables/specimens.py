@@ -192,6 +192,19 @@ def read_sheet(path: str | Path) -> tuple[list[Specimen], list[InputError]]:
     return specimens, errors
 
 
+def files_named(path: str | Path) -> dict[str, list[str]]:
+    """Files that the sheet names, also in rows that are not valid: file → specimen ids."""
+    header, rows = _rows(Path(path))
+    named: dict[str, list[str]] = {}
+    for _, cells in rows:
+        row = dict(zip(header, cells, strict=False))
+        for column in ("force_file", "strain_file"):
+            if row.get(column):
+                name = str(PurePosixPath(row[column].replace("\\", "/")))
+                named.setdefault(name, []).append(row.get("specimen", ""))
+    return named
+
+
 def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
     """Column names and the non-empty rows with their line numbers."""
     try:
