@@ -20,7 +20,7 @@ SURFACE_HEADINGS = {
     "coefficient_coded": Heading("coefficient, coded", "N/mm"),
     "standard_error": Heading("standard error, natural", "N/mm per unit of the term"),
     "standard_error_coded": Heading("standard error, coded", "N/mm"),
-    "published_coefficient": Heading("printed coefficient", "N/mm per unit of the term"),
+    "published_coefficient": Heading("printed coefficient (FE)", "N/mm per unit of the term"),
 }
 QUALITY_HEADINGS = {
     "residual_sd": Heading("residual SD", "N/mm"),

@@ -11,6 +11,7 @@ from typing import Any
 
 import pandas as pd
 
+from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import sha256_of_file
@@ -43,7 +44,6 @@ PLAIN_TABLES = {
 """Fields of `Results` that are one table each, and their names among the contracts."""
 
 SOFTWARE = (
-    "nptcs",
     "snakemake",
     "numpy",
     "scipy",
@@ -177,7 +177,11 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         config=config,
         sheet=tuple(Specimen.model_validate(row) for row in job["specimens"]),
         solvers={name: SolverFacts(**facts) for name, facts in job["solvers"].items()},
-        software={"Python": platform.python_version()} | {name: version(name) for name in SOFTWARE},
+        software={
+            "nptcs": __version__,
+            "Python": platform.python_version(),
+            **{name: version(name) for name in SOFTWARE},
+        },
         inputs={str(file): sha256_of_file(file) for file in files["inputs"]},
         card=MaterialCard.model_validate_json(Path(files["card"]).read_text("utf-8")),
         curves={

@@ -61,7 +61,11 @@ def stress_strain(
             drawn["stress_mpa"],
             color=colour,
             linestyle=dash,
-            linewidth=1.0,
+            linewidth=1.6 if out else 1.0,
+            marker="x" if out else None,
+            markevery=[len(drawn) - 1],
+            markersize=7,
+            zorder=3 if out else 2,
             label=label,
         )
         used += not out
@@ -156,6 +160,6 @@ def c10_against_range(ranges: pd.DataFrame, synthetic: bool = False) -> Figure:
         axes.plot(100 * used["strain_high"], used["c10_mpa"], "o", mfc="none", mec=colour, ms=11)
     axes.plot([], [], "o", mfc="none", mec=GREY, ms=9, label="on the card")
     axes.set_ylim(bottom=0)
-    axes.legend(loc="best")
+    figure.legend(loc="outside lower center", ncols=2)
     mark_synthetic(figure, synthetic)
     return figure

@@ -69,10 +69,12 @@ def at_middle(
     return cases[inside], held
 
 
-def _held_text(held: Mapping[str, float], labels: Mapping[str, FactorLabel]) -> str:
-    return ", ".join(
-        f"{labels[name].label} {level:g} {labels[name].unit}" for name, level in held.items()
-    )
+def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLabel]) -> str:
+    """Name the solver and the levels of the factors that stay fixed."""
+    levels = [
+        f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
+    ]
+    return ", ".join([solver, *levels])
 
 
 @styled
@@ -92,7 +94,7 @@ def contours(
     surface : Surface
         As fitted.
     cases : DataFrame
-        The solved cases: a column for each factor and the stiffness.
+        The solved cases of one solver: ``solver``, a column for each factor, the stiffness.
     pair : tuple of str
         Factors on the x and y axis; the others stay at their middle levels.
     labels : mapping of str to FactorLabel
@@ -102,7 +104,8 @@ def contours(
     """
     shown, held = at_middle(surface, cases, pair)
     x, y, z = _grid(surface, cases, *pair)
-    figure, axes = panel(_held_text(held, labels), str(labels[pair[0]]), str(labels[pair[1]]))
+    title = _title(cases["solver"].iloc[0], held, labels)
+    figure, axes = panel(title, str(labels[pair[0]]), str(labels[pair[1]]))
     low = min(z.min(), shown[STIFFNESS].min())
     high = max(z.max(), shown[STIFFNESS].max())
     levels = np.linspace(low, high, 13)
@@ -141,7 +144,8 @@ def slices(
     Lines are the surface, marks are the cases; the other factors are at their middle levels.
     """
     shown, held = at_middle(surface, cases, pair)
-    figure, axes = panel(_held_text(held, labels), str(labels[pair[0]]), STIFFNESS_LABEL)
+    title = _title(cases["solver"].iloc[0], held, labels)
+    figure, axes = panel(title, str(labels[pair[0]]), STIFFNESS_LABEL)
     factors = list(surface.polynomial.factors)
     axis = factors.index(pair[0])
     x = np.linspace(surface.lower[axis], surface.upper[axis], GRID)
@@ -160,6 +164,6 @@ def slices(
             marker=MARKERS[number % len(MARKERS)],
             label=f"{level:.4g}",
         )
-    axes.legend(title=str(labels[pair[1]]), title_fontsize=8, ncols=2, loc="best")
+    figure.legend(title=str(labels[pair[1]]), title_fontsize=8, ncols=5, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

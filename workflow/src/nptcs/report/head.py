@@ -9,7 +9,10 @@ from nptcs.report.data import Results, factor_labels
 from nptcs.report.figures_impact import ranked
 from nptcs.report.sheets import Sheets
 from nptcs.report.units import words
-from nptcs.report.view import Block, Listing, Text, joined, number_text, sheet_view, table_view
+from nptcs.report.view import Block, Listing, Text, joined, sheet_view, table_view, with_error
+
+WARNING = "warning: "
+"""How a check of a material card begins that a reader of any result must see."""
 
 GLANCE = catalogue.Entry(
     "at_a_glance",
@@ -46,10 +49,14 @@ def _remarks(results: Results) -> tuple[str, ...]:
     stray = results.files[results.files["status"] == "not named"]
     if len(stray):
         remarks.append(
-            f"{len(stray)} files of the folder are named by no row of the sheet: "
-            + joined(stray["file"])
+            "No row of the sheet names these files of the folder: " + joined(stray["file"])
         )
-    remarks += [f"{card.name}: {check}" for card in results.cards for check in card.checks]
+    remarks += [
+        f"{card.name}: {check.removeprefix(WARNING)}"
+        for card in results.cards
+        for check in card.checks
+        if check.startswith(WARNING)
+    ]
     return tuple(remarks)
 
 
@@ -65,14 +72,8 @@ def _materials(results: Results) -> list[tuple[str, str, str]]:
         constants = []
         for name, quantity in card.constants.items():
             if quantity.origin == "measured":
-                unit = "" if quantity.unit == "1" else f" {quantity.unit}"
-                error = (
-                    ""
-                    if quantity.standard_error is None
-                    else f" ± {number_text(quantity.standard_error, 2)}"
-                )
-                text = number_text(quantity.value, 4)
-                constants.append(f"{words(name.removesuffix('_mpa'))} = {text}{error}{unit}")
+                text = with_error(quantity.value, quantity.standard_error, quantity.unit)
+                constants.append(f"{words(name.removesuffix('_mpa'))} = {text}")
         badge = " (SYNTHETIC data)" if card.synthetic else ""
         rows.append(
             (

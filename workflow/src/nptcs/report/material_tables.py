@@ -54,7 +54,7 @@ def rubber_table(results: Results) -> pd.DataFrame:
             "unit": quantity.unit,
             "strain_low": rubber.strain_range[0],
             "strain_high": rubber.strain_range[1],
-            **rubber.fit_quality,
+            **{key: _yes_no(key, value) for key, value in rubber.fit_quality.items()},
             "origin": quantity.origin,
             "rule": quantity.rule,
             "specimens": ", ".join(quantity.specimens),
@@ -65,3 +65,10 @@ def rubber_table(results: Results) -> pd.DataFrame:
     ]
     table = pd.DataFrame(rows, columns=None if rows else CONSTANT_COLUMNS)
     return table.astype({"value": float, "standard_error": float})
+
+
+def _yes_no(name: str, value: float) -> float | str:
+    """Write a quality that is true or false, such as Drucker stability, as yes or no."""
+    if name.endswith("_stable"):
+        return "yes" if value else "no"
+    return value

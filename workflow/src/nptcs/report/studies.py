@@ -18,6 +18,7 @@ from nptcs.report.view import (
     Plot,
     Plots,
     Section,
+    TableView,
     Text,
     joined,
     plot,
@@ -85,11 +86,23 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[Block] = [
         Text("Solvers. " + " — ".join(solvers)),
         table_view(case_counts(results.cases), COUNTS, mark=marks.by_status),
-        sheet_view(
-            sheets[catalogue.CASES.sheet], [str(name) for name in results.cases if name != "key"]
-        ),
     ]
+    blocks += [_cases_of(results, study) for study in results.config.studies]
     return Section("cases", "Cases", tuple(blocks))
+
+
+def _cases_of(results: Results, study: Study) -> TableView:
+    """Lay out the cases of one study; the messages stand last."""
+    cases = results.cases[results.cases["study"] == study.name]
+    names = [str(name) for name in cases if name not in ("study", "message", "key")]
+    return table_view(
+        cases,
+        catalogue.CASES,
+        f"Cases of the study {study.name}: {study.title}",
+        [*names, "message"],
+        mark=marks.by_status,
+        synthetic=results.study_is_synthetic(study),
+    )
 
 
 def case_counts(cases: pd.DataFrame) -> pd.DataFrame:
@@ -122,28 +135,23 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Bloc
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[Block] = [
         Text(study.title, "head"),
-        sheet_view(sheet, digits=precise),
+        sheet_view(sheet, given_digits=precise),
     ]
-    for solver in results.surfaces[study.name]:
-        maps, lines = _surface_plots(results, study, solver)
-        held = " Other factors are at the middle level named above each panel."
-        blocks.append(
-            Plots(
-                f"{study.title}, solver {solver}: the surface over two factors, discs are the "
-                f"cases on the same colour scale.{held if len(study.factors) > 2 else ''}",
-                tuple(maps),
-            )
-        )
-        blocks.append(
-            Plots(
-                f"{study.title}, solver {solver}: lines are the surface, marks the cases.",
-                tuple(lines),
-            )
-        )
+    plots = [
+        drawn
+        for solver in results.surfaces[study.name]
+        for drawn in _surface_plots(results, study, solver)
+    ]
+    held = " Factors that a panel does not show are at the middle level in its title."
+    caption = (
+        f"{study.title}: each surface over two factors, the discs are the cases on the same "
+        "colour scale; and over one factor, the lines are the surface, the marks are the cases."
+    )
+    blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     return blocks
 
 
-def _surface_plots(results: Results, study: Study, solver: str) -> tuple[list[Plot], list[Plot]]:
+def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     surface, labels = results.surfaces[study.name][solver], factor_labels(study)
     cases = results.cases
     solved = cases[
@@ -158,7 +166,7 @@ def _surface_plots(results: Results, study: Study, solver: str) -> tuple[list[Pl
         by_levels = tuple(sorted(pair, key=lambda name: -solved[name].nunique()))
         figure = slices(surface, solved, (by_levels[0], by_levels[1]), labels, synthetic)
         lines.append(plot(figure, f"{alt}, as lines", synthetic))
-    return maps, lines
+    return maps + lines
 
 
 def sensitivity_section(results: Results, sheets: Sheets) -> Section:
@@ -176,7 +184,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
             f"{words(rules[0])}."
         ),
         Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
-        sheet_view(sheets[catalogue.IMPACT.sheet], digits={"difference_percent": 3}),
+        sheet_view(sheets[catalogue.IMPACT.sheet]),
     ]
     return Section("sensitivity", "Sensitivity", tuple(blocks))
 

@@ -21,13 +21,41 @@ from nptcs.report.units import Heading, heading
 DIGITS = 6
 """Significant digits of numbers in the report; the CSV files and the workbook have all."""
 
+LONG = 60
+"""Characters beyond which a text may wrap."""
+
+FEWER_DIGITS = {
+    "standard_error": 3,
+    "standard_error_mpa": 3,
+    "standard_deviation": 3,
+    "cv_percent": 3,
+    "mnr": 4,
+    "mnr_critical": 4,
+    "rmse_mpa": 3,
+    "largest_error_percent": 3,
+    "balance_residual": 2,
+    "condition_number_natural": 3,
+    "condition_number_coded": 3,
+    "wall_time_s": 3,
+}
+"""Columns whose digits beyond these mean nothing; differences in percent have three as well."""
+
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell: its text, and the full number behind it for sorting."""
+    """One cell: its text, the full number behind it for sorting, and its CSS class."""
 
     text: str
     number: str = ""
+
+    @property
+    def css(self) -> str:
+        """Tell how the cell is set."""
+        if self.number or self.text == "–":
+            return "number"
+        if len(self.text) == 64 and set(self.text) <= set("0123456789abcdef"):
+            return "hash"
+        return "long" if len(self.text) > LONG else ""
 
 
 @dataclass(frozen=True)
@@ -118,7 +146,7 @@ def table_view(
     entry: Entry,
     caption: str = "",
     columns: Sequence[str] | None = None,
-    digits: Mapping[str, int] | None = None,
+    given_digits: Mapping[str, int] | None = None,
     mark: RowClass = marks.nothing,
     synthetic: bool = False,
 ) -> TableView:
@@ -133,18 +161,18 @@ def table_view(
     caption : str
         Words above the table; the entry's title by default.
     columns : sequence of str, optional
-        Columns that are shown, all by default.
-    digits : mapping of str to int, optional
-        Significant digits of columns that need other than `DIGITS`.
+        Columns that are shown, all by default; a column without any value is not shown.
+    given_digits : mapping of str to int, optional
+        Significant digits of columns that need other than `DIGITS` and `FEWER_DIGITS`.
     mark : callable
         Gives a row's CSS class, such as ``bad`` or ``out``.
     synthetic : bool
         Whether it shows synthetic data.
     """
-    shown = list(columns or table.columns)
-    table = table[shown].reset_index(drop=True)
-    digits = digits or {}
-    numeric = tuple(pd.api.types.is_numeric_dtype(table[name]) for name in shown)
+    shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
+    digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith("difference_percent")}}
+    digits |= given_digits or {}
+    numeric = tuple(_is_numeric(table[name]) for name in shown)
     rows = []
     for record in table.to_dict("records"):
         cells = tuple(_cell(record[name], digits.get(name, DIGITS)) for name in shown)
@@ -160,17 +188,30 @@ def table_view(
 
 
 def sheet_view(
-    sheet: Sheet, columns: Sequence[str] | None = None, digits: Mapping[str, int] | None = None
+    sheet: Sheet,
+    columns: Sequence[str] | None = None,
+    given_digits: Mapping[str, int] | None = None,
 ) -> TableView:
     """Lay one of the workbook's tables out for the page; arguments as in `table_view`."""
     return table_view(
         sheet.table,
         sheet.entry,
         columns=columns,
-        digits=digits,
+        given_digits=given_digits,
         mark=sheet.mark,
         synthetic=sheet.synthetic,
     )
+
+
+def _is_numeric(column: pd.Series) -> bool:
+    """Tell whether a column holds numbers, and no truth values."""
+    types = pd.api.types
+    return types.is_numeric_dtype(column) and not types.is_bool_dtype(column)
+
+
+def _is_empty(column: pd.Series) -> bool:
+    """Tell whether a column of a table with rows has no value at all."""
+    return len(column) > 0 and bool((column.isna() | (column.astype(str) == "")).all())
 
 
 def _cell(value: object, digits: int) -> Cell:
@@ -190,6 +231,16 @@ def plot(figure: Figure, alt: str, synthetic: bool = False) -> Plot:
     return Plot(
         f"data:image/svg+xml;base64,{data}", alt, round(96 * width), round(96 * height), synthetic
     )
+
+
+def with_error(value: float, error: float | None, unit: str = "1") -> str:
+    """Write a value and its standard error to the error's second significant digit."""
+    suffix = "" if unit == "1" else f" {unit}"
+    if error is None or not error > 0:
+        return f"{value:.4g}{suffix}"
+    decimals = 1 - math.floor(math.log10(error))
+    shown = max(0, decimals)
+    return f"{round(value, decimals):.{shown}f} ± {round(error, decimals):.{shown}f}{suffix}"
 
 
 def joined(words: Iterable[str]) -> str:
