@@ -85,10 +85,15 @@ class Project:
 def finished(tmp_path_factory) -> Project:
     """A small copy of the project in which the pipeline has run to its end."""
     folder = tmp_path_factory.mktemp("project") / "copy"
-    ignore = shutil.ignore_patterns(
-        ".git", ".venv", ".snakemake", "__pycache__", ".*_cache", "[0-9]_*", "tables", "logs"
-    )
-    shutil.copytree(ROOT, folder, ignore=ignore)
+    parts = ("Snakefile", "config", "profiles", "raw_data", "tests", "workflow")
+    for part in parts:
+        source = ROOT / part
+        if source.is_dir():
+            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+            shutil.copytree(source, folder / part, ignore=ignore)
+        else:
+            folder.mkdir(exist_ok=True)
+            shutil.copy2(source, folder / part)
     project = Project(folder)
     shorten_sheet(project)
     run = project.snakemake()

@@ -4,14 +4,13 @@ from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
+
 from nptcs.calibrate import calibrate_ply
 from nptcs.config.calibration import CalibrationSettings
-from nptcs.tables.properties import PropertiesTable
-from snakemake.script import snakemake
-
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.tables.io import read_table
+from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 
 

@@ -5,12 +5,10 @@ from typing import Any
 
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
 from nptcs.config.calibration import CalibrationSettings
-from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
-from snakemake.script import snakemake
-
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.tables.curves import Curve
+from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.specimens import Specimen
 
@@ -25,8 +23,8 @@ def calibrate(job: dict[str, Any], curves: Sequence[str], output: dict[str, str]
     usable = {name: curve for name, curve in read.items() if len(curve)}
     data = (job["rubber"], usable, specimens, settings)
     write_text(output["card"], calibrate_rubber(*data).model_dump_json(indent=1))
-    write_table(output["models"], compare_models(*data), HyperelasticModels)
-    write_table(output["ranges"], c10_against_range(*data), C10AgainstRange)
+    write_table(output["models"], compare_models(*data), ModelComparison)
+    write_table(output["ranges"], c10_against_range(*data), RangeTable)
 
 
 if __name__ == "__main__":

@@ -2,8 +2,6 @@
 
 from collections.abc import Sequence
 
-from snakemake.script import snakemake
-
 from nptcs.campaign.record import read_records
 from nptcs.console import clear_errors
 from nptcs.tables.cases import Cases, cases_table

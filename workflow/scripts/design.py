@@ -4,8 +4,6 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
-from snakemake.script import snakemake
-
 from nptcs.config.study import Study
 from nptcs.console import clear_errors
 from nptcs.design import full_factorial

@@ -4,13 +4,12 @@ from collections.abc import Sequence
 from pathlib import Path
 
 import pandas as pd
-from nptcs.tables.hyperelastic import C10AgainstRange, HyperelasticModels
-from snakemake.script import snakemake
 
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.materials import MaterialCard, PlyCard, RubberCard
-from nptcs.tables.io import read_table, write_table
+from nptcs.tables.hyperelastic import ModelComparison, RangeTable
+from nptcs.tables.io import empty_table, read_table, write_table
 
 
 def join_cards(plies: Sequence[str], rubbers: Sequence[str]) -> MaterialCard:
@@ -25,14 +24,13 @@ def join_cards(plies: Sequence[str], rubbers: Sequence[str]) -> MaterialCard:
 
 
 def join_tables(files: Sequence[str], contract: type, joined: str) -> None:
-    empty = pd.DataFrame(columns=list(contract.to_schema().columns))
     tables = [read_table(file, contract) for file in files]
-    write_table(joined, pd.concat(tables) if tables else empty, contract)
+    write_table(joined, pd.concat(tables) if tables else empty_table(contract), contract)
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
         source, output = snakemake.input, snakemake.output
         write_text(output.card, join_cards(source.ply, source.rubbers).model_dump_json(indent=1))
-        join_tables(source.models, HyperelasticModels, output.models)
-        join_tables(source.ranges, C10AgainstRange, output.ranges)
+        join_tables(source.models, ModelComparison, output.models)
+        join_tables(source.ranges, RangeTable, output.ranges)

@@ -5,16 +5,15 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from nptcs.config.reduction import ReductionSettings
-from nptcs.reduce import reduce_specimen
-from nptcs.tables.properties import PropertiesTable, empty_properties
-from snakemake.script import snakemake
 
+from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.errors import InputError
+from nptcs.reduce import reduce_specimen
 from nptcs.tables.curves import Curve, IngestRecord
-from nptcs.tables.io import read_table, write_table
+from nptcs.tables.io import empty_table, read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
+from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 
 
@@ -34,7 +33,7 @@ def reduce(
             tables.append(reduce_specimen(curve, specimen, settings, source, flags))
         except InputError as error:
             problems.append(("reduce", specimen.specimen, "", "error", str(error)))
-    table = pd.concat(tables) if tables else empty_properties()
+    table = pd.concat(tables) if tables else empty_table(PropertiesTable)
     write_table(properties, table, PropertiesTable)
     write_table(faults, problems_table(problems), Problems)
 

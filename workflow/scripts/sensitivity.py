@@ -5,7 +5,6 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
-from snakemake.script import snakemake
 
 from nptcs.console import clear_errors
 from nptcs.sensitivity import impact

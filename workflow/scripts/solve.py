@@ -4,8 +4,6 @@ import sys
 from pathlib import Path
 from typing import Any
 
-from snakemake.script import snakemake
-
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore, write_records
 from nptcs.campaign.runner import run_cases

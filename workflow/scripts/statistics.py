@@ -4,15 +4,14 @@ from collections.abc import Sequence
 from typing import Any
 
 import pandas as pd
-from nptcs.config.reduction import ReductionSettings
-from nptcs.reduce.statistics import group_statistics
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.statistics import StatisticsTable
-from snakemake.script import snakemake
 
+from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
+from nptcs.reduce.statistics import group_statistics
 from nptcs.tables.io import read_table, write_table
+from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
+from nptcs.tables.statistics import StatisticsTable
 
 
 def summarise(job: dict[str, Any], properties: Sequence[str], joined: str, summary: str) -> None:

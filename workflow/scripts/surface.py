@@ -3,8 +3,6 @@
 from collections.abc import Sequence
 from typing import Any
 
-from snakemake.script import snakemake
-
 from nptcs.campaign.record import read_records
 from nptcs.console import clear_errors
 from nptcs.errors import InputError

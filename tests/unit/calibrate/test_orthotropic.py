@@ -22,13 +22,12 @@ TABLE_2 = {
 def test_table_2_is_orthotropic_and_says_so() -> None:
     checks = check_ply(TABLE_2, "cfrp", 5.0)
     assert checks[0] == "compliance matrix is positive definite"
-    assert "nu21 = 0.02454" in checks[1]
     # E2/(2(1+ν23)) = 3259
-    assert "not transversely isotropic: G23 = 2300 MPa, E2/(2(1+nu23)) = 3259" in checks[2]
+    assert "not transversely isotropic: G23 = 2300 MPa, E2/(2(1+nu23)) = 3259" in checks[1]
     isotropic = TABLE_2 | {"g23_mpa": 8800 / 2.7}
-    assert "transversely isotropic within 5 %" in check_ply(isotropic, "cfrp", 5.0)[2]
+    assert "transversely isotropic within 5 %" in check_ply(isotropic, "cfrp", 5.0)[1]
     unequal = isotropic | {"e3_mpa": 9000.0}
-    assert "e2_mpa is not e3_mpa" in check_ply(unequal, "cfrp", 5.0)[2]
+    assert "e2_mpa is not e3_mpa" in check_ply(unequal, "cfrp", 5.0)[1]
 
 
 def test_isotropic_limit_of_the_compliance() -> None:

@@ -45,6 +45,9 @@ class Model(Protocol):
     def initial_shear_modulus(self, constants: Array) -> float:
         """Shear modulus of the undeformed material, MPa."""
 
+    def remarks(self, constants: Array) -> list[str]:
+        """Say what a reader must know of these constants."""
+
 
 @dataclass(frozen=True)
 class Fit:

@@ -122,6 +122,10 @@ class InvariantModel:
             sum(c for c, (p, q) in zip(constants, self.powers, strict=True) if p + q == 1)
         )
 
+    def remarks(self, constants: Array) -> list[str]:
+        """Nothing: the constants are the closed solution of a linear problem."""
+        return []
+
 
 def _invariants(l1: Array, l2: Array, l3: Array) -> tuple[Array, Array]:
     return l1**2 + l2**2 + l3**2, l1**-2.0 + l2**-2.0 + l3**-2.0

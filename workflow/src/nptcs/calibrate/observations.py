@@ -83,7 +83,7 @@ def observations(
     found = []
     for specimen in chosen:
         if specimen.specimen in curves:
-            observation, words = _observe(
+            observation, words = observe(
                 specimen, curves[specimen.specimen], settings, strain_range
             )
             found.append(observation)
@@ -113,12 +113,19 @@ def _chosen(name: str, specimens: Sequence[Specimen], only: str | None) -> list[
     return alone
 
 
-def _observe(
+def observe(
     specimen: Specimen,
     curve: pd.DataFrame,
     settings: RubberSettings,
     strain_range: tuple[float, float],
 ) -> tuple[Observation, list[str]]:
+    """Points of one specimen in the range, and a remark if its strain ends before it does.
+
+    Raises
+    ------
+    InputError
+        If fewer than three points lie in the range.
+    """
     low, high = strain_range
     strain, stress = finite_pair(loading_branch(curve, specimen), "strain_axial", "stress_mpa")
     inside = (strain >= low) & (strain <= high)

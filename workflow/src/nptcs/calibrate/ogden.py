@@ -75,6 +75,16 @@ class OgdenModel:
         """μ0 = Σ μ_i (MPa)."""
         return float(np.asarray(constants)[0::2].sum())
 
+    def remarks(self, constants: Array) -> list[str]:
+        """Name the exponents that the search has driven to its bound."""
+        bound = 0.999 * LARGEST_EXPONENT
+        at_bound = [
+            f"{name} at the bound {LARGEST_EXPONENT:g} of the search"
+            for name, alpha in zip(self.constants[1::2], constants[1::2], strict=True)
+            if abs(alpha) >= bound
+        ]
+        return [f"constants not determined: {', '.join(at_bound)}"] if at_bound else []
+
     def solve(self, data: Sequence[Observation], start: Array | None = None) -> Array:
         """Constants of the weighted least-squares fit.
 

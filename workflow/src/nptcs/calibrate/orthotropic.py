@@ -5,9 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+import pandas as pd
 from numpy.typing import NDArray
 
 from nptcs.errors import InputError
+from nptcs.materials import Quantity
+
+# a normal variable lies further out once in 370 times
+LARGEST_DISTANCE = 3.0
 
 
 def compliance_matrix(values: Mapping[str, float]) -> NDArray[np.float64]:
@@ -63,12 +68,36 @@ def check_ply(values: Mapping[str, float], material: str, tolerance_percent: flo
                 value=value,
             )
     _require_positive_definite(values, material)
-    nu21 = values["nu12"] * values["e2_mpa"] / values["e1_mpa"]
     return [
         "compliance matrix is positive definite",
-        f"reciprocity nu12/E1 = nu21/E2 sets nu21 = {nu21:.4g}",
         *_transverse_isotropy(values, tolerance_percent),
     ]
+
+
+def check_reciprocity(measured: Mapping[str, Quantity], nu21: pd.Series) -> str:
+    """Compare ν12/E1 = ν21/E2 with ν21 as measured on 90° specimens, in words.
+
+    Parameters
+    ----------
+    measured : mapping of str to Quantity
+        e1_mpa, e2_mpa and nu12 with their standard errors.
+    nu21 : Series
+        Poisson's ratios of the 90° specimens; may be empty.
+    """
+    e1, e2, nu12 = (measured[name] for name in ("e1_mpa", "e2_mpa", "nu12"))
+    expected = nu12.value * e2.value / e1.value
+    words = f"reciprocity nu12/E1 = nu21/E2 sets nu21 = {expected:.4g}"
+    if nu21.empty:
+        return f"{words}; nu21 was not measured"
+    words += f"; measured {nu21.mean():.4g} on {len(nu21)} specimens"
+    errors = [q.standard_error for q in (e1, e2, nu12)]
+    if len(nu21) < 2 or None in errors:
+        return f"{words} (no standard error to judge the difference by)"
+    relative = [(q.standard_error or 0.0) / q.value for q in (e1, e2, nu12)]
+    own = float(nu21.std(ddof=1)) / np.sqrt(len(nu21))
+    distance = (nu21.mean() - expected) / np.hypot(own, expected * np.linalg.norm(relative))
+    verdict = "agrees" if abs(distance) <= LARGEST_DISTANCE else "warning: does not agree"
+    return f"{words}: {verdict} ({distance:+.1f} standard errors)"
 
 
 def _require_positive_definite(values: Mapping[str, float], material: str) -> None:

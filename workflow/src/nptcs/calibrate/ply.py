@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.calibrate.covariance import covariance_of_means
-from nptcs.calibrate.orthotropic import check_ply
+from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, PlyAssumptions, Source
 from nptcs.errors import InputError
 from nptcs.materials import PLY_CONSTANTS, PlyCard, Quantity
@@ -63,6 +63,8 @@ def calibrate_ply(
     constants = {name: constants[name] for name in PLY_CONSTANTS}
     used = {specimen for values in samples.values() for specimen in values.index}
     values = {name: quantity.value for name, quantity in constants.items()}
+    across = settings.ply.e2_mpa.model_copy(update={"property": "poisson_ratio"})
+    nu21 = rows_of(table, across)["value"].dropna()
     return PlyCard(
         name=material,
         synthetic=any(included[name].origin == "synthetic" for name in used),
@@ -70,6 +72,7 @@ def calibrate_ply(
         covariance=covariance_of_means(samples, UNITS),
         checks=(
             *check_ply(values, material, settings.ply.isotropy_tolerance_percent),
+            check_reciprocity(constants, nu21),
             *_few_specimens(samples),
         ),
     )
@@ -90,11 +93,7 @@ def only_ply(specimens: Sequence[Specimen]) -> str:
 
 def sample(table: pd.DataFrame, source: Source, constant: str, material: str) -> pd.Series:
     """Values of a source by specimen id, those that were not assessed left out."""
-    rows = table[
-        table["test"].isin(source.tests)
-        & (table["orientation_deg"].abs() == abs(source.orientation_deg))
-        & (table["property"] == source.property)
-    ]
+    rows = rows_of(table, source)
     values = rows.dropna(subset=["value"]).set_index("specimen")["value"]
     if values.empty:
         flags = "; ".join(rows["flags"].unique())
@@ -107,11 +106,21 @@ def sample(table: pd.DataFrame, source: Source, constant: str, material: str) ->
     return values
 
 
+def rows_of(table: pd.DataFrame, source: Source) -> pd.DataFrame:
+    """Rows of the property table that a source names; the angle's sign does not count."""
+    return table[
+        table["test"].isin(source.tests)
+        & (table["orientation_deg"].abs() == abs(source.orientation_deg))
+        & (table["property"] == source.property)
+    ]
+
+
 def measured_quantity(
     name: str, values: pd.Series, table: pd.DataFrame, source: Source
 ) -> Quantity:
     """Mean and standard error of a measured constant, with rule and specimens."""
-    rows = table[(table["property"] == source.property) & table["specimen"].isin(values.index)]
+    rows = rows_of(table, source)
+    rows = rows[rows["specimen"].isin(values.index)]
     rules = " | ".join(dict.fromkeys(rows["rule"] + ", " + rows["range"]))
     n = len(values)
     return Quantity(

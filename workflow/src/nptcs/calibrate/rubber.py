@@ -74,7 +74,12 @@ def calibrate_rubber(
             "drucker_stable": float(not unstable),
             "initial_shear_modulus_mpa": model.initial_shear_modulus(fit.constants),
         },
-        checks=(*_stability_words(unstable, high), *toe_words(data), *remarks),
+        checks=(
+            *model.remarks(fit.constants),
+            *_stability_words(unstable, high),
+            *toe_words(data),
+            *remarks,
+        ),
     )
 
 

@@ -50,8 +50,8 @@ def toe_words(data: Sequence[Observation]) -> list[str]:
         return ["toe: not assessed, too few points above it"]
     c10, offset = fit_with_offset(above)
     return [
-        f"toe: with a free strain offset of {100 * offset:.3g} % the neo-Hookean C10 is "
-        f"{c10:.4g} MPa; without it {100 * (plain / c10 - 1):+.2g} %"
+        f"toe or curvature: with a free strain offset of {100 * offset:.3g} % the neo-Hookean "
+        f"C10 is {c10:.4g} MPa; without it {100 * (plain / c10 - 1):+.2g} %"
     ]
 
 

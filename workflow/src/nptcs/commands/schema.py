@@ -1,4 +1,4 @@
-"""``nptcs schema``: the configuration's schema and its reference page, from the models."""
+"""``nptcs schema``: the configuration's schema and the reference pages, from the models."""
 
 from __future__ import annotations
 
@@ -9,25 +9,27 @@ from typing import Any
 
 SCHEMA = Path("workflow/schemas/config.schema.json")
 REFERENCE = Path("docs/configuration.md")
+TABLES_PAGE = Path("docs/tables.md")
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = subparsers.add_parser(
-        "schema", help=f"write {SCHEMA} and {REFERENCE} anew after a change of the models"
+        "schema", help="write the configuration's schema and the reference pages in docs/ anew"
     )
     parser.add_argument("--root", default=".", help="the project's folder (default: this one)")
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write both files."""
+    """Write all three files."""
     from nptcs.files import write_text
 
     root = Path(arguments.root)
     write_text(root / SCHEMA, schema_text())
     write_text(root / REFERENCE, reference_text())
-    print(f"wrote {root / SCHEMA} and {root / REFERENCE}")
+    write_text(root / TABLES_PAGE, tables_text())
+    print(f"wrote {SCHEMA}, {REFERENCE} and {TABLES_PAGE} in {root}")
     return 0
 
 
@@ -57,6 +59,31 @@ def reference_text() -> str:
     lines += _section("config/config.yaml", Config.model_json_schema())
     for name, module in MODULES.items():
         lines += _section(f"solvers.{name}", load(module).options.model_json_schema())
+    return "\n".join(lines)
+
+
+def tables_text() -> str:
+    """Return the page that describes each result table and its columns."""
+    from nptcs.tables.catalogue import TABLES
+
+    lines = [
+        "# Result tables",
+        "",
+        "Written by `nptcs schema` from the contracts in `workflow/src/nptcs/tables`; do not "
+        "edit. Each table is a CSV file in `results/tables` and a sheet of "
+        "`results/workbook.xlsx`; empty means not given.",
+        "",
+    ]
+    for file, contract in TABLES.items():
+        schema = contract.to_schema()
+        text = " ".join((contract.__doc__ or "").split())
+        lines += [f"## `{file}`", "", text, "", "| column | type | may be empty | meaning |"]
+        lines += ["|---|---|---|---|"]
+        for name, column in schema.columns.items():
+            empty = "yes" if column.nullable else "no"
+            meaning = (column.description or "").replace("|", "\\|")
+            lines.append(f"| `{name}` | {column.dtype} | {empty} | {meaning} |")
+        lines.append("")
     return "\n".join(lines)
 
 

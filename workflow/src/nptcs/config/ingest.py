@@ -58,7 +58,7 @@ class OriginOfStrain(Strict):
         (0.0005, 0.003), description="Strain window of the fit, composite tests"
     )
     window_rubber: tuple[float, float] = Field(
-        (0.02, 0.12), description="Strain window of the fit, rubber tests"
+        (0.01, 0.10), description="Strain window of the fit, rubber tests"
     )
     smallest_points: int = Field(8, ge=4, description="Fewer points: not corrected, flagged")
     worst_r_squared: float = Field(
@@ -93,8 +93,11 @@ class MachineCompliance(Strict):
 class Pairing(Strict):
     """Force and strain in separate files."""
 
-    clock_tolerance_s: float = Field(
-        1.0, ge=0, description="Onsets of loading that lie further apart stop the specimen"
+    clock_tolerance: float = Field(
+        0.03,
+        ge=0,
+        description="Onsets of loading that lie further apart, as a share of the time to the "
+        "largest force, stop the specimen",
     )
     force_tolerance: float = Field(
         0.02, gt=0, lt=1, description="Largest difference of a shared force, share of the maximum"

@@ -220,6 +220,11 @@ class StatisticsSettings(Strict):
     b_basis_full_specimens: int = Field(
         18, ge=3, description="Group size below which the B-basis value is noted as provisional"
     )
+    pool_properties: tuple[str, ...] = Field(
+        ("modulus", "poisson_ratio"),
+        description="Properties that are pooled; strengths in tension and compression are not "
+        "the same quantity",
+    )
     pool_tests: tuple[tuple[str, ...], ...] = Field(
         (("tension", "compression"),),
         description="Tests whose groups of equal material, orientation and property are also "

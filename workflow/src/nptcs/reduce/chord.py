@@ -74,7 +74,7 @@ def fit_line(x: Array, y: Array) -> Line:
     Line
         R² and errors are NaN where n leaves no degree of freedom.
     """
-    x_mean, y_mean = x.mean(), y.mean()
+    x_mean, y_mean = float(x.mean()), float(y.mean())
     dx, dy = x - x_mean, y - y_mean
     sxx, syy = float(dx @ dx), float(dy @ dy)
     slope = float(dx @ dy) / sxx
@@ -83,9 +83,8 @@ def fit_line(x: Array, y: Array) -> Line:
     free = len(x) - 2
     deviation = float(np.sqrt(rss / free)) if free > 0 else float("nan")
     r_squared = 1.0 - rss / syy if free > 0 and syy > 0 else float("nan")
-    return Line(
-        slope, y_mean - slope * x_mean, r_squared, deviation, deviation / np.sqrt(sxx), len(x)
-    )
+    error = deviation / float(np.sqrt(sxx))
+    return Line(slope, y_mean - slope * x_mean, r_squared, deviation, error, len(x))
 
 
 def chord_slope(
@@ -136,7 +135,7 @@ def chord_slope(
         return not_assessed("both ends of the range fall on the same recorded point")
     slope = (y_high - y_low) / (x_high - x_low)
     nan = float("nan")
-    error = np.sqrt(2.0) * line.residual_deviation / (x_high - x_low) if line else nan
+    error = 2.0**0.5 * line.residual_deviation / (x_high - x_low) if line else nan
     return Chord(
         slope,
         y_low - slope * x_low,

@@ -16,6 +16,13 @@ from nptcs.tables.specimens import Specimen
 
 Array = NDArray[np.float64]
 NAN = float("nan")
+# properties of the test, not of the material: no B-basis value is made of them
+TEST_CONDITIONS = (
+    "strain_rate",
+    "time_to_failure",
+    "bending_percent",
+    "bending_at_failure_percent",
+)
 
 
 @dataclass(frozen=True)

@@ -58,7 +58,7 @@ def strain_energy_density(strain: Array, stress: Array, rules: RubberRules) -> P
         float(np.trapezoid(stress, strain)),
         "MJ/m3",
         rule,
-        f"strain {low:.4g} to {high:.4g}",
+        "up to the largest force",
         len(strain),
         range_low=low,
         range_high=high,

@@ -12,13 +12,14 @@ from nptcs.config.reduction import StatisticsSettings
 
 Array = NDArray[np.float64]
 NAN = float("nan")
+NOT_NORMAL = 0.05
 
 
 def mnr_critical(n: int, significance: float = 0.05) -> float:
     """Critical value of the maximum normed residual of `n` specimens.
 
-    C = (n-1)/√n √(t²/(n-2+t²)) with t = t(1 - α/2n, n-2): CMH-17 volume 1, 8.3.3.1. NaN for
-    n < 3.
+    C = (n-1)/√n √(t²/(n-2+t²)) with t = t(1 - α/2n, n-2): CMH-17-1G, 8.3.3.1 and
+    table 8.5.7. NaN for n < 3.
     """
     if n < 3:
         return NAN
@@ -30,8 +31,8 @@ def b_basis_factor(n: int, degrees_of_freedom: int | None = None) -> float:
     """One-sided tolerance factor k_B of a normal B-basis value x̄ - k_B s.
 
     Covers 90 % of the population with 95 % confidence: k_B is the 0.95 quantile of the
-    noncentral t distribution with noncentrality z(0.90)√n, divided by √n (CMH-17 volume 1,
-    8.5.10). With a standard deviation pooled over groups its degrees of freedom are given.
+    noncentral t distribution with noncentrality z(0.90)√n, divided by √n (CMH-17-1G,
+    table 8.5.10). With a standard deviation pooled over groups its degrees of freedom are given.
     """
     free = n - 1 if degrees_of_freedom is None else degrees_of_freedom
     noncentrality = stats.norm.ppf(0.90) * np.sqrt(n)
@@ -39,7 +40,7 @@ def b_basis_factor(n: int, degrees_of_freedom: int | None = None) -> float:
 
 
 def describe(
-    values: Array, names: Sequence[str], settings: StatisticsSettings
+    values: Array, names: Sequence[str], settings: StatisticsSettings, allowable: bool = True
 ) -> tuple[dict[str, object], list[str]]:
     """Statistics of one sample, and remarks on them.
 
@@ -51,6 +52,8 @@ def describe(
         Specimen ids, for the outlier flag.
     settings : StatisticsSettings
         Significance and group sizes.
+    allowable : bool
+        Whether a B-basis value makes sense: not for a speed of testing or a bending.
     """
     n = len(values)
     mean = float(values.mean()) if n else NAN
@@ -69,11 +72,9 @@ def describe(
         "outlier_specimens": ", ".join(outliers),
         "median": float(np.median(values)) if n else NAN,
     }
-    basis, notes = _b_basis(n, mean, deviation, settings)
-    if n >= 3 and np.ptp(values) > 0:
-        p = float(stats.shapiro(values).pvalue)
-        if p < 0.05:
-            notes.append(f"not normally distributed (Shapiro-Wilk p = {p:.2g}): B-basis doubtful")
+    if not allowable:
+        return {**numbers, "k_b": NAN, "b_basis": NAN}, []
+    basis, notes = _b_basis(values, mean, deviation, settings)
     return {**numbers, **basis}, notes
 
 
@@ -91,11 +92,16 @@ def _outliers(
 
 
 def _b_basis(
-    n: int, mean: float, deviation: float, settings: StatisticsSettings
+    values: Array, mean: float, deviation: float, settings: StatisticsSettings
 ) -> tuple[dict[str, object], list[str]]:
+    n = len(values)
     smallest, full = settings.b_basis_minimum_specimens, settings.b_basis_full_specimens
     if n < smallest:
         return {"k_b": NAN, "b_basis": NAN}, [f"no B-basis: n = {n}, at least {smallest}"]
     k_b = b_basis_factor(n)
     notes = [f"B-basis provisional: n = {n} < {full}"] if n < full else []
+    if np.ptp(values) > 0:
+        p = float(stats.shapiro(values).pvalue)
+        if p < NOT_NORMAL:
+            notes.append(f"not normally distributed (Shapiro-Wilk p = {p:.2g}): B-basis doubtful")
     return {"k_b": k_b, "b_basis": mean - k_b * deviation}, notes

@@ -9,6 +9,7 @@ import pandas as pd
 from nptcs.config.reduction import ReductionSettings
 from nptcs.errors import InputError
 from nptcs.reduce.pooling import pooled_rows
+from nptcs.reduce.rows import TEST_CONDITIONS
 from nptcs.reduce.sample import describe
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.statistics import StatisticsTable
@@ -55,7 +56,10 @@ def group_statistics(
         }
         measured = included[included["value"].notna()]
         numbers, notes = describe(
-            measured["value"].to_numpy(), measured["specimen"].tolist(), settings.statistics
+            measured["value"].to_numpy(),
+            measured["specimen"].tolist(),
+            settings.statistics,
+            allowable=key[3] not in TEST_CONDITIONS,
         )
         notes = [*_number_notes(measured, included, rules.minimum_specimens, rules.title), *notes]
         rows.append({**row, **numbers, "notes": "; ".join(notes)})

@@ -55,7 +55,7 @@ def module_of(name: str, options: Mapping[str, Any]) -> str:
 def load(module: str) -> Solver:
     """Import a solver's module (dotted name, or the path of a Python file)."""
     if not module.endswith(".py"):
-        return importlib.import_module(module).SOLVER  # type: ignore[no-any-return]
+        return importlib.import_module(module).SOLVER
     path = Path(module)
     if not path.is_file():
         raise InputError("the solver's file does not exist", file=path, remedy="correct `module`")
@@ -65,7 +65,7 @@ def load(module: str) -> Solver:
     loaded = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = loaded
     spec.loader.exec_module(loaded)
-    return loaded.SOLVER  # type: ignore[no-any-return]
+    return loaded.SOLVER
 
 
 def read_options(solver: Solver, options: Mapping[str, Any]) -> SolverOptions:

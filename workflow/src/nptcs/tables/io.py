@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import cast
+from typing import Any, cast
 
 import pandas as pd
 import pandera.pandas as pa
@@ -39,13 +39,19 @@ def read_table(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataFr
     text_columns = {
         name: str
         for name, column in contract.to_schema().columns.items()
-        if str(column.dtype) in ("str", "object", "string")
+        if str(column.dtype).startswith(("str", "object"))
     }
     table = pd.read_csv(path, dtype=text_columns, keep_default_na=False, na_values=[""])
     for name in text_columns:
         if name in table:
             table[name] = table[name].fillna("")
     return check(table, contract, str(path))
+
+
+def empty_table(contract: type[pa.DataFrameModel]) -> pd.DataFrame:
+    """Return a table without rows that keeps the contract."""
+    columns = contract.to_schema().columns
+    return check(pd.DataFrame({name: [] for name in columns}), contract, contract.__name__)
 
 
 def check(table: pd.DataFrame, contract: type[pa.DataFrameModel], file: str) -> pd.DataFrame:
@@ -71,11 +77,11 @@ def _explain(
     if isinstance(cases, pd.DataFrame) and len(cases) and "index" in cases:
         first = cases.iloc[0]
         schema = getattr(error, "schema", None)
-        index = first["index"]
+        index: Any = first["index"]  # empty where the whole column is at fault
         return InputError(
             f"the value breaks the rule {getattr(error, 'check', None)}",
             file=file,
-            line=int(index) + 2 if isinstance(index, int | float) and index == index else None,
+            line=None if pd.isna(index) else int(index) + 2,
             column=getattr(schema, "name", None),
             value=first["failure_case"],
             remedy=remedy,

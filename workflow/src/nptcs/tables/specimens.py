@@ -74,7 +74,9 @@ class Specimen(Strict):
         "", description="Channel that is axial (e.g. exx); empty: found from the data"
     )
     time_offset_s: float | None = Field(
-        None, description="Added to the strain file's time; empty: found from the data"
+        None,
+        description="Added to the strain file's time; empty: from the force that both files "
+        "hold, else 0 and checked",
     )
     include: bool = Field(True, description="yes or no: enters statistics and material card")
     reason: str = Field("", description="Why the specimen is left out; required with no")
@@ -188,6 +190,19 @@ def read_sheet(path: str | Path) -> tuple[list[Specimen], list[InputError]]:
     if not specimens and not errors:
         raise InputError("the sheet has no rows", "add one row for each specimen", path)
     return specimens, errors
+
+
+def files_named(path: str | Path) -> dict[str, list[str]]:
+    """Files that the sheet names, also in rows that are not valid: file → specimen ids."""
+    header, rows = _rows(Path(path))
+    named: dict[str, list[str]] = {}
+    for _, cells in rows:
+        row = dict(zip(header, cells, strict=False))
+        for column in ("force_file", "strain_file"):
+            if row.get(column):
+                name = str(PurePosixPath(row[column].replace("\\", "/")))
+                named.setdefault(name, []).append(row.get("specimen", ""))
+    return named
 
 
 def _rows(path: Path) -> tuple[list[str], list[tuple[int, list[str]]]]:
