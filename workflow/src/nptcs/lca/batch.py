@@ -157,7 +157,11 @@ def bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
         name = {"target": target, "largest": "largest_displacement_mm"}.get(column, column)
         wrong = ~(np.isfinite(values) & (values > 0)) & (texts == "")
         for row in np.flatnonzero(wrong):
-            texts[row] = f"{name} must be a finite number above zero, got {values[row]:g}"
+            value = "nothing" if np.isnan(values[row]) else f"{values[row]:g}"
+            texts[row] = f"{name} must be a finite number above zero, got {value}"
+    count = table["spoke_count"]
+    for row in np.flatnonzero(((count < 3) | (count % 1 != 0)) & (texts == "")):
+        texts[row] = f"spoke_count must be a whole number from 3, got {count[row]:g}"
     if target == "theta_c_deg":
         for row in np.flatnonzero((table["target"] >= 85) & (texts == "")):
             texts[row] = f"theta_c_deg must be below 85, got {table['target'][row]:g}"
