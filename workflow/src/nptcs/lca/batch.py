@@ -255,14 +255,15 @@ def _finish(
     angles: tuple[Array, Array],
 ) -> Piece:
     """Turn angles into numbers, a status and a message."""
-    table = {column: values[rows] for column, values in table.items()}
-    ring, arcs = ring.take(rows), arcs.take(rows)
+    if len(rows) < len(value):
+        table = {column: values[rows] for column, values in table.items()}
+        ring, arcs, value = ring.take(rows), arcs.take(rows), value[rows]
     joined = join(ring, arcs, *angles)
     diagnosis = diagnose(ring, arcs, joined)
     numbers = _numbers(table, ring, joined)
     numbers["balance_residual"] = diagnosis.balance_residual
     numbers["lowest_pressure_mpa"] = diagnosis.lowest_pressure * numbers["mean_pressure_mpa"]
-    solved = is_solution(joined, target, value[rows])
+    solved = is_solution(joined, target, value)
     solved &= np.abs(diagnosis.balance_residual) <= LARGEST_RESIDUAL
     solved &= np.sqrt(ring.kappa2) * joined.contact_angle <= LARGEST_KAPPA_ANGLE
     beyond = solved & (numbers["displacement_mm"] > table["largest"])

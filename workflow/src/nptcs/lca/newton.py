@@ -95,16 +95,19 @@ def newton(ring: Ring, arcs: Arcs, target: Target, value: Array, theta_c: Array)
     open_rows = np.arange(len(theta_c))
     for _ in range(NEWTON_STEPS):
         here_c, here_t = angles.contact[open_rows], angles.transition[open_rows]
-        joined = join(ring.take(open_rows), arcs.take(open_rows), here_c, here_t)
-        by_c, by_t = _step(joined, _misfit(joined, target, value[open_rows]))
+        joined = join(ring, arcs, here_c, here_t)
+        by_c, by_t = _step(joined, _misfit(joined, target, value))
         new_c = here_c + by_c
         angles.contact[open_rows] = new_c
         angles.transition[open_rows] = np.maximum(here_t + by_t, new_c * (1 + 1e-6))
         done = (np.abs(by_c) < STEP * here_c) & (np.abs(by_t) < STEP)
-        angles.found[open_rows[done]] = True
-        open_rows = open_rows[~done]
-        if len(open_rows) == 0:
-            break
+        if done.any():
+            angles.found[open_rows[done]] = True
+            left = np.flatnonzero(~done)
+            if len(left) == 0:
+                break
+            open_rows, value = open_rows[left], value[left]
+            ring, arcs = ring.take(left), arcs.take(left)
     return angles
 
 
