@@ -74,7 +74,7 @@ def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLa
     levels = [
         f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
     ]
-    return ", ".join([solver, *levels])
+    return f"{solver}, at {', '.join(levels)}" if levels else f"solver {solver}"
 
 
 @styled

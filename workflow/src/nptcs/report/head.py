@@ -88,7 +88,8 @@ def _materials(results: Results) -> list[tuple[str, str, str]]:
 def _surfaces(results: Results) -> list[tuple[str, str, str]]:
     return [
         (
-            f"Response surface of {row.study}, solver {row.solver}",
+            f"Response surface of {row.study}, solver {row.solver}"
+            + _badge(results, [str(row.study)], str(row.solver)),
             f"R² = {row.r_squared:.5f}, leave-one-out R² = {row.leave_one_out_r_squared:.5f}, "
             f"largest residual {row.largest_residual:.3g} N/mm, {row.points} cases",
             "surface_quality.csv",
@@ -108,6 +109,18 @@ def _rankings(results: Results) -> list[tuple[str, str, str]]:
     for solver, table in results.impact.groupby("solver", sort=True):
         order = [f"{labels[key]} ({key[0]})" for key in ranked(table, rule)]
         rows.append(
-            (f"Ranking by impact, solver {solver}, {words(rule)}", " > ".join(order), "impact.csv")
+            (
+                f"Ranking by impact, solver {solver}, {words(rule)}"
+                + _badge(results, sorted(set(table["study"])), str(solver)),
+                " > ".join(order),
+                "impact.csv",
+            )
         )
     return rows
+
+
+def _badge(results: Results, studies: list[str], solver: str) -> str:
+    """Say so where a row rests on synthetic specimens."""
+    config = results.config
+    synthetic = any(results.study_is_synthetic(config.study(name), solver) for name in studies)
+    return " (SYNTHETIC data)" if synthetic else ""
