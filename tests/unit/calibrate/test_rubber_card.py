@@ -89,6 +89,13 @@ def test_left_out_missing_and_single_specimens(make_rubber: Make, make_curve: Ma
     assert "too few specimens" in card.constants["c10_mpa"].rule
 
 
+def test_crosshead_strain_is_said_in_the_card(make_rubber: Make, make_curve: Make) -> None:
+    curves = {"R-1": make_curve(STRAIN, neo_hookean(1.18, STRAIN))}
+    sources = {"R-1": "crosshead"}
+    card = calibrate_rubber("rubber_75A", curves, [make_rubber()], SETTINGS, sources)
+    assert "warning: R-1: crosshead strain" in card.checks
+
+
 def test_weights_decide_how_much_a_specimen_with_more_points_counts(
     make_rubber: Make, make_curve: Make
 ) -> None:
