@@ -156,19 +156,23 @@ def slices(
     factors = list(surface.polynomial.factors)
     axis = factors.index(varied[0])
     x = np.linspace(surface.lower[axis], surface.upper[axis], GRID)
-    groups = list(shown.groupby(varied[1])) if len(varied) > 1 else [(None, shown)]
-    for number, (level, at_level) in enumerate(groups):
-        fixed = held if level is None else {**held, varied[1]: float(level)}
+    levels = sorted(set(shown[varied[1]])) if len(varied) > 1 else [None]
+    for number, level in enumerate(levels):
+        at_level = shown if level is None else shown[shown[varied[1]] == level]
+        fixed = held if level is None else {**held, varied[1]: level}
         points = np.column_stack(
             [x if name == varied[0] else np.full(GRID, fixed[name]) for name in factors]
         )
-        style = {
-            "color": COLOURS[number % len(COLOURS)],
-            "marker": MARKERS[number % len(MARKERS)],
-        }
-        axes.plot(x, surface.predict(points), color=style["color"])
-        label = "cases" if level is None else f"{level:.4g}"
-        axes.plot(at_level[varied[0]], at_level[STIFFNESS], linestyle="none", label=label, **style)
+        colour = COLOURS[number % len(COLOURS)]
+        axes.plot(x, surface.predict(points), color=colour)
+        axes.plot(
+            at_level[varied[0]],
+            at_level[STIFFNESS],
+            linestyle="none",
+            color=colour,
+            marker=MARKERS[number % len(MARKERS)],
+            label="cases" if level is None else f"{level:.4g}",
+        )
     legend_title = str(labels[varied[1]]) if len(varied) > 1 else None
     figure.legend(title=legend_title, title_fontsize=8, ncols=5, loc="outside lower center")
     mark_synthetic(figure, synthetic)

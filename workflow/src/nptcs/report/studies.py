@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
@@ -163,7 +163,8 @@ def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     for pair in pairs(surface):
         alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
         maps.append(plot(contours(surface, solved, pair, labels, synthetic), alt, synthetic))
-    for varied in pairs(surface) or [surface.polynomial.factors]:
+    drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
+    for varied in drawn:
         # the factor with more levels is drawn along the axis
         by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
         alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
