@@ -24,3 +24,5 @@ rule all:
         "results/report.html",
         "results/workbook.xlsx",
         "results/verdict.txt",
+        "results/material_card.json",
+        TABLES,

@@ -51,14 +51,10 @@ class Project:
 
     def planned(self, **options) -> dict[str, int]:
         """Return how many jobs of each rule a run would do now."""
-        run = self.snakemake("-n", "--quiet", "progress", **options)
+        run = self.snakemake("-n", **options)
         assert run.returncode == 0, run.stderr
-        text = run.stdout + run.stderr
-        return {
-            match[1]: int(match[2])
-            for match in re.finditer(r"^([a-z_0-9]+)\s+(\d+)$", text, re.MULTILINE)
-            if match[1] != "total"
-        }
+        jobs = re.findall(r"^(?:local)?rule (\w+):$", run.stdout + run.stderr, re.MULTILINE)
+        return {name: jobs.count(name) for name in jobs}
 
     def edit(self, name: str, old: str, new: str) -> None:
         text = self.path(name).read_text(encoding="utf-8")
@@ -85,10 +81,15 @@ class Project:
 def finished(tmp_path_factory) -> Project:
     """A small copy of the project in which the pipeline has run to its end."""
     folder = tmp_path_factory.mktemp("project") / "copy"
-    ignore = shutil.ignore_patterns(
-        ".git", ".venv", ".snakemake", "__pycache__", ".*_cache", "[0-9]_*", "tables", "logs"
-    )
-    shutil.copytree(ROOT, folder, ignore=ignore)
+    parts = ("Snakefile", "config", "profiles", "raw_data", "tests", "workflow")
+    for part in parts:
+        source = ROOT / part
+        if source.is_dir():
+            ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
+            shutil.copytree(source, folder / part, ignore=ignore)
+        else:
+            folder.mkdir(exist_ok=True)
+            shutil.copy2(source, folder / part)
     project = Project(folder)
     shorten_sheet(project)
     run = project.snakemake()

@@ -36,10 +36,10 @@ rule calibrate_rubber:
         card="results/3_calibrate/{rubber}.json",
         models="results/3_calibrate/{rubber}_models.csv",
         ranges="results/3_calibrate/{rubber}_ranges.csv",
-    wildcard_constraints:
-        rubber="|".join(map(re.escape, RUBBERS)) or "none",
     log:
         "results/logs/calibrate/{rubber}.log",
+    wildcard_constraints:
+        rubber="|".join(map(re.escape, RUBBERS)) or "none",
     params:
         job=calibrate_rubber_job,
     script:

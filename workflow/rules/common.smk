@@ -9,6 +9,7 @@ from nptcs.errors import InputError
 from nptcs.files import sha256_of_file
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import check_study, load, module_of, read_options
+from nptcs.tables.catalogue import TABLES as TABLE_CONTRACTS
 from nptcs.tables.specimens import read_sheet
 
 STARTED = time.time()
@@ -26,6 +27,12 @@ SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
 SERIES = sorted({specimen.series for specimen in SPECIMENS})
 RUBBERS = sorted({s.material for s in SPECIMENS if s.test.is_rubber and s.include})
 STUDIES = [study.name for study in CONFIG.studies]
+
+TABLES = [
+    f"results/tables/{name.replace('STUDY', study)}"
+    for name in TABLE_CONTRACTS
+    for study in (STUDIES if "STUDY" in name else [""])
+]
 
 
 wildcard_constraints:

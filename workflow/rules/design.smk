@@ -4,7 +4,9 @@
 def rubber_cards(wildcards):
     """The cards of the tested rubbers that levels or fixed values of the study name."""
     named = CONFIG.study(wildcards.study).rubbers()
-    return [f"results/3_calibrate/{rubber}.json" for rubber in named if rubber in RUBBERS]
+    return [
+        f"results/3_calibrate/{rubber}.json" for rubber in named if rubber in RUBBERS
+    ]
 
 
 def design_job(wildcards):

@@ -1,15 +1,22 @@
 # Raw files → one tidy curve a specimen, and an account of every file in the folder.
+from nptcs.ingest.folder import find_file, raw_files
 
 
-def raw_files(wildcards):
+def files_of_specimen(wildcards):
     """The specimen's files that exist; a missing one is an error of that specimen alone."""
-    paths = [SHEET.parent / name for name in SPECIMEN[wildcards.specimen].files]
-    return [str(path) for path in paths if path.is_file()]
+    found = []
+    for name in SPECIMEN[wildcards.specimen].files:
+        try:
+            found.append(str(find_file(SHEET.parent, name)))
+        except InputError:
+            continue
+    return found
 
 
 # the profiles decide how files are read: their content, not their time stamps
 PROFILES = {
-    path.name: sha256_of_file(path) for path in sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
+    path.name: sha256_of_file(path)
+    for path in sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
 }
 
 
@@ -26,7 +33,7 @@ def ingest_job(wildcards):
 
 rule ingest:
     input:
-        raw_files,
+        files_of_specimen,
     output:
         curve="results/1_ingest/{specimen}.csv",
         record="results/1_ingest/{specimen}.json",
@@ -38,23 +45,16 @@ rule ingest:
         "../scripts/ingest.py"
 
 
-def files_in_folder():
-    """Names, sizes and times of all raw files: what `account` rests on, without reading them."""
-    return sorted(
-        str(path) for path in SHEET.parent.rglob("*") if path.is_file() and path != SHEET
-    )
-
-
 rule account:
     input:
         sheet=str(SHEET),
-        files=files_in_folder(),
+        files=[str(path) for path in raw_files(SHEET.parent).values() if path != SHEET],
         records=records(SPECIMENS),
     output:
         files="results/tables/files.csv",
     log:
         "results/logs/account.log",
     params:
-        job={"folder": str(SHEET.parent), "code": code_hash("nptcs.ingest")},
+        job={"code": code_hash("nptcs.ingest.folder")},
     script:
         "../scripts/account.py"

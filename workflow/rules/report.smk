@@ -8,8 +8,13 @@ def solver_facts():
     facts = {}
     for name, study in sorted(named):
         solver, _ = solver_of(study, name)
-        about = (sys.modules[solver.solve.__module__].__doc__ or "").strip().splitlines()
-        facts[name] = {"about": about[0] if about else "", "needs_ply": solver.needs_ply}
+        about = (
+            (sys.modules[solver.solve.__module__].__doc__ or "").strip().splitlines()
+        )
+        facts[name] = {
+            "about": about[0] if about else "",
+            "needs_ply": solver.needs_ply,
+        }
     return facts
 
 
@@ -44,7 +49,9 @@ rule problems:
         "results/logs/problems.log",
     params:
         job={
-            "sheet_errors": [[error.specimen or SHEET.name, str(error)] for error in SHEET_ERRORS],
+            "sheet_errors": [
+                [error.specimen or SHEET.name, str(error)] for error in SHEET_ERRORS
+            ],
             "code": code_hash("nptcs.tables.problems"),
         },
     script:
@@ -119,5 +126,7 @@ onerror:
     import nptcs.report.stale
 
     nptcs.report.stale.set_aside(
-        ["results/report.html", "results/workbook.xlsx"], "results/logs/verdict.log", STARTED
+        ["results/report.html", "results/workbook.xlsx"],
+        "results/logs/verdict.log",
+        STARTED,
     )

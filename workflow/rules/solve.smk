@@ -34,10 +34,10 @@ rule solve:
         records="results/5_solve/{study}/{solver}/batch_{batch}.jsonl",
     log:
         "results/logs/solve/{study}_{solver}_{batch}.log",
+    threads: CONFIG.campaign.cores_per_batch
     params:
         job=solve_job,
         store="results/5_solve/records",
-    threads: CONFIG.campaign.cores_per_batch
     script:
         "../scripts/solve.py"
 

@@ -4,8 +4,12 @@
 def surface_job(wildcards):
     study = CONFIG.study(wildcards.study)
     return {
-        "study": study.model_dump(mode="json", include={"name", "factors", "solvers", "terms"}),
-        "code": code_hash("nptcs.surface.quality", "nptcs.surface.stored", "nptcs.tables.surface"),
+        "study": study.model_dump(
+            mode="json", include={"name", "factors", "solvers", "terms"}
+        ),
+        "code": code_hash(
+            "nptcs.surface.quality", "nptcs.surface.stored", "nptcs.tables.surface"
+        ),
     }
 
 
@@ -36,7 +40,11 @@ rule sensitivity:
         surfaces=expand("results/6_surface/{study}.json", study=STUDIES),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         quality=expand("results/6_surface/{study}_quality.csv", study=STUDIES),
-        published=[CONFIG.sensitivity.published_impact] if CONFIG.sensitivity.published_impact else [],
+        published=(
+            [CONFIG.sensitivity.published_impact]
+            if CONFIG.sensitivity.published_impact
+            else []
+        ),
     output:
         impact="results/tables/impact.csv",
         quality="results/tables/surface_quality.csv",

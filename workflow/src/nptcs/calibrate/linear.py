@@ -33,9 +33,7 @@ def solve_linear(design: Array, target: Array, weight: Array) -> tuple[Array, in
     weighted = design * root[:, None]
     scale = np.linalg.norm(weighted, axis=0)
     scale = np.where(scale > 0, scale, 1.0)
-    solution, _, rank, _ = np.linalg.lstsq(
-        weighted / scale, target * root, rcond=SMALLEST_SINGULAR
-    )
+    solution, _, rank, _ = np.linalg.lstsq(weighted / scale, target * root, rcond=SMALLEST_SINGULAR)
     return solution / scale, int(rank)
 
 

@@ -100,7 +100,10 @@ class Pairing(Strict):
         "largest force, stop the specimen",
     )
     force_tolerance: float = Field(
-        0.02, gt=0, lt=1, description="Largest difference of a shared force, share of the maximum"
+        0.05,
+        gt=0,
+        lt=1,
+        description="Largest difference of the peaks of a force that both files hold",
     )
 
 

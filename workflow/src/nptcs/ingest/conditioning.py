@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.config.ingest import EndOfTest, ExtensometerRemoval, ForceZero, MissingValues
-from nptcs.ingest.signals import STRAIN_CHANNELS, Array, Signals
+from nptcs.ingest.signals import STRAIN_CHANNELS, Array, Signals, largest
 
 STRAINS = ("strain_axial", "strain_transverse", "strain_axial_back")
 
@@ -86,16 +86,22 @@ def cut_end(signals: Signals, settings: EndOfTest) -> None:
     signals.note("end of test", text, rows=dropped, peak_force_n=float(force[peak]))
 
 
-def empty_after_removal(signals: Signals, settings: ExtensometerRemoval, rubber: bool) -> None:
+def empty_after_removal(
+    signals: Signals, settings: ExtensometerRemoval, rubber: bool, source: str
+) -> None:
     """Empty the strains from where an extensometer was taken off, slipped or stood still."""
     if not settings.enabled:
         signals.skipped("extensometer")
         return
-    strain = np.abs(signals.values["strain_axial"])
-    force = np.abs(signals.values["force"])
+    if source == "crosshead":
+        signals.note("extensometer", "strain from the crosshead, nothing to take off")
+        return
+    sign = np.sign(largest(signals.values["force"]))
+    strain = sign * signals.values["strain_axial"]
+    force = sign * signals.values["force"]
     smallest = settings.smallest_jump_rubber if rubber else settings.smallest_jump
     jump = _first_jump(strain, force, settings.jump_factor, smallest)
-    stuck = _first_stuck(strain, force, settings.stuck_force_share)
+    stuck = _first_stuck(strain[:jump], force[:jump], settings.stuck_force_share)
     first = min((row for row in (jump, stuck) if row is not None), default=None)
     if first is None:
         signals.note("extensometer", "no removal or slip found")
@@ -127,7 +133,11 @@ def _first_jump(strain: Array, force: Array, jump_factor: float, smallest: float
 
 
 def _first_stuck(strain: Array, force: Array, share: float) -> int | None:
-    """First reading of a climb of the force by `share` of its peak without strain."""
+    """First reading from which the force climbs by `share` of its peak and more, without strain.
+
+    Standing still counts to the end of the climb only: a start that lags is a toe, and a leap
+    is found by `_first_jump`.
+    """
     rising = np.maximum.accumulate(force)
     levels = np.arange(share, 1.0, share) * rising[-1]
     rows = np.unique(np.searchsorted(rising, levels))
@@ -135,5 +145,6 @@ def _first_stuck(strain: Array, force: Array, share: float) -> int | None:
     if len(rows) < 6:
         return None
     gains = np.diff(strain[rows])
-    still = gains < 0.02 * np.median(gains)
-    return int(rows[int(np.argmax(still))]) + 1 if still.any() else None
+    moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
+    last = int(moving[-1]) + 1 if len(moving) else 0
+    return int(rows[last]) + 1 if last < len(gains) else None

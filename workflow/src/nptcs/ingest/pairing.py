@@ -171,18 +171,19 @@ def _require_growing_time(table: RawTable, specimen: str) -> None:
 
 
 def _offset_by_force(force: RawTable, strain: RawTable) -> float:
-    """Median difference of the times at which both reach the same share of the peak."""
-    ours = _times_at(force.values["time"], force.values["force"])
-    theirs = _times_at(strain.values["time"], strain.values["force"])
+    """Median difference of the times at which both reach the same forces."""
+    peak = min(abs(largest(table.values["force"])) for table in (force, strain))
+    ours = _times_at(force.values["time"], force.values["force"], _LEVELS * peak)
+    theirs = _times_at(strain.values["time"], strain.values["force"], _LEVELS * peak)
     return float(np.median(ours - theirs))
 
 
-def _times_at(time: Array, signal: Array) -> Array:
-    """Find the times at which a signal first reaches `_LEVELS` of its peak."""
+def _times_at(time: Array, signal: Array, levels: Array) -> Array:
+    """Find the times at which the magnitude of a signal first reaches some levels."""
     kept = ~np.isnan(signal)
     rising = np.maximum.accumulate(signal[kept] * np.sign(largest(signal)))
     first = np.concatenate([[True], np.diff(rising) > 0])
-    return np.interp(_LEVELS * rising[-1], rising[first], time[kept][first])
+    return np.interp(levels, rising[first], time[kept][first])
 
 
 def _require_equal_onset(

@@ -91,7 +91,7 @@ def ingest_specimen(
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.area_mm2
     cut_end(signals, settings.end_of_test)
-    empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber)
+    empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
     correct_origin(signals, settings.strain_origin, specimen.test.is_rubber)
     check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:

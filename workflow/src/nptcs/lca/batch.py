@@ -11,7 +11,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nptcs.errors import InputError
 from nptcs.lca.contact import LARGEST_KAPPA_ANGLE, hardness
-from nptcs.lca.diagnosis import diagnose, doubts
+from nptcs.lca.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
 from nptcs.lca.newton import Target, by_brackets, is_solution, newton, start_angle
 from nptcs.lca.scaling import Array, Ring
 from nptcs.lca.system import Arcs, Joined, join
@@ -157,7 +157,11 @@ def bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
         name = {"target": target, "largest": "largest_displacement_mm"}.get(column, column)
         wrong = ~(np.isfinite(values) & (values > 0)) & (texts == "")
         for row in np.flatnonzero(wrong):
-            texts[row] = f"{name} must be a finite number above zero, got {values[row]:g}"
+            value = "nothing" if np.isnan(values[row]) else f"{values[row]:g}"
+            texts[row] = f"{name} must be a finite number above zero, got {value}"
+    count = table["spoke_count"]
+    for row in np.flatnonzero(((count < 3) | (count % 1 != 0)) & (texts == "")):
+        texts[row] = f"spoke_count must be a whole number from 3, got {count[row]:g}"
     if target == "theta_c_deg":
         for row in np.flatnonzero((table["target"] >= 85) & (texts == "")):
             texts[row] = f"theta_c_deg must be below 85, got {table['target'][row]:g}"
@@ -259,6 +263,7 @@ def _finish(
     numbers["balance_residual"] = diagnosis.balance_residual
     numbers["lowest_pressure_mpa"] = diagnosis.lowest_pressure * numbers["mean_pressure_mpa"]
     solved = is_solution(joined, target, value[rows])
+    solved &= np.abs(diagnosis.balance_residual) <= LARGEST_RESIDUAL
     solved &= np.sqrt(ring.kappa2) * joined.contact_angle <= LARGEST_KAPPA_ANGLE
     beyond = solved & (numbers["displacement_mm"] > table["largest"])
     message = doubts(diagnosis)

@@ -48,8 +48,9 @@ def rule(points: int) -> Rule:
     """Return integration matrices, all from 0.
 
     ``once_odd`` integrates an odd function V to the nodes, ``rotation_odd`` integrates
-    -∫_τ^1 V from 0 to the nodes, ``end_even`` integrates an even function to 1, ``slope_odd`` differentiates an odd one at 0
-    and at the nodes, ``to_odd`` and ``to_even`` give Chebyshev coefficients.
+    -∫_τ^1 V from 0 to the nodes, ``end_even`` integrates an even function to 1,
+    ``slope_odd`` differentiates an odd one at 0 and at the nodes, ``to_odd`` and ``to_even``
+    give Chebyshev coefficients.
     """
     nodes = np.cos(np.pi * np.arange(points - 1, -1, -1) / (2 * points - 1))
     size = 2 * points

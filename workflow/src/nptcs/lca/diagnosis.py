@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 
@@ -12,6 +13,8 @@ from nptcs.lca.system import SINKING, Arcs, Joined
 
 _COMPRESSION_POINTS, _TENSION_POINTS = 20, 48
 _SIGN_TOLERANCE = 1e-9
+LARGEST_RESIDUAL = 1e-9
+"""Largest misfit of the vertical balance, relative to the load, in a solution."""
 
 
 @dataclass(frozen=True)
@@ -59,9 +62,16 @@ def diagnose(ring: Ring, arcs: Arcs, joined: Joined) -> Diagnosis:
 
 def _gauss(start: Array, end: Array, points: int) -> tuple[Array, Array]:
     """Gauss points and weights on start…end, shapes (n, points)."""
-    nodes, weights = np.polynomial.legendre.leggauss(points)
+    nodes, weights = _unit_gauss(points)
     half = ((end - start) / 2)[:, None]
     return start[:, None] + half * (nodes + 1), half * weights
+
+
+@lru_cache(maxsize=4)
+def _unit_gauss(points: int) -> tuple[Array, Array]:
+    """Gauss points and weights on -1…1."""
+    nodes, weights = np.polynomial.legendre.leggauss(points)
+    return nodes, weights
 
 
 def doubts(diagnosis: Diagnosis) -> list[str]:

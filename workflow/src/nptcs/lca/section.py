@@ -8,9 +8,10 @@ be shown side by side.
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import Literal, get_args
+from typing import Any, Literal, get_args
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.checks import require_positive
@@ -63,40 +64,41 @@ class RingSection:
         tyre : TyreGeometry
             Dimensions, wires and their modulus.
         c10_mpa : float
-            Neo-Hookean constant of the band's rubber (MPa); E = 6 C10 and G = 2 C10
-            (equations 18 and 19 of the paper).
+            Neo-Hookean constant of the band's rubber (MPa).
         kind : {"sandwich", "printed"}
             The physical section or that of the paper's section 3.3.3.
         """
         require_positive("shear_band_c10_mpa", c10_mpa)
-        build = {"sandwich": _sandwich, "printed": _printed}[kind]
-        ea, ga, ei = build(tyre, c10_mpa)
-        return cls(ea, ga, ei, tyre.band_radius_mm, tyre.tread_width_mm)
+        ea, ga, ei = section_stiffness(tyre.model_dump(), c10_mpa, kind)
+        return cls(float(ea), float(ga), float(ei), tyre.band_radius_mm, tyre.tread_width_mm)
 
 
-def wire_area_mm2(tyre: TyreGeometry) -> float:
-    """Return the cross-section of all wire layers together (mm²)."""
-    wires_per_layer = tyre.tread_width_mm / tyre.wire_pitch_mm
-    return tyre.wire_layers * wires_per_layer * pi / 4 * tyre.wire_diameter_mm**2
+def section_stiffness(
+    dimensions: Mapping[str, Any], c10_mpa: Any, kind: SectionKind = "sandwich"
+) -> tuple[Any, Any, Any]:
+    """Return EA (N), GA (N) and EI (N mm²), of numbers or of arrays of one shape.
 
+    E = 6 C10 and G = 2 C10 (equations 18 and 19 of the paper); EA is the sum over wires and
+    rubber (equation 17).
 
-def _wire_distance_mm(tyre: TyreGeometry) -> float:
-    """Return the radial distance between the inner and the outer wire layers (mm)."""
-    return (tyre.outer_wire_diameter_mm - tyre.inner_wire_diameter_mm) / 2
-
-
-def _sandwich(tyre: TyreGeometry, c10_mpa: float) -> tuple[float, float, float]:
-    """EA, GA, EI with the wires as the skins and the whole rubber thickness as the core."""
-    steel = tyre.wire_modulus_mpa * wire_area_mm2(tyre)
-    area = tyre.tread_width_mm * tyre.shear_band_thickness_mm
-    offset = _wire_distance_mm(tyre) / 2
-    return steel + 6 * c10_mpa * area, 2 * c10_mpa * area, steel * offset**2
-
-
-def _printed(tyre: TyreGeometry, c10_mpa: float) -> tuple[float, float, float]:
-    """EA, GA, EI of section 3.3.3: A = b h and I = h b³/12, h the distance of the layers."""
-    height = _wire_distance_mm(tyre)
-    area = tyre.tread_width_mm * height
-    inertia = height * tyre.tread_width_mm**3 / 12
-    ea = tyre.wire_modulus_mpa * wire_area_mm2(tyre) + 6 * c10_mpa * area
-    return ea, 2 * c10_mpa * area, ea / area * inertia
+    Parameters
+    ----------
+    dimensions : mapping
+        Fields of `TyreGeometry` by name (mm, MPa).
+    c10_mpa : float or array
+        Neo-Hookean constant of the band's rubber (MPa).
+    kind : {"sandwich", "printed"}
+        Sandwich: A = b h with the thickness h of table 3, EI = E_s A_s (distance/2)², the wires
+        being the skins. Printed: A = b h and I = h b³/12 with h the distance of the layers.
+    """
+    d = dimensions
+    width = d["tread_width_mm"]
+    wires = d["wire_layers"] * width / d["wire_pitch_mm"] * pi / 4 * d["wire_diameter_mm"] ** 2
+    steel = d["wire_modulus_mpa"] * wires
+    distance = (d["outer_wire_diameter_mm"] - d["inner_wire_diameter_mm"]) / 2
+    if kind == "sandwich":
+        area = width * d["shear_band_thickness_mm"]
+        return steel + 6 * c10_mpa * area, 2 * c10_mpa * area, steel * (distance / 2) ** 2
+    area = width * distance
+    axial = steel + 6 * c10_mpa * area
+    return axial, 2 * c10_mpa * area, axial / area * distance * width**3 / 12

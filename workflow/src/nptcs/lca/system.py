@@ -1,7 +1,8 @@
 """All three regions joined, for given contact and transition angles: a linear system of eleven.
 
 Unknowns: four modes and the rotation of the compression arc, two modes of the tension arc, the
-constant C = N + M that both arcs share, and the contact region's edge moment m, force H and sinking δ.
+constant C = N + M that both arcs share, and the contact region's edge moment m, horizontal force H
+and sinking δ.
 Equations: u, v, Φ, V, M continuous at θt (N then is), u, v, Φ, N, V, M continuous at θc.
 """
 
