@@ -27,9 +27,7 @@ class Answer:
 
 def _arc(y, epsilon, kappa2, spokes):
     u, v, phi, n, shear, m = y
-    return np.array(
-        [shear + v - phi, epsilon * n - u, kappa2 * m, -shear, n + spokes(u), shear]
-    )
+    return np.array([shear + v - phi, epsilon * n - u, kappa2 * m, -shear, n + spokes(u), shear])
 
 
 def _arc_ends(at_c, left, right, at_t, top):
@@ -149,9 +147,7 @@ def with_law(
     theta_c, theta_t, sinking = guess
     x, y = _first_mesh(5, epsilon, theta_c, theta_t, sinking, points)
     y[:5] = 0
-    solution = solve_bvp(
-        right, conditions, x, y, p=np.array(guess), tol=tolerance, max_nodes=20000
-    )
+    solution = solve_bvp(right, conditions, x, y, p=np.array(guess), tol=tolerance, max_nodes=20000)
     if not solution.success:
         raise RuntimeError(solution.message)
     theta_c, theta_t, sinking = solution.p
