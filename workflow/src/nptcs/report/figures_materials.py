@@ -52,6 +52,8 @@ def stress_strain(
     used = 0
     for specimen, curve in curves.items():
         drawn = thinned(curve)
+        if drawn.empty:
+            continue
         out = specimen in left_out
         colour = GREY if out else COLOURS[used % len(COLOURS)]
         dash = "--" if out or used >= len(COLOURS) else "-"

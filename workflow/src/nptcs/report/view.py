@@ -117,6 +117,23 @@ class Listing:
 
 
 @dataclass(frozen=True)
+class Fact:
+    """One result in words: what, the result, the table that holds it."""
+
+    what: str
+    result: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Results in words, set so that a phone shows them whole."""
+
+    title: str
+    facts: tuple[Fact, ...]
+
+
+@dataclass(frozen=True)
 class Folded:
     """Long text that opens on demand, such as the configuration."""
 
@@ -124,7 +141,7 @@ class Folded:
     text: str
 
 
-Block = TableView | Plots | Text | Listing | Folded
+Block = TableView | Plots | Text | Listing | Facts | Folded
 
 
 @dataclass(frozen=True)
