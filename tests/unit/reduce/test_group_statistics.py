@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.reduction import ReductionSettings, StatisticsSettings
@@ -242,6 +242,7 @@ def test_mnr_flags_5_of_100_clean_samples() -> None:
     assert share == pytest.approx(0.05, abs=3 * np.sqrt(0.05 * 0.95 / 20000))
 
 
+@settings(deadline=None)
 @given(
     values=st.lists(st.floats(1.0, 1e6), min_size=1, max_size=12),
     factor=st.floats(1e-3, 1e3),

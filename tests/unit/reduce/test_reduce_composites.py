@@ -1,10 +1,14 @@
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 
+import nptcs
 from nptcs.config.reduction import AstmD3039, Iso527, ReductionSettings
 from nptcs.errors import InputError
 from nptcs.reduce import reduce_specimen
@@ -231,6 +235,7 @@ def test_property_table_survives_a_csv_round_trip(
 ) -> None:
     strain = np.linspace(0, 0.012, 241)
     table = reduce_specimen(make_curve(strain, 1e5 * strain), make_specimen("001"), SETTINGS)
+    pd.testing.assert_frame_equal(PropertiesTable.validate(table), table)
     table.to_csv(tmp_path / "specimens.csv", index=False)
     pd.testing.assert_frame_equal(read_properties(tmp_path / "specimens.csv"), table)
     assert list(PropertiesTable.to_schema().columns)[:10] == [
@@ -244,3 +249,19 @@ def test_an_interval_that_runs_backwards_is_refused() -> None:
         ValueError, match=r"chord_range\n.*runs from low to high, got 0.003 to 0.001"
     ):
         AstmD3039(chord_range=(0.003, 0.001))
+
+
+def test_reduction_of_a_specimen_imports_neither_scipy_nor_matplotlib() -> None:
+    program = (
+        "import sys, nptcs.reduce; "
+        "print([m for m in ('scipy', 'matplotlib', 'sklearn') if m in sys.modules])"
+    )
+    source = Path(nptcs.__file__).parents[1]
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={"PYTHONPATH": str(source)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.strip() == "[]"

@@ -49,7 +49,7 @@ def _draw_ring(axes: Axes, state: LcaState) -> None:
         axes.plot(part["x_mm"], part["y_mm"], color=COLOURS[region], linewidth=2.5, label=label)
     axes.plot(0, 0, "k+")
     axes.set(aspect="equal", xlabel="x in mm, the hub at 0", ylabel="y in mm")
-    axes.legend(loc="center", fontsize="small", frameon=False)
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.85), fontsize="small", frameon=False)
 
 
 def _draw_pressure(axes: Axes, state: LcaState) -> None:
