@@ -140,6 +140,16 @@ def test_residual_and_largest_error_are_what_they_say() -> None:
     assert "too few specimens" in fit.covariance_rule
 
 
+def test_relative_errors_are_not_evaluated_where_the_stress_is_nearly_nothing() -> None:
+    exact = data(NEO_HOOKEAN, [1.0], high=0.15, n=30)
+    stress = exact.stress.copy()
+    stress[0] *= 2.0  # 0.5 % strain: 8 % of the largest stress
+    stress[-1] *= 1.02
+    noisy = Observation("X", exact.mode, exact.stretch, stress, exact.weight)
+    assert fit_model(NEO_HOOKEAN, [noisy], 0.1).largest_error_percent < 3
+    assert fit_model(NEO_HOOKEAN, [noisy], 0.01).largest_error_percent > 40
+
+
 def test_regression_covariance_is_the_scatter_seen_over_repetitions() -> None:
     rng = np.random.default_rng(2)
     exact = data(MOONEY_RIVLIN, [0.9, 0.25], high=1.0, n=50)

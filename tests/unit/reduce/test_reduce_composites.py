@@ -12,7 +12,8 @@ import nptcs
 from nptcs.config.reduction import AstmD3039, Iso527, ReductionSettings
 from nptcs.errors import InputError
 from nptcs.reduce import reduce_specimen
-from nptcs.tables.properties import PropertiesTable, read_properties
+from nptcs.tables.io import read_table, write_table
+from nptcs.tables.properties import PropertiesTable
 
 Make = Callable[..., Any]
 SETTINGS = ReductionSettings()
@@ -107,6 +108,15 @@ def test_deviations_from_the_standard_go_with_every_value(
         "toe not corrected",
     ):
         assert table["flags"].str.contains(words).all(), words
+
+
+def test_crosshead_strain_is_said_once(make_specimen: Make, make_curve: Make) -> None:
+    strain = np.linspace(0, 0.012, 241)
+    told = ["crosshead strain: modulus and strains hold machine and grips"]
+    table = reduce_specimen(
+        make_curve(strain, 1e5 * strain), make_specimen(), SETTINGS, "crosshead", told
+    )
+    assert (table["flags"].str.count("crosshead strain") == 1).all()
 
 
 def test_compression_is_positive_and_uses_both_faces(
@@ -236,8 +246,9 @@ def test_property_table_survives_a_csv_round_trip(
     strain = np.linspace(0, 0.012, 241)
     table = reduce_specimen(make_curve(strain, 1e5 * strain), make_specimen("001"), SETTINGS)
     pd.testing.assert_frame_equal(PropertiesTable.validate(table), table)
-    table.to_csv(tmp_path / "specimens.csv", index=False)
-    pd.testing.assert_frame_equal(read_properties(tmp_path / "specimens.csv"), table)
+    file = tmp_path / "specimens.csv"
+    write_table(file, table, PropertiesTable)
+    pd.testing.assert_frame_equal(read_table(file, PropertiesTable), table)
     assert list(PropertiesTable.to_schema().columns)[:10] == [
         *("specimen", "test", "material", "property", "value"),
         *("unit", "rule", "range", "points", "flags"),

@@ -70,7 +70,7 @@ def from_chord(name: str, chord: Chord, unit: str, rule: str, nominal: str) -> P
 def to_table(properties: Iterable[Property], specimen: Specimen) -> pd.DataFrame:
     """Return the property table of one specimen, in the columns of `PropertiesTable`.
 
-    It is checked where it crosses a file boundary (`nptcs.tables.properties.read_properties`),
+    It is checked where it crosses a file boundary (`nptcs.tables.io.write_table`),
     not for each specimen: the check costs more than the reduction.
     """
     angle = specimen.orientation_deg
