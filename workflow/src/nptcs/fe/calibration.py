@@ -5,7 +5,9 @@ as much as a spoke, so the tyre's stiffness is followed by a surrogate in the sp
 
     ln K = ln K₀ + β (Δ ln k_t + Δ ln k_c) / 2 ,
 
-that is corrected by a computed tyre for each case at the start of each round (space mapping).
+that is corrected by a computed tyre for each case at the start of each round (space mapping). The
+logarithms of the stiffness are nearly linear in those of the dimensions: the sensitivities of the
+first section serve all rounds.
 """
 
 from __future__ import annotations
@@ -40,6 +42,9 @@ FREE = (
 EXPONENT = 0.53
 STEP = 0.03
 LARGEST_STEP = 0.25
+# points of the tension and compression curves: of the fit itself, and of its sensitivities
+FINE = (8, 10)
+COARSE = (2, 4)
 
 
 @dataclass(frozen=True)
@@ -69,7 +74,7 @@ class Problem:
     spokes: tuple[SpokeTarget, ...]
     tyres: tuple[TyreTarget, ...]
     load_n: float
-    prior: float = 0.1
+    prior: float = 0.03
     spoke_weight: float = 1.0
     tyre_weight: float = 2.0
 
@@ -89,16 +94,18 @@ class Round:
     tyre_stiffness: Array
 
 
-def log_spoke_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> Array:
-    """Ln (k_t, k_c) of the spoke of one case."""
+def log_spoke_stiffness(
+    problem: Problem, steps: tuple[int, int], free: Array, values: Mapping[str, float]
+) -> Array:
+    """Return ln (k_t, k_c) of the spoke of one case."""
     model = problem.with_section(free)
     spoke = SpokeModel(spoke_design(model, problem.tyre, problem.ply, values))
-    result = spoke_stiffness(spoke)
+    result = spoke_stiffness(spoke, *steps)
     return np.log([result.tension_fit.slope, result.compression_fit.slope])
 
 
 def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> float:
-    """Ln K of one case."""
+    """Return ln K of one case."""
     model = problem.with_section(free)
     table = spoke_table(model, spoke_design(model, problem.tyre, problem.ply, values))
     assembled = tyre_model(model, problem.tyre, table, values["shear_band_c10_mpa"])
@@ -109,32 +116,23 @@ def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float
 Mapper = Callable[[Callable[..., Any], Iterable[Any]], Iterable[Any]]
 
 
-def _spokes(problem: Problem, points: list[Array], mapper: Mapper) -> Array:
-    """Ln (k_t, k_c) for each point and each target: array (points, targets, 2)."""
+def _spokes(problem: Problem, steps: tuple[int, int], points: list[Array], mapper: Mapper) -> Array:
+    """Return ln (k_t, k_c) for each point and each target: array (points, targets, 2)."""
     cases = [target.values for target in problem.spokes]
     cases += [target.values for target in problem.tyres]
     jobs = [(point, values) for point in points for values in cases]
-    rows = list(mapper(partial(_spoke_job, problem), jobs))
+    rows = list(mapper(partial(_spoke_job, problem, steps), jobs))
     return np.array(rows).reshape(len(points), len(cases), 2)
 
 
-def _spoke_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> Array:
-    return log_spoke_stiffness(problem, *job)
+def _spoke_job(
+    problem: Problem, steps: tuple[int, int], job: tuple[Array, Mapping[str, float]]
+) -> Array:
+    return log_spoke_stiffness(problem, steps, *job)
 
 
 def _tyre_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> float:
     return log_tyre_stiffness(problem, *job)
-
-
-def _residual(problem: Problem, spokes: Array, offset: Array, free: Array, start: Array) -> Array:
-    """Weighted misfits in per cent, and the pull of the starting section."""
-    count = len(problem.spokes)
-    wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
-    spoke = 100.0 * problem.spoke_weight * (spokes[:count] - wanted).ravel()
-    target = np.log([t.stiffness_n_per_mm for t in problem.tyres])
-    tyre = offset + EXPONENT * spokes[count:].mean(axis=1) - target
-    prior = problem.prior * 10.0 * (free - start)
-    return np.concatenate([spoke, 100.0 * problem.tyre_weight * tyre, prior])
 
 
 def calibrate(
@@ -159,24 +157,50 @@ def calibrate(
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
     free = start.copy()
     with ProcessPoolExecutor(workers) as pool:
+        slopes = _sensitivities(problem, start, pool.map)
         for last in range(rounds + 1):
-            points = [free] if last == rounds else [free, *(free + STEP * np.eye(len(FREE)))]
             jobs = [(free, target.values) for target in problem.tyres]
             tyres = np.array(list(pool.map(partial(_tyre_job, problem), jobs)))
-            spokes = _spokes(problem, points, pool.map)
-            report(Round(free.copy(), np.exp(spokes[0]), np.exp(tyres)))
+            spokes = _spokes(problem, FINE, [free], pool.map)[0]
+            report(Round(free.copy(), np.exp(spokes), np.exp(tyres)))
             if last < rounds:
-                free = free + _step(problem, spokes, tyres, free, start)
+                free = free + _step(problem, slopes, spokes, tyres, free - start)
+                free = np.maximum(free, _smallest(problem))
     return problem.with_section(free)
 
 
-def _step(problem: Problem, spokes: Array, tyres: Array, free: Array, start: Array) -> Array:
+def _smallest(problem: Problem) -> Array:
+    """Lower limits of ln (dimension): the leg must hold the thickest plate of the targets."""
+    thickest = max(target.values["thickness_mm"] for target in problem.tyres)
+    limits = {name: -np.inf for name in FREE}
+    limits["leg_thickness_mm"] = np.log(thickest + 0.1)
+    return np.array([limits[name] for name in FREE])
+
+
+def _sensitivities(problem: Problem, start: Array, mapper: Mapper) -> Array:
+    """∂ ln (k_t, k_c) / ∂ ln (dimension): array (targets, 2, dimensions)."""
+    points = [start, *(start + STEP * np.eye(len(FREE)))]
+    values = _spokes(problem, COARSE, points, mapper)
+    slopes: Array = np.moveaxis((values[1:] - values[0]) / STEP, 0, 2)
+    return slopes
+
+
+def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: Array) -> Array:
+    """Weighted least squares in per cent; the prior pulls towards the first section."""
     count = len(problem.spokes)
-    offset = tyres - EXPONENT * spokes[0, count:].mean(axis=1)
-    base = _residual(problem, spokes[0], offset, free, start)
-    columns = [
-        (_residual(problem, row, offset, free + shift, start) - base) / STEP
-        for row, shift in zip(spokes[1:], STEP * np.eye(len(FREE)), strict=True)
+    wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
+    target = np.log([t.stiffness_n_per_mm for t in problem.tyres])
+    misfit = [
+        problem.spoke_weight * (spokes[:count] - wanted).ravel(),
+        problem.tyre_weight * (tyres - target),
+        problem.prior * moved,
     ]
-    step: Array = np.linalg.lstsq(np.column_stack(columns), -base)[0].astype(float)
+    jacobian = [
+        problem.spoke_weight * slopes[:count].reshape(-1, len(FREE)),
+        problem.tyre_weight * EXPONENT * slopes[count:].mean(axis=1),
+        problem.prior * np.eye(len(FREE)),
+    ]
+    step: Array = np.linalg.lstsq(np.concatenate(jacobian), -np.concatenate(misfit))[0].astype(
+        float
+    )
     return step * min(1.0, LARGEST_STEP / float(np.abs(step).max()))

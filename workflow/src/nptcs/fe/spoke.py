@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -60,6 +60,10 @@ class SpokeState:
         ∂E/∂(u_r, u_θ, φ): N, N, N mm.
     tangent : array (3, 3)
         Second derivatives, by static condensation.
+    sensitivity : array (free unknowns, 3)
+        Derivatives of the inner displacements with respect to the motion.
+    pressures : list of arrays
+        Pressures of the rubber's blocks.
     """
 
     motion: Array
@@ -67,6 +71,8 @@ class SpokeState:
     energy: float
     force: Array
     tangent: Array
+    sensitivity: Array
+    pressures: list[Array]
 
 
 class SpokeModel:
@@ -141,19 +147,7 @@ class SpokeModel:
 
     def rest(self) -> SpokeState:
         """Return the unloaded spoke."""
-        for block in self.rubbers:
-            block.pressure = np.zeros_like(block.pressure)
-        return self._equilibrium(np.zeros(3), np.zeros_like(self.mesh.positions))
-
-    def snapshot(self, state: SpokeState) -> tuple[SpokeState, list[Array]]:
-        """Keep a state with its pressures, to come back to it by `restore`."""
-        return state, [block.pressure.copy() for block in self.rubbers]
-
-    def restore(self, kept: tuple[SpokeState, list[Array]]) -> SpokeState:
-        """Come back to a kept state."""
-        for block, pressure in zip(self.rubbers, kept[1], strict=True):
-            block.pressure = pressure.copy()
-        return self._equilibrium(kept[0].motion, kept[0].displacement)
+        return self._equilibrium(np.zeros(3), np.zeros_like(self.mesh.positions), None)
 
     def move(self, state: SpokeState, motion: Array) -> SpokeState:
         """Go from an equilibrium to another motion of the band.
@@ -165,55 +159,57 @@ class SpokeModel:
         """
         done, step = 0.0, 1.0
         start = state.motion
-        kept = self.snapshot(state)
         while done < 1.0:
             target = start + min(done + step, 1.0) * (motion - start)
             try:
-                state = self._step(state, target)
+                state = self._equilibrium(target, self._linear_guess(state, target), state)
             except (FloatingPointError, np.linalg.LinAlgError) as error:
                 step /= 2.0
                 if step < SMALLEST_CUT:
                     raise SpokeError(
                         f"no equilibrium beyond u_r, u_θ, φ = {np.round(state.motion, 4)}: {error}"
                     ) from error
-                state = self.restore(kept)
                 continue
             done = min(done + step, 1.0)
-            kept = self.snapshot(state)
         return state
 
-    def follow(self, history: list[tuple[SpokeState, list[Array]]], motion: Array) -> SpokeState:
-        """Continue a row of equilibria that differ in u_r only, from a polynomial guess.
+    def follow(self, history: Sequence[SpokeState], motion: Array) -> SpokeState:
+        """Continue a row of equilibria that differ in u_r only.
 
-        Falls back on `move` from the last of them where the guess does not converge.
+        The guess extrapolates the cubic through the last two states and their derivatives; where
+        it does not converge, `move` goes on from the last state.
         """
-        places = np.array([kept[0].motion[0] for kept in history])
-        weights = [
-            np.prod((motion[0] - np.delete(places, i)) / (place - np.delete(places, i)))
-            for i, place in enumerate(places)
-        ]
-        pairs = list(zip(weights, history, strict=True))
-        guess: Array = sum(weight * kept[0].displacement for weight, kept in pairs)
-        guess[self.mesh.top] = self.band_motion(motion)
-        for i, block in enumerate(self.rubbers):
-            block.pressure = sum(weight * kept[1][i] for weight, kept in pairs)
+        if len(history) < 2:
+            return self.move(history[-1], motion)
         try:
-            return self._equilibrium(motion, guess)
+            return self._equilibrium(motion, self._cubic_guess(history, motion), history[-1])
         except (FloatingPointError, np.linalg.LinAlgError):
-            return self.move(self.restore(history[-1]), motion)
+            return self.move(history[-1], motion)
 
-    def _step(self, state: SpokeState, motion: Array) -> SpokeState:
-        """Predict by the last tangent, then iterate to equilibrium."""
-        step = np.zeros((len(self.mesh.positions), 3))
-        step[self.mesh.top] = self.band_motion(motion) - state.displacement[self.mesh.top]
-        step.reshape(-1)[self._free] = self._sensitivity @ (motion - state.motion)
-        displacement = state.displacement + step
-        for block in self.rubbers:
-            block.update_pressure(step)
-        return self._equilibrium(motion, displacement)
+    def _linear_guess(self, state: SpokeState, motion: Array) -> Array:
+        guess = state.displacement.copy()
+        guess.reshape(-1)[self._free] += state.sensitivity @ (motion - state.motion)
+        guess[self.mesh.top] = self.band_motion(motion)
+        return guess
 
-    def _equilibrium(self, motion: Array, displacement: Array) -> SpokeState:
-        """Newton's method at a fixed motion of the band."""
+    def _cubic_guess(self, history: Sequence[SpokeState], motion: Array) -> Array:
+        before, last = history[-2:]
+        length = last.motion[0] - before.motion[0]
+        t = (motion[0] - before.motion[0]) / length
+        values = (1.0 - t) ** 2 * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t)
+        slopes = length * t * (1.0 - t) ** 2, length * t * t * (t - 1.0)
+        guess = values[0] * before.displacement + values[1] * last.displacement
+        inner = guess.reshape(-1)[self._free]
+        inner += slopes[0] * before.sensitivity[:, 0] + slopes[1] * last.sensitivity[:, 0]
+        guess[self.mesh.top] = self.band_motion(motion)
+        return guess
+
+    def _equilibrium(
+        self, motion: Array, displacement: Array, near: SpokeState | None
+    ) -> SpokeState:
+        """Newton's method at a fixed motion of the band, from the pressures of a state near by."""
+        for i, block in enumerate(self.rubbers):
+            block.pressure = np.zeros_like(block.pressure) if near is None else near.pressures[i]
         for _ in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
             factor = BandedCholesky(self._pattern.assemble([r.tangent for r in responses]))
@@ -252,9 +248,9 @@ class SpokeModel:
             if len(edge):
                 local = np.matmul(response.tangent[edge], whole[dofs[edge]])
                 np.add.at(product, dofs[edge], local)
-        self._sensitivity = -factor.solve(product[self._free])
+        sensitivity = -factor.solve(product[self._free])
         reaction = force[self._top_dofs]
-        tangent = slope.T @ product[self._top_dofs] + product[self._free].T @ self._sensitivity
+        tangent = slope.T @ product[self._top_dofs] + product[self._free].T @ sensitivity
         tangent[2, 2] += reaction @ curve
         return SpokeState(
             motion=np.array(motion, dtype=float),
@@ -262,4 +258,6 @@ class SpokeModel:
             energy=self.scale * energy,
             force=self.scale * (slope.T @ reaction),
             tangent=self.scale * 0.5 * (tangent + tangent.T),
+            sensitivity=sensitivity,
+            pressures=[block.pressure.copy() for block in self.rubbers],
         )

@@ -83,8 +83,18 @@ def _midpoints(edges: Array) -> Array:
     return nodes
 
 
-def _section(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array, Array]:
-    """Heights of the node rows, x of their nodes, and which element rows carry the plate."""
+def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array, Array]:
+    """Lay the section's nodes out.
+
+    Returns
+    -------
+    rows : array (rows,)
+        Heights of the node rows, mm.
+    x : array (rows, columns)
+        Circumferential places of the nodes, mm; the plate's layer lies between the two in the
+        middle.
+    has_plate : array (element rows,) of bool
+    """
     heights, thickness = geometry.section()
     lower = _subdivide(np.array(heights), mesh.rows)
     edges = np.concatenate([lower, geometry.height_mm - lower[-2::-1]])
@@ -102,6 +112,13 @@ def _section(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array, Ar
     middle = np.minimum(middle, geometry.height_mm - middle)
     has_plate = (middle > geometry.plate_foot_gap_mm) & (middle < half - geometry.plate_mid_gap_mm)
     return rows, centre[:, None] + offsets, has_plate
+
+
+def axial_grid(mesh: SpokeMesh, spacing_mm: float, plate_width_mm: float) -> Array:
+    """Axial places of the node planes, from one edge of a plate to the same edge of the next."""
+    half = plate_width_mm / 2.0
+    breaks = np.array([-half, half, spacing_mm - half])
+    return _midpoints(_subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))
 
 
 def build_period(
@@ -126,12 +143,8 @@ def build_period(
         raise ValueError(
             f"spacing {spacing_mm} mm leaves no rubber beside {plate_width_mm} mm plates"
         )
-    rows, x, has_plate = _section(geometry, mesh)
-    half = plate_width_mm / 2.0
-    edges = _subdivide(
-        np.array([-half, half, spacing_mm - half]), (mesh.plate_columns, mesh.gap_columns)
-    )
-    y = _midpoints(edges)
+    rows, x, has_plate = section_grid(geometry, mesh)
+    y = axial_grid(mesh, spacing_mm, plate_width_mm)
     across = len(y) - 1
     columns = x.shape[1]
     positions = np.empty((len(rows), across, columns, 3))
@@ -142,7 +155,7 @@ def build_period(
     inner = 2 * mesh.columns
     starts = [*range(0, inner, 2), *range(inner + 1, columns - 1, 2)]
     every = range(len(has_plate))
-    strips = range(len(edges) - 1)
+    strips = range(across // 2)
     plated = [strip < mesh.plate_columns for strip in strips]
     layer_all = [(r, s) for r in every for s in strips if not (has_plate[r] and plated[s])]
     plate_all = [(r, s) for r in every for s in strips if has_plate[r] and plated[s]]

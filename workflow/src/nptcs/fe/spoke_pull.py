@@ -59,14 +59,12 @@ def pull(model: SpokeModel, end_mm: float, steps: int) -> tuple[Array, Array]:
         Both in the direction of the motion, the unloaded spoke first.
     """
     places = np.linspace(0.0, end_mm, steps + 1)
-    history = [model.snapshot(model.rest())]
-    forces = [0.0]
+    history = [model.rest()]
     for u_r in places[1:]:
-        state = model.follow(history[-3:], np.array([u_r, 0.0, 0.0]))
-        history.append(model.snapshot(state))
-        forces.append(float(state.force[0]))
+        history.append(model.follow(history, np.array([u_r, 0.0, 0.0])))
+    forces = np.array([state.force[0] for state in history])
     sign = np.sign(end_mm)
-    return sign * places, sign * np.array(forces)
+    return sign * places, sign * forces
 
 
 @dataclass(frozen=True)

@@ -136,7 +136,7 @@ def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
 
 
 def _walk(model: SpokeModel, options: SpokeTableOptions) -> Iterator[SpokeState]:
-    """For each (u_θ, φ): from u_r = 0 along u_r to both ends, guessing from the last three."""
+    """For each (u_θ, φ): from u_r = 0 along u_r to both ends, guessing from the last two."""
     radial = chebyshev_nodes(*options.u_r_mm, options.samples[0])
     sides = [
         chebyshev_nodes(*limits, count)
@@ -144,16 +144,14 @@ def _walk(model: SpokeModel, options: SpokeTableOptions) -> Iterator[SpokeState]
             (options.u_theta_mm, options.phi_rad), options.samples[1:], strict=True
         )
     ]
-    rest = model.snapshot(model.rest())
+    rest = model.rest()
     for u_theta, phi in product(*sides):
-        state = model.move(model.restore(rest), np.array([0.0, u_theta, phi]))
-        start = model.snapshot(state)
+        start = model.move(rest, np.array([0.0, u_theta, phi]))
         for heights in (radial[radial > 0.0], radial[radial < 0.0][::-1]):
             history = [start]
             for u_r in heights:
-                state = model.follow(history[-3:], np.array([u_r, u_theta, phi]))
-                history.append(model.snapshot(state))
-                yield state
+                history.append(model.follow(history, np.array([u_r, u_theta, phi])))
+                yield history[-1]
 
 
 def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:

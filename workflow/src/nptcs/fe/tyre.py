@@ -30,8 +30,12 @@ class TyreError(RuntimeError):
     """The load could not be reached; `path` holds what was."""
 
     def __init__(self, message: str, path: LoadPath) -> None:
-        super().__init__(message)
+        # both in args, so that it survives the way back from a worker process
+        super().__init__(message, path)
         self.path = path
+
+    def __str__(self) -> str:
+        return str(self.args[0])
 
 
 @dataclass
