@@ -1,0 +1,43 @@
+"""``nptcs inspect``: show what detection makes of a raw file."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import Any
+
+
+def register(subparsers: Any) -> None:
+    """Declare the arguments."""
+    parser = subparsers.add_parser(
+        "inspect", help="show encoding, columns and units of a raw file", description=__doc__
+    )
+    parser.add_argument("file", type=Path, help="raw file of a test machine or camera")
+    parser.add_argument("--format", default="", help="name of a profile; default: detect")
+    parser.add_argument(
+        "--formats", type=Path, default=Path("config/formats"), help="folder of profiles"
+    )
+    parser.add_argument(
+        "--write-profile", type=Path, metavar="YAML", help="write a profile to start from"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the inspection; 0 if the file was understood."""
+    from nptcs.errors import InputError
+    from nptcs.files import write_text
+    from nptcs.ingest.inspect import describe, draft_profile, inspect_file
+    from nptcs.ingest.profiles import choose, load_profiles
+
+    profiles = load_profiles(arguments.formats)
+    declared = choose(arguments.format, profiles, "") if arguments.format else None
+    inspection = inspect_file(arguments.file, profiles, declared)
+    print(describe(inspection))
+    if arguments.write_profile is not None:
+        target = arguments.write_profile
+        if target.exists():
+            raise InputError("file exists already", "choose another name", target)
+        write_text(target, draft_profile(inspection, target.stem))
+        print(f"\nprofile written to {target}: check every line of it")
+    return 0 if inspection.tests and inspection.problem is None else 1

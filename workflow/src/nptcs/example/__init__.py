@@ -1,0 +1,1 @@
+"""The seeded, synthetic example data: known truth, realistic files."""

@@ -1,0 +1,149 @@
+"""Simulated tests: a specimen drawn from its series, loaded to its end, and measured."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.example import truth
+from nptcs.example.materials import POISSON_45, shear_stress, yeoh_c10, yeoh_stress
+from nptcs.example.truth import Series
+from nptcs.tables.specimens import TestType
+
+Array = NDArray[np.float64]
+
+POISSON_CV = 0.03
+LOAD_CELL_NOISE = 2e-4
+"""Standard deviation of the force, as a share of the largest force of the test."""
+
+
+@dataclass(frozen=True)
+class Readings:
+    """What the machine and the strain measurement would show, free of their noise.
+
+    Strains are those of the material; forces and strains are negative in compression.
+    """
+
+    time_s: Array
+    force_n: Array
+    axial: Array
+    transverse: Array
+
+
+@dataclass(frozen=True)
+class Draw:
+    """One specimen: stations in mm, and its own truth."""
+
+    name: str
+    width_mm: tuple[float, ...]
+    thickness_mm: tuple[float, ...]
+    modulus: float
+    poisson: float
+    strength_mpa: float
+
+    @property
+    def area_mm2(self) -> float:
+        """Mean width × mean thickness."""
+        return float(np.mean(self.width_mm) * np.mean(self.thickness_mm))
+
+
+def draw(series: Series, number: int, random: np.random.Generator) -> Draw:
+    """Draw a specimen: modulus (E, G or C10), Poisson's ratio, strength, three stations."""
+    name = f"{series.prefix}-{number}"
+    modulus = _mean_modulus(series) * (1 + series.modulus_cv * random.standard_normal())
+    poisson = _mean_poisson(series) * (1 + POISSON_CV * random.standard_normal())
+    strength = series.strength_mpa * (1 + series.strength_cv * random.standard_normal())
+    if name in truth.LEFT_OUT:
+        strength *= 0.35
+    width = series.width_mm * (1 + 0.004 * random.standard_normal(3))
+    thickness = series.thickness_mm * (1 + 0.008 * random.standard_normal(3))
+    return Draw(
+        name,
+        tuple(round(float(station), 2) for station in width),
+        tuple(round(float(station), 3) for station in thickness),
+        modulus,
+        poisson,
+        strength,
+    )
+
+
+def _mean_modulus(series: Series) -> float:
+    if series.test is TestType.SHEAR:
+        return truth.G12_MPA
+    if series.test is TestType.RUBBER_TENSION:
+        return truth.C10_MPA[series.material]
+    return truth.E1_MPA if series.orientation_deg == 0 else truth.E2_MPA
+
+
+def _mean_poisson(series: Series) -> float:
+    if series.test is TestType.SHEAR:
+        return POISSON_45
+    if series.test is TestType.RUBBER_TENSION:
+        return 0.5
+    return truth.NU12 if series.orientation_deg == 0 else truth.NU21
+
+
+def load_to_break(series: Series, specimen: Draw, rate_hz: float) -> Readings:
+    """Load a specimen at constant strain rate until it breaks, and record on after that."""
+    strain = np.linspace(0, _largest_strain(series), 20_001)
+    stress, axial, transverse = _response(series, specimen, strain)
+    broken = stress >= specimen.strength_mpa
+    end = int(np.argmax(broken)) if broken.any() else len(strain) - 1
+    time = np.arange(0, series.duration_s * 1.03, 1 / rate_hz)
+    at = strain[end] * time / series.duration_s
+    sign = -1.0 if series.test is TestType.COMPRESSION else 1.0
+    force = sign * np.interp(at, strain[: end + 1], stress[: end + 1]) * specimen.area_mm2
+    force[at > strain[end]] *= 0.04
+    return Readings(
+        time,
+        force,
+        sign * np.interp(at, strain, axial),
+        -sign * np.interp(at, strain, transverse),
+    )
+
+
+def _largest_strain(series: Series) -> float:
+    if series.test is TestType.RUBBER_TENSION:
+        return 1.6
+    return 0.09 if series.test is TestType.SHEAR else 0.03
+
+
+def _response(series: Series, specimen: Draw, strain: Array) -> tuple[Array, Array, Array]:
+    """Stress, axial strain and transverse contraction over the strain that drives the test."""
+    if series.test is TestType.SHEAR:
+        axial = strain / (1 + specimen.poisson)
+        return 2 * shear_stress(strain, specimen.modulus), axial, specimen.poisson * axial
+    if series.test is TestType.RUBBER_TENSION:
+        contraction = 1 - (1 + strain) ** -0.5
+        return yeoh_stress(strain, yeoh_c10(specimen.modulus)), strain, contraction
+    return specimen.modulus * strain, strain, specimen.poisson * strain
+
+
+def with_noise(readings: Array, deviation: float, random: np.random.Generator) -> Array:
+    """Add normal noise of a standard deviation."""
+    return readings + deviation * random.standard_normal(len(readings))
+
+
+def cell_force(readings: Readings, random: np.random.Generator) -> Array:
+    """Force as the load cell shows it."""
+    return with_noise(
+        readings.force_n, LOAD_CELL_NOISE * float(np.abs(readings.force_n).max()), random
+    )
+
+
+def with_toe(strain: Array, force: Array, toe: float, force_scale: float) -> Array:
+    """Add the slack that a seating extensometer shows: toe · (1 - exp(-F / scale))."""
+    return strain + toe * (1 - np.exp(-np.abs(force) / force_scale))
+
+
+def from_preload(readings: Readings, preload_n: float) -> Readings:
+    """Start the record at a preload, with time and strains set to zero there."""
+    first = int(np.argmax(np.abs(readings.force_n) >= preload_n))
+    return Readings(
+        readings.time_s[first:] - readings.time_s[first],
+        readings.force_n[first:],
+        readings.axial[first:] - readings.axial[first],
+        readings.transverse[first:] - readings.transverse[first],
+    )

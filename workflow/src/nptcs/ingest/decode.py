@@ -1,0 +1,114 @@
+"""Bytes of a text file into text, with the reason for the encoding chosen."""
+
+from __future__ import annotations
+
+import codecs
+from collections.abc import Iterable
+from dataclasses import dataclass
+from pathlib import Path
+
+from nptcs.errors import InputError
+
+BYTE_ORDER_MARKS = {
+    codecs.BOM_UTF8: "utf-8-sig",
+    codecs.BOM_UTF16_LE: "utf-16",
+    codecs.BOM_UTF16_BE: "utf-16",
+}
+CANDIDATES = ("cp1252", "cp1250", "gb18030")
+"""Encodings of test machines that are not UTF-8; all agree on digits and separators."""
+HEAD_BYTES = 20_000
+
+
+@dataclass(frozen=True)
+class Decoded:
+    """A file's text, the encoding, and why that encoding."""
+
+    text: str
+    encoding: str
+    note: str
+
+
+def decode(raw: bytes, path: Path, declared: str, words: Iterable[str]) -> Decoded:
+    """Decode a text file.
+
+    Parameters
+    ----------
+    raw : bytes
+        The file's content.
+    path : Path
+        For messages.
+    declared : str
+        Encoding that a profile states; it wins. Empty: find it.
+    words : iterable of str
+        Column names and labels of all profiles: the encoding that yields most of them wins.
+
+    Raises
+    ------
+    InputError
+        If the file is empty or binary, or the declared encoding does not fit.
+    """
+    if not raw.strip():
+        raise InputError("file is empty", "export the test again", path)
+    for mark, encoding in BYTE_ORDER_MARKS.items():
+        if raw.startswith(mark):
+            return _strict(raw, encoding, path, "byte order mark")
+    if b"\x00" in raw:
+        return _wide(raw, path)
+    if declared:
+        return _strict(raw, declared, path, "declared by the profile")
+    try:
+        text = raw.decode("utf-8")
+    except UnicodeDecodeError:
+        return _eight_bit(raw, path, words)
+    return Decoded(text, "ascii" if raw.isascii() else "utf-8", "valid")
+
+
+def _strict(raw: bytes, encoding: str, path: Path, note: str) -> Decoded:
+    try:
+        return Decoded(raw.decode(encoding), encoding, note)
+    except LookupError as error:
+        raise InputError("unknown encoding", "e.g. utf-8, cp1252", path, value=encoding) from error
+    except UnicodeDecodeError as error:
+        line = raw[: error.start].count(b"\n") + 1
+        raise InputError(
+            f"is not {encoding} ({note})", "state the right encoding in the profile", path, line
+        ) from error
+
+
+def _wide(raw: bytes, path: Path) -> Decoded:
+    """Two bytes a character without a mark, or no text at all."""
+    for encoding, zeros in (("utf-16-le", raw[1::2]), ("utf-16-be", raw[0::2])):
+        if len(raw) % 2 == 0 and zeros.count(0) > 0.8 * len(zeros):
+            return _strict(raw, encoding, path, "every second byte is zero")
+    raise InputError("is binary, not text", "export it as text or as XLSX", path)
+
+
+def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
+    """Choose among `CANDIDATES` by the words that each makes readable."""
+    possible: dict[str, str] = {}
+    for encoding in CANDIDATES:
+        try:
+            possible[encoding] = raw.decode(encoding)
+        except UnicodeDecodeError:
+            continue
+    special = {word.casefold() for word in words if not word.isascii()}
+    hits = {
+        encoding: sum(word in text[:HEAD_BYTES].casefold() for word in special)
+        for encoding, text in possible.items()
+    }
+    best = max(hits, key=hits.__getitem__, default="")
+    if best and hits[best]:
+        note = f"{hits[best]} known words are readable; others: {hits}"
+        return Decoded(possible[best], best, note)
+    from charset_normalizer import from_bytes
+
+    guess = from_bytes(raw[:HEAD_BYTES], cp_isolation=list(CANDIDATES)).best()
+    if guess is not None and guess.encoding in possible:
+        note = f"charset-normalizer, out of {', '.join(CANDIDATES)}"
+        return Decoded(possible[guess.encoding], guess.encoding, note)
+    if "cp1252" in possible:
+        return Decoded(possible["cp1252"], "cp1252", "no known word, Western Europe taken")
+    text = raw.decode("utf-8", errors="replace")
+    if text.count("\ufffd") > 0.05 * len(text):
+        raise InputError("is not text in a known encoding", "state it in a profile", path)
+    return Decoded(text, "utf-8 (damaged)", "bytes that are no text are shown as \ufffd")

@@ -1,0 +1,169 @@
+"""What detection makes of one file, in words, and a profile to start from."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from nptcs.errors import InputError
+from nptcs.ingest.blocks import find_blocks
+from nptcs.ingest.columns import Test, tests_in
+from nptcs.ingest.dialect import Dialect
+from nptcs.ingest.profiles import PLAIN, FormatProfile
+from nptcs.ingest.rawtable import OpenedFile, header_labels, matching, open_file, sources_of
+from nptcs.ingest.units import DIMENSION, FACTORS, factor
+
+ROWS_SHOWN = 3
+
+
+@dataclass
+class Inspection:
+    """One file as one profile sees it."""
+
+    opened: OpenedFile
+    profile: FormatProfile
+    reason: str
+    dialect: Dialect | None = None
+    tests: list[Test] = field(default_factory=list)
+    problem: InputError | None = None
+
+
+def inspect_file(
+    path: Path, profiles: Mapping[str, FormatProfile], declared: FormatProfile | None = None
+) -> Inspection:
+    """Open a file, detect its format and find its tables; a problem is kept, not raised.
+
+    Raises
+    ------
+    InputError
+        If the file cannot even be opened.
+    """
+    opened = open_file(path, profiles, declared or profiles[PLAIN])
+    if declared is not None:
+        fitting, reason = [declared], "named on the command line"
+    else:
+        fitting, reason = matching(opened, profiles)
+    profile = fitting[0].for_head(opened.head)
+    result = Inspection(opened, profile, reason)
+    try:
+        sources, result.dialect = sources_of(opened, profile)
+        for source in sources:
+            blocks = find_blocks(source, path, profile.unnamed_columns)
+            result.tests += tests_in(source, blocks, profile, path)
+    except InputError as error:
+        result.problem = error
+    return result
+
+
+def describe(inspection: Inspection) -> str:
+    """Return the inspection as text for a terminal."""
+    opened = inspection.opened
+    lines = [
+        f"file       {opened.path}",
+        f"sha256     {opened.sha256}",
+        f"content    {opened.kind}",
+        *(f"           {note}" for note in opened.notes),
+        f"format     {inspection.profile.name}: {inspection.profile.title}",
+        f"           {inspection.reason}",
+    ]
+    if inspection.dialect is not None:
+        lines.append(f"numbers    {inspection.dialect.describe()}")
+    for test in inspection.tests:
+        lines += ["", *_describe_test(test, inspection)]
+    if inspection.problem is not None:
+        lines += ["", f"problem    {inspection.problem}"]
+    elif not inspection.tests:
+        lines += ["", "problem    no table of five rows or more"]
+    return "\n".join(lines)
+
+
+def _describe_test(test: Test, inspection: Inspection) -> list[str]:
+    block = test.block
+    lines = [
+        f"table {test.label}: {len(block.rows_of_data)} rows, lines {block.first + 1} to "
+        f"{block.last}, names "
+        + (f"in line {block.names_row + 1}" if block.names_row is not None else "absent")
+    ]
+    labels = header_labels(test, inspection.profile, inspection.dialect)
+    lines += [f"  {name}: {found.text} {found.unit}".rstrip() for name, found in labels.items()]
+    quantities = {column.position: name for name, column in test.quantities.items()}
+    samples = [test.source.cells(row) for row in block.rows_of_data[:ROWS_SHOWN]]
+    lines.append(f"  {'column':<28} {'unit':<10} {'read as':<18} first values")
+    for column in block.columns:
+        quantity = quantities.get(column.position, "-")
+        unit = column.unit or _declared_unit(quantity, inspection.profile)
+        values = "  ".join(
+            cells[column.position] if column.position < len(cells) else "" for cells in samples
+        )
+        name = f"{column.group}: {column.name}" if column.group else column.name or "(no name)"
+        lines.append(f"  {name:<28} {unit:<10} {quantity:<18} {values}")
+    lines += [f"  note: {note}" for note in block.notes]
+    return lines
+
+
+def _declared_unit(quantity: str, profile: FormatProfile) -> str:
+    unit = profile.units.get(quantity)  # type: ignore[call-overload]
+    return f"{unit} (profile)" if unit else "none"
+
+
+def draft_profile(inspection: Inspection, name: str) -> str:
+    """Write a profile for files like this one, to be completed by hand.
+
+    What was detected is declared; what could not be understood stands there as a comment.
+    """
+    name = re.sub(r"[^a-z0-9]+", "-", name.casefold()).strip("-") or "new-format"
+    dialect, opened = inspection.dialect, inspection.opened
+    lines = [
+        f"# Draft from {opened.path.name}: check every line, then name it in the sheet",
+        "# (force_format, strain_format), or give it a signature to have it detected.",
+        f"name: {name}",
+        f"title: {_quoted(opened.path.name)}",
+        f"kind: {opened.kind}",
+    ]
+    if opened.kind == "text":
+        encoding = opened.encoding if "damaged" not in opened.encoding else ""
+        lines.append(f"encoding: {encoding}")
+    if dialect is not None:
+        mark = "tab" if dialect.delimiter == "\t" else dialect.delimiter
+        lines += [f"delimiter: {_quoted(mark)}", f"decimal: {_quoted(dialect.decimal)}"]
+        if dialect.thousands:
+            lines.append(f"thousands: {_quoted(dialect.thousands)}")
+    test = max(inspection.tests, key=lambda one: len(one.block.rows_of_data), default=None)
+    if test is not None:
+        lines += _draft_columns(test, inspection.profile)
+    return "\n".join(lines) + "\n"
+
+
+def _quoted(text: str) -> str:
+    return "'" + text.replace("'", "''") + "'"
+
+
+def _draft_columns(test: Test, profile: FormatProfile) -> list[str]:
+    named = any(column.name for column in test.block.columns)
+    quantities = {column.position: name for name, column in test.quantities.items()}
+    lines, unknown, units, comments = [], [], [], []
+    for column in test.block.columns:
+        quantity = quantities.get(column.position)
+        if quantity is None:
+            unknown.append(f"#   {_quoted(column.name)} in {column.unit or 'no unit'}")
+            continue
+        lines.append(f"  {quantity}: [{_quoted(column.name)}]")
+        unit = column.unit or profile.units.get(quantity)  # type: ignore[call-overload]
+        if unit and factor(quantity, unit) is not None:
+            units.append(f"  {quantity}: {_quoted(unit)}")
+        else:
+            choices = ", ".join(FACTORS[DIMENSION[quantity]])
+            comments.append(f"#   {quantity}: one of {choices}")
+    if not named:
+        order = ", ".join("'-'" for _ in test.block.columns)
+        return [
+            "# no names: put a quantity for each column: " + ", ".join(DIMENSION),
+            f"columns_in_order: [{order}]",
+        ]
+    lines = ["columns:", *lines] if lines else ["columns: {}"]
+    lines += ["# columns not used:", *unknown] if unknown else []
+    lines += ["units:", *units] if units else []
+    lines += ["# units that the file does not state:", *comments] if comments else []
+    return lines

@@ -1,0 +1,55 @@
+"""Readings of one test on common rows, between raw files and the tidy curve."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.tables.curves import Step
+
+Array = NDArray[np.float64]
+
+STRAIN_CHANNELS = (
+    "strain",
+    "strain_transverse",
+    "strain_back",
+    "strain_xx",
+    "strain_yy",
+    "stretch",
+    "extension",
+    "displacement",
+)
+
+
+@dataclass
+class Signals:
+    """Quantity → readings (s, N, mm, MPa, dimensionless), all of one length.
+
+    `steps` and `flags` tell what was done to them; both end up in the ingest record.
+    """
+
+    values: dict[str, Array]
+    steps: list[Step] = field(default_factory=list)
+    flags: list[str] = field(default_factory=list)
+
+    def __len__(self) -> int:
+        return len(next(iter(self.values.values())))
+
+    def take(self, rows: NDArray[np.bool_] | NDArray[np.intp]) -> None:
+        """Keep some rows."""
+        self.values = {name: readings[rows] for name, readings in self.values.items()}
+
+    def note(self, name: str, changed: str, **numbers: float) -> None:
+        """Log a step that was on."""
+        self.steps.append(Step(name=name, on=True, changed=changed, numbers=numbers))
+
+    def skipped(self, name: str) -> None:
+        """Log a step that is switched off."""
+        self.steps.append(Step(name=name, on=False, changed="switched off"))
+
+
+def largest(readings: Array) -> float:
+    """Return the reading of largest magnitude, with its sign; NaN does not count."""
+    return float(readings[np.nanargmax(np.abs(readings))])

@@ -1,0 +1,216 @@
+"""One specimen from its raw files to its tidy curve and the record of how."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Literal
+
+import numpy as np
+import pandas as pd
+
+from nptcs.config.ingest import IngestSettings
+from nptcs.errors import InputError
+from nptcs.ingest.conditioning import (
+    cut_end,
+    drop_empty_rows,
+    empty_after_removal,
+    mark_dead,
+    zero_force,
+)
+from nptcs.ingest.folder import find_file
+from nptcs.ingest.origin import correct_origin
+from nptcs.ingest.pairing import pair
+from nptcs.ingest.plausible import check_labels, check_machine_area, check_physics
+from nptcs.ingest.profiles import FormatProfile, choose
+from nptcs.ingest.rawtable import RawTable, read_raw
+from nptcs.ingest.signals import Signals
+from nptcs.ingest.strains import orient, resolve_strains
+from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.tables.specimens import Specimen
+
+FEWEST_ROWS = 5
+
+
+@dataclass(frozen=True)
+class Ingested:
+    """The curve of a specimen (`nptcs.tables.curves.Curve`) and its record."""
+
+    curve: pd.DataFrame
+    record: IngestRecord
+
+
+def ingest_specimen(
+    specimen: Specimen,
+    folder: str | Path,
+    settings: IngestSettings,
+    profiles: Mapping[str, FormatProfile],
+) -> Ingested:
+    """Read, pair and condition the raw files of one specimen.
+
+    Parameters
+    ----------
+    specimen : Specimen
+        Its row of the sheet.
+    folder : str or Path
+        Folder of the sheet, to which the file names are relative.
+    settings : IngestSettings
+        Conditioning steps.
+    profiles : mapping of str to FormatProfile
+        All known formats (`nptcs.ingest.profiles.load_profiles`).
+
+    Returns
+    -------
+    Ingested
+        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive, and
+        ``record``.
+
+    Raises
+    ------
+    InputError
+        If a file cannot be read with certainty, or physics contradicts it.
+    """
+    tables = _read(specimen, Path(folder), profiles)
+    load, strain = tables[0], tables[-1]
+    signals = _pair(tables, specimen, settings)
+    mark_dead(signals, settings.missing_values)
+    _require_force(signals, specimen, load)
+    check_machine_area(signals, specimen, load, settings.plausible)
+    source = resolve_strains(
+        signals,
+        specimen,
+        strain.columns,
+        strain.profile.strain_source,
+        settings.compliance.compliance_mm_per_n,
+        strain.path,
+    )
+    drop_empty_rows(signals, settings.missing_values)
+    _require_rows(signals, specimen, strain)
+    orient(signals, specimen, strain.path)
+    zero_force(signals, settings.force_zero)
+    signals.values["stress"] = signals.values["force"] / specimen.area_mm2
+    cut_end(signals, settings.end_of_test)
+    empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
+    correct_origin(signals, settings.strain_origin, specimen.test.is_rubber)
+    check_physics(signals, specimen, tables, settings.plausible)
+    for table in tables:
+        check_labels(signals, specimen, table, settings.plausible)
+    return Ingested(_curve(signals), _record(specimen, tables, signals, source))
+
+
+def _read(
+    specimen: Specimen, folder: Path, profiles: Mapping[str, FormatProfile]
+) -> tuple[RawTable, ...]:
+    """Read the force file, and the strain file if there is one."""
+    wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
+    if specimen.strain_file:
+        wanted.append(
+            (specimen.strain_file, specimen.strain_format, specimen.strain_part, "strain")
+        )
+    tables = []
+    for name, format_name, part, role in wanted:
+        declared = choose(format_name, profiles, specimen.specimen) if format_name else None
+        try:
+            table = read_raw(
+                find_file(folder, name),
+                profiles,
+                declared=declared,
+                part=part,
+                specimen=specimen.specimen,
+                role=role if len(wanted) > 1 else "force and strain",
+            )
+        except InputError as error:
+            error.specimen = specimen.specimen
+            raise
+        tables.append(table)
+    return tuple(tables)
+
+
+def _pair(tables: tuple[RawTable, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
+    if len(tables) == 1:
+        return Signals(dict(tables[0].values))
+    return pair(tables[0], tables[1], specimen.time_offset_s, settings.pairing, specimen.specimen)
+
+
+def _require_force(signals: Signals, specimen: Specimen, table: RawTable) -> None:
+    """Make sure of a force: the file's own, or its stress times the sheet's area."""
+    if "force" not in signals.values:
+        signals.values["force"] = signals.values["stress"] * specimen.area_mm2
+        signals.flags.append("stress as the file gives it; its area could not be checked")
+    force = signals.values["force"]
+    if np.isnan(force).all() or not np.nanmax(np.abs(force)):
+        raise InputError(
+            "force is empty or zero throughout",
+            "check the force column in the file",
+            table.path,
+            column=table.columns.get("force"),
+            specimen=specimen.specimen,
+        )
+
+
+def _require_rows(signals: Signals, specimen: Specimen, table: RawTable) -> None:
+    measured = int((~np.isnan(signals.values["strain_axial"])).sum())
+    if measured < FEWEST_ROWS:
+        raise InputError(
+            f"only {measured} rows hold force and strain",
+            "check the columns of the files (nptcs inspect FILE)",
+            table.path,
+            specimen=specimen.specimen,
+        )
+
+
+def _curve(signals: Signals) -> pd.DataFrame:
+    values = signals.values
+    nothing = np.full(len(signals), np.nan)
+    frame = pd.DataFrame(
+        {
+            "time_s": values.get("time", nothing),
+            "force_n": values["force"],
+            "stress_mpa": values["stress"],
+            **{name: values[name] for name in CURVE_COLUMNS[3:]},
+        }
+    )
+    return Curve.validate(frame)
+
+
+def _record(
+    specimen: Specimen, tables: tuple[RawTable, ...], signals: Signals, source: str
+) -> IngestRecord:
+    roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
+        ("force", "strain") if len(tables) > 1 else ("force and strain",)
+    )
+    names = (specimen.force_file, specimen.strain_file)
+    return IngestRecord(
+        specimen=specimen.specimen,
+        status="ok",
+        files=tuple(
+            FileRecord(
+                path=name,
+                sha256=table.sha256,
+                role=role,
+                format=table.profile.name,
+                detected=table.detected,
+                encoding=table.encoding,
+                delimiter=table.delimiter,
+                decimal=table.decimal,
+                header_line=table.header_line,
+                first_line=table.first_line,
+                rows=table.rows,
+                units=table.units,
+                columns=table.columns,
+                notes=table.notes,
+            )
+            for name, table, role in zip(names, tables, roles, strict=False)
+        ),
+        geometry=Geometry(
+            mean_width_mm=specimen.mean_width_mm,
+            mean_thickness_mm=specimen.mean_thickness_mm,
+            area_mm2=specimen.area_mm2,
+            width_stations=len(specimen.width_mm),
+            thickness_stations=len(specimen.thickness_mm),
+        ),
+        strain_source=source,
+        steps=tuple(signals.steps),
+        flags=tuple(dict.fromkeys(signals.flags)),
+    )

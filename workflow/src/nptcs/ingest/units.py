@@ -1,0 +1,182 @@
+"""Units as machines write them, and the factor to s, N, mm, MPa and dimensionless strain."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+
+_INCH = 25.4
+_POUND = 4.4482216152605
+_PSI = _POUND / _INCH**2
+
+FACTORS: dict[str, dict[str, float]] = {
+    "time": {"s": 1, "sec": 1, "sec.": 1, "seconds": 1, "ms": 1e-3, "min": 60, "h": 3600, "秒": 1},
+    "force": {
+        "N": 1,
+        "kN": 1e3,
+        "MN": 1e6,
+        "mN": 1e-3,
+        "daN": 10,
+        "lbf": _POUND,
+        "lb": _POUND,
+        "lbs": _POUND,
+        "klbf": 1e3 * _POUND,
+        "kip": 1e3 * _POUND,
+        "kgf": 9.80665,
+        "gf": 9.80665e-3,
+        "牛": 1,
+        "千牛": 1e3,
+    },
+    "length": {
+        "mm": 1,
+        "cm": 10,
+        "m": 1e3,
+        "µm": 1e-3,
+        "um": 1e-3,
+        "micron": 1e-3,
+        "in": _INCH,
+        "in.": _INCH,
+        "inch": _INCH,
+        "inches": _INCH,
+        "毫米": 1,
+    },
+    "stress": {
+        "MPa": 1,
+        "N/mm²": 1,
+        "N/mm2": 1,
+        "N/mm^2": 1,
+        "GPa": 1e3,
+        "kPa": 1e-3,
+        "Pa": 1e-6,
+        "psi": _PSI,
+        "ksi": 1e3 * _PSI,
+        "兆帕": 1,
+    },
+    "strain": {
+        "1": 1,
+        "-": 1,
+        "mm/mm": 1,
+        "m/m": 1,
+        "in/in": 1,
+        "%": 1e-2,
+        "% strain": 1e-2,
+        "‰": 1e-3,
+        "mm/m": 1e-3,
+        "µε": 1e-6,
+        "uε": 1e-6,
+        "ue": 1e-6,
+        "µm/m": 1e-6,
+        "um/m": 1e-6,
+        "µstrain": 1e-6,
+        "ustrain": 1e-6,
+        "microstrain": 1e-6,
+        "mε": 1e-3,
+    },
+    "stretch": {"1": 1, "-": 1, "mm/mm": 1, "m/m": 1},
+    "area": {"mm²": 1, "mm2": 1, "mm^2": 1, "cm²": 100, "cm2": 100, "cm^2": 100, "in²": _INCH**2},
+}
+OTHER_UNITS = frozenset(
+    [
+        "d",
+        "V",
+        "mV",
+        "mV/V",
+        "°C",
+        "Cel",
+        "°F",
+        "K",
+        "Nm",
+        "deg",
+        "°",
+        "rad",
+        "Hz",
+        "MPa/s",
+        "N/s",
+        "mm/min",
+        "mm/s",
+        "%/min",
+        "1/s",
+        "J",
+        "mJ",
+        "pixel",
+        "px",
+    ]
+)
+
+DIMENSION = {
+    "time": "time",
+    "force": "force",
+    "stress": "stress",
+    "displacement": "length",
+    "extension": "length",
+    "strain": "strain",
+    "strain_transverse": "strain",
+    "strain_back": "strain",
+    "strain_xx": "strain",
+    "strain_yy": "strain",
+    "stretch": "stretch",
+    "width": "length",
+    "thickness": "length",
+    "gauge_length": "length",
+    "area": "area",
+}
+"""Quantity → dimension; the quantities are all that ingest knows."""
+
+_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)|（([^（）]*)）|<([^<>]*)>")
+_TAIL = re.compile(r"^(.*\S)(?:\s*/\s+|\s+in\s+|,\s*|_)(\S+)$")
+
+
+def clean_unit(text: str) -> str:
+    """Strip brackets and quotes, and write the micro sign and small variants one way."""
+    text = unicodedata.normalize("NFC", text).strip().strip('"').strip()
+    bracketed = _BRACKETS.fullmatch(text)
+    if bracketed:
+        text = next(group for group in bracketed.groups() if group is not None).strip()
+    return text.replace("\u03bc", "\u00b5").replace("％", "%")
+
+
+def find_unit(dimension: str, text: str) -> str | None:
+    """Return the table's spelling of a unit of `dimension`, None if it is not one.
+
+    Case counts (mN, MN); other case is accepted where only one unit can be meant (KN, Mpa).
+    """
+    known = FACTORS[dimension]
+    unit = clean_unit(text)
+    if unit in known:
+        return unit
+    same = {name for name in known if name.casefold() == unit.casefold()}
+    return same.pop() if len(same) == 1 else None
+
+
+def is_unit(text: str) -> bool:
+    """Tell whether `text` is a unit of any dimension, also of one that ingest does not use."""
+    unit = clean_unit(text)
+    return unit in OTHER_UNITS or any(find_unit(dimension, unit) for dimension in FACTORS)
+
+
+def factor(quantity: str, unit: str) -> float | None:
+    """Factor from `unit` to the base unit of `quantity`, None if it is not a unit of it."""
+    dimension = DIMENSION[quantity]
+    found = find_unit(dimension, unit)
+    return None if found is None else FACTORS[dimension][found]
+
+
+def split_unit(name: str) -> tuple[str, str | None]:
+    """Split ``Force [kN]``, ``Load (N)``, ``Kraft / kN``, ``force_n`` into name and unit.
+
+    Returns
+    -------
+    name : str
+        The name without its unit.
+    unit : str or None
+        None if the name carries no unit.
+    """
+    for match in _BRACKETS.finditer(name):
+        inner = clean_unit(match.group(0))
+        if is_unit(inner) or (match.group(1) and not inner.isdigit()):
+            rest = f"{name[: match.start()].rstrip()} {name[match.end() :].lstrip()}".strip()
+            return rest, inner
+    tail = _TAIL.match(name.strip())
+    if tail and is_unit(tail.group(2)) and tail.group(2) not in ("-", "1"):
+        return tail.group(1), clean_unit(tail.group(2))
+    return name.strip(), None

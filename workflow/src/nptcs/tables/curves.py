@@ -1,0 +1,106 @@
+"""The tidy curve of one specimen, and the record of how it came about."""
+
+from __future__ import annotations
+
+from typing import Literal
+
+import pandera.pandas as pa
+from pandera.typing.pandas import Series
+from pydantic import Field
+
+from nptcs.config.base import Strict
+from nptcs.errors import InputError
+
+CURVE_COLUMNS = (
+    "time_s",
+    "force_n",
+    "stress_mpa",
+    "strain_axial",
+    "strain_transverse",
+    "strain_axial_back",
+)
+
+
+class Curve(pa.DataFrameModel):
+    """One specimen's test, one row a reading, in the order of the test.
+
+    Tension is positive: a compression curve has negative force, stress and axial strain.
+    Strain is dimensionless, nominal (ΔL/L0); for a rubber the stretch is λ = 1 + strain_axial.
+
+    ``strain_axial`` is empty where no strain was measured (extensometer taken off, camera
+    stopped): such rows carry the strength and nothing else. ``time_s`` is empty throughout if
+    the raw file has no time. ``strain_transverse`` and ``strain_axial_back`` (the other face of
+    a compression specimen) are empty if they were not measured.
+    """
+
+    time_s: Series[float] = pa.Field(nullable=True)
+    force_n: Series[float]
+    stress_mpa: Series[float]
+    strain_axial: Series[float] = pa.Field(nullable=True)
+    strain_transverse: Series[float] = pa.Field(nullable=True)
+    strain_axial_back: Series[float] = pa.Field(nullable=True)
+
+    class Config:
+        """Exactly these columns, as floats."""
+
+        strict = True
+        coerce = True
+        ordered = True
+
+
+class FileRecord(Strict):
+    """One raw file as it was read."""
+
+    path: str = Field(description="Relative to the sheet's folder")
+    sha256: str
+    role: Literal["force", "strain", "force and strain"]
+    format: str = Field(description="Name of the profile")
+    detected: bool = Field(description="False if the sheet named the profile")
+    encoding: str = ""
+    delimiter: str = ""
+    decimal: str = ""
+    header_line: int | None = Field(None, description="Line of the column names, from 1")
+    first_line: int | None = Field(None, description="Line of the first row of numbers")
+    rows: int
+    units: dict[str, str] = Field(description="Quantity → unit as found")
+    columns: dict[str, str] = Field(description="Quantity → column name as found")
+    notes: tuple[str, ...] = Field((), description="What detection found and why")
+
+
+class Geometry(Strict):
+    """The section that turned force into stress."""
+
+    mean_width_mm: float | None
+    mean_thickness_mm: float | None
+    area_mm2: float
+    width_stations: int
+    thickness_stations: int
+
+
+class Step(Strict):
+    """One step of signal conditioning."""
+
+    name: str
+    on: bool
+    changed: str = Field("", description="What it did, in words and numbers")
+    numbers: dict[str, float] = Field(default_factory=dict, description="Unit in each key")
+
+
+class IngestRecord(Strict):
+    """How one specimen's curve came about; ``status`` error carries the message instead."""
+
+    specimen: str
+    status: Literal["ok", "error"]
+    message: str = ""
+    files: tuple[FileRecord, ...] = ()
+    geometry: Geometry | None = None
+    strain_source: str = Field(
+        "", description="extensometer, dic, strain_gauge, crosshead or unspecified"
+    )
+    steps: tuple[Step, ...] = ()
+    flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
+
+    @classmethod
+    def failed(cls, specimen: str, error: InputError) -> IngestRecord:
+        """Return the record of a specimen that could not be read."""
+        return cls(specimen=specimen, status="error", message=str(error))

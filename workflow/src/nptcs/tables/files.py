@@ -1,0 +1,33 @@
+"""Every file of a laboratory's folder, and what became of it."""
+
+from __future__ import annotations
+
+import pandera.pandas as pa
+from pandera.typing.pandas import Series
+
+STATUSES = ("used", "left out", "not understood", "not named", "missing", "sheet")
+
+
+class Files(pa.DataFrameModel):
+    """One row a file: in the folder, or named by the sheet and not there.
+
+    ``used``: read for an included specimen; ``left out``: read, its specimen is left out with
+    the reason given; ``not understood``: named, but its specimen failed with the reason given;
+    ``not named``: no row of the sheet names it; ``missing``: named, but not in the folder;
+    ``sheet``: the specimen sheet itself.
+    """
+
+    file: Series[str] = pa.Field(unique=True)
+    status: Series[str] = pa.Field(isin=STATUSES)
+    specimens: Series[str]
+    format: Series[str]
+    reason: Series[str]
+    size_bytes: Series[pa.Int64] = pa.Field(ge=0)
+    sha256: Series[str] = pa.Field(str_matches=r"^([0-9a-f]{64})?$")
+
+    class Config:
+        """Exactly these columns."""
+
+        strict = True
+        coerce = True
+        ordered = True
