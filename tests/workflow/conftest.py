@@ -39,9 +39,9 @@ class Project:
             "PYTHONPATH": str(self.folder / "workflow" / "src"),
             "OPENBLAS_NUM_THREADS": "1",
         }
-        command = [sys.executable, "-m", "snakemake", "-j2", "--configfile", config]
+        command = [sys.executable, "-m", "snakemake", "-j2", *arguments, "--configfile", config]
         return subprocess.run(
-            [*command, *arguments],
+            command,
             cwd=self.folder,
             env=environment,
             capture_output=True,

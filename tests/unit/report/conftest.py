@@ -245,7 +245,7 @@ def results(config):
         quality=pd.concat([part[2] for part in parts.values()], ignore_index=True),
         impact=with_published(impacts, pd.read_csv(PUBLISHED / "table9_impact.csv")),
         lca_validation=lca_validation(
-            spokes, table_11, tyre, pd.read_csv(PUBLISHED / "figure15_load_errors.csv")
+            spokes, table_11, pd.read_csv(PUBLISHED / "figure15_load_errors.csv"), tyre
         ),
         lca_against_fem=lca_against_fem(
             spokes, pd.read_csv(PUBLISHED / "table7_rubber_doe.csv"), tyre

@@ -71,7 +71,7 @@ def stress_strain(
             label=label,
         )
         used += not out
-    if len(curves) <= 8:
+    if 0 < len(axes.get_lines()) <= 8:
         axes.legend(loc="best", fontsize=7)
     mark_synthetic(figure, synthetic)
     return figure

@@ -45,8 +45,8 @@ FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 def build_workbook(results: Results) -> bytes:
     """Lay all results out as one XLSX file.
 
-    Numbers are stored as they were computed and shown in the general format, coefficients in
-    scientific notation. The same results give the same bytes.
+    Numbers are stored to 16 significant digits and shown in the general format, coefficients
+    in scientific notation. The same results give the same bytes.
 
     Parameters
     ----------
