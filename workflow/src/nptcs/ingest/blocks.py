@@ -75,7 +75,7 @@ def _runs(source: Source) -> list[Block]:
         if kind not in ("data", "odd data"):
             gap.append(row)
             continue
-        width = len(source.cells(row))
+        width = source.width(row)
         last = runs[-1] if runs else None
         if last is not None and _continues(source, last, gap, width):
             _note_gap(source, last, gap)
@@ -83,18 +83,27 @@ def _runs(source: Source) -> list[Block]:
             last.last = row + 1
             last.width = max(last.width, width)
         else:
+            _note_end(source, runs, gap)
             runs.append(Block(row, row + 1, width, rows_of_data=[row]))
         gap = []
+    _note_end(source, runs, gap)
     return runs
+
+
+def _note_end(source: Source, runs: list[Block], gap: list[int]) -> None:
+    """Say where a table ends if something that is not blank follows."""
+    row = next((row for row in gap if source.kinds[row] != "empty"), None)
+    if runs and row is not None:
+        text = " ".join(cell for cell in source.cells(row) if cell)
+        runs[-1].notes.append(f"the table ends above line {row + 1}: {text[:60]!r}")
 
 
 def _continues(source: Source, block: Block, gap: list[int], width: int) -> bool:
     """Tell whether the table goes on after the rows of `gap`."""
     kinds = [source.kinds[row] for row in gap]
-    odd = [kind for kind in kinds if kind in ("names", "other")]
-    if not odd:
-        return True
-    return len(odd) == 1 and odd[0] == "other" and abs(width - block.width) <= 1
+    if "names" in kinds:
+        return False
+    return "other" not in kinds or abs(width - block.width) <= 1
 
 
 def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
@@ -109,7 +118,7 @@ def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
 
 def _trim(source: Source, block: Block, path: Path) -> None:
     """Refuse rows that lack cells in the middle; drop a last line that was cut off."""
-    lengths = [len(source.cells(row)) for row in block.rows_of_data]
+    lengths = [source.width(row) for row in block.rows_of_data]
     if len(lengths) > 1 and lengths[-1] < lengths[-2]:
         row = block.rows_of_data.pop()
         lengths.pop()
