@@ -17,6 +17,7 @@ import math
 import re
 import tempfile
 import traceback
+import warnings
 from collections import Counter
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
@@ -345,7 +346,8 @@ def fuzz(
     random = np.random.default_rng(seed)
     outcome: Counter[str] = Counter()
     failures: list[str] = []
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
+        warnings.simplefilter("error")
         starts = bases(profiles, labdata)
         for number in range(inputs):
             base = starts[number % len(starts)]

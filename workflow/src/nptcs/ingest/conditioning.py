@@ -64,7 +64,7 @@ def _spikes(readings: Array, share: float) -> NDArray[np.intp]:
     low, high = np.percentile(values, [1, 99])
     limit = max(share * float(high - low), 20 * float(np.median(np.abs(step))))
     leaves = np.minimum(np.abs(step[:-1]), np.abs(step[1:])) > limit
-    return kept[1:-1][leaves & (step[:-1] * step[1:] < 0)]
+    return kept[1:-1][leaves & (np.sign(step[:-1]) != np.sign(step[1:]))]
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:

@@ -76,7 +76,9 @@ def _number(decimal: str, thousands: str) -> re.Pattern[str]:
 
 def candidates(profile: FormatProfile, lines: Sequence[str]) -> list[Dialect]:
     """Dialects to try: those that the profile allows and whose marks occur in the lines."""
-    delimiters = [DELIMITERS[profile.delimiter]] if profile.delimiter else _delimiters_in(lines)
+    delimiters = (
+        [DELIMITERS[profile.delimiter]] if profile.delimiter else _delimiters_in(_sample(lines))
+    )
     if profile.decimal:
         return [Dialect(delimiter, profile.decimal, profile.thousands) for delimiter in delimiters]
     point, comma = (any(mark in line for line in lines) for mark in ".,")
