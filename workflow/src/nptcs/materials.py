@@ -32,12 +32,22 @@ class Quantity(Strict):
     origin: Literal["measured", "assumed"]
     rule: str = Field(description="Standard, range and statistic, or the stated assumption")
     specimens: tuple[str, ...] = Field((), description="Specimens that it rests on")
+    equal_to: str | None = Field(
+        None, description="Constant that this one is assumed to equal, and varies with"
+    )
 
 
 class Covariance(Strict):
-    """Covariance matrix of the measured constants, in the order of `names`."""
+    """Covariance matrix of the estimates of the measured constants, in the order of `names`.
+
+    The diagonal holds the squared standard errors: it is the uncertainty of the means, not the
+    scatter of the material.
+    """
 
     names: tuple[str, ...]
+    units: tuple[str, ...] = Field((), description="Units of the constants, in that order")
+    rule: str = Field("", description="How it was estimated, off the diagonal too")
+    specimens: tuple[str, ...] = Field((), description="Specimens that it rests on")
     matrix: tuple[tuple[float, ...], ...] = Field(description="Unit: product of the two units")
 
 

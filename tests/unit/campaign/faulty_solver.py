@@ -1,0 +1,43 @@
+"""A solver for the tests: its factor says how the case ends."""
+
+import os
+import signal
+import time
+
+from nptcs.solvers.contract import Solver, SolverOptions, SolverResult, Status
+
+
+def solve(inputs):
+    kind = inputs.values["kind"]
+    if kind == 1:
+        raise RuntimeError("the mesh has folded")
+    if kind == 2:
+        time.sleep(600)
+    if kind == 3:
+        os.kill(os.getpid(), signal.SIGKILL)
+    if kind == 4:
+        os._exit(3)
+    if kind == 5:
+        return SolverResult(status=Status.LICENCE, message="no token")
+    if kind == 6:
+        return {"status": "ok", "no_such_field": 1}
+    stiffness = 100 + 10 * kind + inputs.values["other"] ** 2
+    return SolverResult(
+        status=Status.OK,
+        vertical_stiffness_n_per_mm=stiffness,
+        displacement_mm=inputs.load_n / stiffness,
+    )
+
+
+class Options(SolverOptions):
+    timeout_s: float = 2.0
+
+
+SOLVER = Solver(
+    name="faulty",
+    version="1",
+    solve=solve,
+    factors=frozenset({"kind", "other"}),
+    required=frozenset({"kind", "other"}),
+    options=Options,
+)

@@ -1,0 +1,178 @@
+"""Cases that raise, hang, crash or lie become rows; the others are solved; none is solved twice."""
+
+import os
+import subprocess
+import sys
+import time
+from pathlib import Path
+
+import pytest
+
+from nptcs.campaign.record import CaseJob, RecordStore, read_records, write_records
+from nptcs.campaign.runner import run_cases
+from nptcs.config.tyre import TyreGeometry
+from nptcs.provenance import code_hash
+
+SOLVER = Path(__file__).with_name("faulty_solver.py")
+
+
+def job(kind, other=1.0, **changes):
+    values = {
+        "study": "s",
+        "case_id": f"s_{kind:03d}",
+        "solver": "faulty",
+        "solver_version": "1",
+        "module": str(SOLVER),
+        "code": code_hash(str(SOLVER)),
+        "values": {"kind": float(kind), "other": other},
+        "load_n": 5000.0,
+        "tyre": TyreGeometry().model_dump(),
+        "ply": None,
+        "options": {"timeout_s": 2.0},
+        "without_effect": ("timeout_s",),
+        "tables": {},
+    }
+    return CaseJob(**{**values, **changes})
+
+
+def quiet(record, reused, done, total):
+    pass
+
+
+@pytest.fixture
+def store(tmp_path):
+    return RecordStore(tmp_path / "records")
+
+
+def test_each_way_to_fail_is_a_row_and_the_others_are_solved(store):
+    kinds = [10, 1, 2, 3, 4, 5, 6, 11, 12]
+    records = run_cases([job(kind) for kind in kinds], store, 2, quiet)
+
+    ended = {int(r.values["kind"]): (r.result.status.value, r.result.message) for r in records}
+    assert [int(record.values["kind"]) for record in records] == kinds
+    assert ended[1][0] == "error"
+    assert "RuntimeError: the mesh has folded (faulty_solver.py, line 13)" in ended[1][1]
+    assert ended[2][0] == "timeout"
+    assert "timeout_s = 2" in ended[2][1]
+    assert ended[3] == ("error", "the solver's process was killed by signal SIGKILL")
+    assert ended[4] == (
+        "error",
+        "the solver's process ended without a result (exit code 3)",
+    )
+    assert ended[5] == ("licence", "no token")
+    assert ended[6][0] == "error"
+    assert "no_such_field" in ended[6][1]
+    for kind in (10, 11, 12):
+        assert ended[kind] == ("ok", "")
+    assert records[0].result.vertical_stiffness_n_per_mm == 201
+
+
+def test_solved_cases_are_reused_and_failed_ones_tried_again(store):
+    jobs = [job(10), job(1), job(11)]
+    run_cases(jobs, store, 2, quiet)
+    seen = []
+
+    run_cases(jobs, store, 2, lambda record, reused, *_: seen.append((record.case_id, reused)))
+
+    assert sorted(seen) == [("s_001", False), ("s_010", True), ("s_011", True)]
+
+
+def test_a_record_serves_another_study_with_the_same_case(store):
+    run_cases([job(10)], store, 1, quiet)
+    reuse = []
+
+    (record,) = run_cases(
+        [job(10, study="other", case_id="other_001")],
+        store,
+        1,
+        lambda record, reused, *_: reuse.append(reused),
+    )
+
+    assert reuse == [True]
+    assert (record.study, record.case_id) == ("other", "other_001")
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        {"values": {"kind": 10.0, "other": 1.0000001}},
+        {"load_n": 4000.0},
+        {"ply": {"e1_mpa": 128000.0}},
+        {"options": {"timeout_s": 2.0, "mesh": 2}},
+        {"tables": {"archive": [{"case": 1}]}},
+        {"solver_version": "2"},
+        {"code": "other"},
+        {"tyre": TyreGeometry(spoke_count=61).model_dump()},
+    ],
+)
+def test_whatever_decides_the_result_is_in_the_key(change):
+    assert job(10, **change).key != job(10).key
+
+
+def test_names_and_time_limits_are_not_in_the_key():
+    other = job(10, study="t", case_id="t_1", options={"timeout_s": 99.0})
+    assert other.key == job(10).key
+
+
+@pytest.mark.parametrize("content", [b"", b"{", b"\xff\xfe", b'{"status": "ok"}', b"[]"])
+def test_an_unreadable_record_is_a_miss(store, content):
+    run_cases([job(10)], store, 1, quiet)
+    store.path(job(10).key).write_bytes(content)
+
+    reuse = []
+    (record,) = run_cases([job(10)], store, 1, lambda record, reused, *_: reuse.append(reused))
+
+    assert reuse == [False]
+    assert record.result.status == "ok"
+    assert store.read(job(10)) == record
+
+
+def test_batch_files_keep_every_record(tmp_path, store):
+    records = run_cases([job(10), job(1)], store, 2, quiet)
+    write_records(tmp_path / "batch.jsonl", records)
+    assert read_records([str(tmp_path / "batch.jsonl")]) == records
+
+
+@pytest.mark.skipif(not Path("/proc").is_dir(), reason="reads the process table of Linux")
+def test_no_case_outlives_a_killed_campaign(tmp_path):
+    code = f"""
+import sys
+sys.path[:0] = {[str(Path(__file__).parent), *sys.path]!r}
+from test_campaign import job, quiet
+from nptcs.campaign.record import RecordStore
+from nptcs.campaign.runner import run_cases
+slow = job(2, options={{"timeout_s": 300.0}})
+print("ready", flush=True)
+run_cases([slow], RecordStore({str(tmp_path)!r}), 1, quiet)
+"""
+    script = tmp_path / "campaign_to_kill.py"
+    script.write_text(code)
+    campaign = subprocess.Popen([sys.executable, str(script)], stdout=subprocess.PIPE)
+    assert campaign.stdout.readline() == b"ready\n"
+    deadline = time.monotonic() + 30
+    while len(family := descendants(campaign.pid)) < 2 and time.monotonic() < deadline:
+        time.sleep(0.05)
+    time.sleep(0.5)
+    family = descendants(campaign.pid)
+    assert len(family) >= 2
+
+    campaign.kill()
+    campaign.wait()
+    campaign.stdout.close()
+
+    while any(alive(pid) for pid in family) and time.monotonic() < deadline:
+        time.sleep(0.05)
+    assert not [pid for pid in family if alive(pid)]
+
+
+def descendants(pid):
+    children = Path(f"/proc/{pid}/task/{pid}/children").read_text().split()
+    return [int(c) for c in children] + [d for c in children for d in descendants(int(c))]
+
+
+def alive(pid):
+    try:
+        os.kill(pid, 0)
+        return ") Z" not in Path(f"/proc/{pid}/stat").read_text()
+    except (ProcessLookupError, FileNotFoundError):
+        return False

@@ -1,0 +1,97 @@
+"""A faulty configuration is refused in words that say where and what to do."""
+
+import copy
+from pathlib import Path
+
+import pytest
+import yaml
+
+from nptcs.config.root import read_config
+from nptcs.errors import InputError
+from nptcs.solvers.registry import check_study, load, module_of
+
+ROOT = Path(__file__).parents[3]
+DEFAULT = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
+
+
+def changed(path, value):
+    config = copy.deepcopy(DEFAULT)
+    place = config
+    for key in path[:-1]:
+        place = place[key]
+    place[path[-1]] = value
+    return config
+
+
+@pytest.mark.parametrize(
+    ("path", "value", "message"),
+    [
+        (["calibraton"], {}, "calibraton: unknown key; did you mean 'calibration'?"),
+        (["studies", 0, "levels"], [1], "studies.0.levels: unknown key"),
+        (["studies", 0, "factors", 0, "level"], [1], "did you mean 'levels'?"),
+        (["studies", 0, "factors", 0, "levels"], [10], "studies.0.factors.0.levels"),
+        (["studies", 0, "factors", 0, "levels"], [10, 10], "levels must grow and differ"),
+        (["studies", 0, "factors", 0, "levels"], [15, 10], "levels must grow and differ"),
+        (["studies", 0, "factors", 0, "levels"], [10, "x"], "studies.0.factors.0.levels.1"),
+        (["studies", 0, "factors", 0, "levels"], [1.0, float("nan")], "finite number"),
+        (["studies", 0, "load_n"], -5, "studies.0.load_n"),
+        (["studies", 0, "fixed"], {"angle_deg": 3}, "both varied and fixed: ['angle_deg']"),
+        (["studies", 0, "solver_options"], {"lca": {}}, "which `solvers` does not run"),
+        (["studies", 1, "name"], "plate", "a name is given twice"),
+        (["studies"], [], "studies"),
+        (["sensitivity", "rules"], ["mean"], "sensitivity.rules.0"),
+        (["tyre"], {"rim_diameter_mm": 700}, "radii must grow"),
+        (["campaign"], {"batches": 0}, "campaign.batches"),
+    ],
+)
+def test_each_fault_is_named_with_its_key(path, value, message):
+    with pytest.raises(InputError) as refusal:
+        read_config(changed(path, value))
+    assert message in str(refusal.value)
+    assert "config.yaml" in str(refusal.value)
+
+
+def test_all_faults_stand_in_one_message():
+    config = changed(["studies", 0, "load_n"], -5)
+    config["reprot"] = {}
+    with pytest.raises(InputError) as refusal:
+        read_config(config)
+    assert "load_n" in str(refusal.value)
+    assert "did you mean 'report'?" in str(refusal.value)
+
+
+def checked(path, value):
+    config = read_config(changed(path, value))
+    for study in config.studies:
+        check_study(study, config.solver_options(study))
+
+
+def test_default_configuration_is_sound():
+    checked(["report"], {})
+
+
+def test_a_solver_that_cannot_see_a_factor_refuses_it_by_name():
+    with pytest.raises(InputError) as refusal:
+        checked(["studies", 0, "solvers"], ["published", "lca"])
+    assert "solver 'lca' cannot see angle_deg, spacing_mm, thickness_mm" in str(refusal.value)
+    assert "studies.plate.solvers" in str(refusal.value)
+
+
+def test_a_solver_that_lacks_a_value_says_which():
+    config = copy.deepcopy(DEFAULT)
+    config["studies"][1]["factors"] = config["studies"][1]["factors"][1:]
+    config["studies"][1]["solvers"] = ["lca"]
+    config["studies"][1]["solver_options"] = {}
+    config = read_config(config)
+    study = config.studies[1]
+    with pytest.raises(InputError, match="solver 'lca' needs shear_band_c10_mpa"):
+        check_study(study, config.solver_options(study))
+
+
+def test_unknown_solvers_and_options_are_named():
+    with pytest.raises(InputError, match="unknown solver"):
+        checked(["studies", 1, "solvers"], ["published", "lcaa"])
+    with pytest.raises(InputError, match="did you mean 'archive'"):
+        checked(["studies", 0, "solver_options"], {"published": {"archve": "x.csv"}})
+    with pytest.raises(InputError, match="does not exist"):
+        load(module_of("own", {"module": "no/such/file.py"}))

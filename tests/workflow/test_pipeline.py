@@ -1,0 +1,289 @@
+"""The whole pipeline in a copied tree: what runs, what reruns, and what a fault leaves behind."""
+
+import json
+import re
+import shutil
+
+import yaml
+
+TABLES_OF_A_CASE_CHANGE = {"cases", "surface", "sensitivity", "problems", "report", "verdict"}
+
+
+def test_everything_is_there_and_a_second_run_does_nothing(finished):
+    for name in ("report.html", "workbook.xlsx", "verdict.txt", "material_card.json"):
+        assert finished.path(f"results/{name}").stat().st_size > 0
+    assert finished.planned() == {}
+    again = finished.snakemake()
+    assert again.returncode == 0
+    assert "Nothing to be done" in again.stdout + again.stderr
+
+
+def test_tables_have_the_documented_columns_and_plausible_numbers(finished):
+    cases = finished.rows("cases.csv")
+    assert {row["status"] for row in cases} == {"ok"}
+    assert len(cases) == 12
+    assert list(cases[0])[:5] == ["study", "case_id", "solver", "status", "message"]
+    surface = finished.rows("rubber_surface.csv")
+    assert list(surface[0])[:5] == [
+        "solver",
+        "term",
+        "coefficient_natural",
+        "coefficient_coded",
+        "standard_error",
+    ]
+    ranked = sorted(
+        (row for row in finished.rows("impact.csv") if row["rule"] == "domain_mean_absolute"),
+        key=lambda row: -float(row["impact"]),
+    )
+    assert ranked[0]["factor"] == "spoke_c10_mpa"
+    specimens = finished.rows("specimens.csv")
+    assert list(specimens[0])[:10] == (
+        [
+            "specimen",
+            "test",
+            "material",
+            "property",
+            "value",
+            "unit",
+            "rule",
+            "range",
+            "points",
+            "flags",
+        ]
+    )
+    card = json.loads(finished.path("results/material_card.json").read_text())
+    assert card["plies"]["cfrp"]["synthetic"] is True
+    assert card["rubbers"]["rubber_75A"]["constants"]["c10_mpa"]["value"] > 1
+
+
+def test_touched_files_rerun_nothing(project):
+    for path in [*project.path("raw_data").rglob("*.*"), *project.path("workflow").rglob("*.py")]:
+        path.touch()
+    assert project.planned() == {}
+
+
+def test_a_changed_raw_file_reruns_its_specimen_and_what_rests_on_it(project):
+    rows, _ = project.read_sheet()
+    row = next(row for row in rows if row["material"] == "rubber_75A")
+    raw = project.path("raw_data/example") / row["force_file"]
+    raw.write_bytes(raw.read_bytes() + b"\n")
+
+    plan = project.planned()
+
+    assert plan.pop("ingest") == 1
+    assert plan.pop("reduce") == 1
+    assert plan.pop("calibrate_rubber") == 1
+    assert {"account", "statistics", "material_card", "report", "verdict"} <= set(plan)
+    # no study of the small configuration rests on a tested rubber
+    assert not {"calibrate_ply", "design", "solve", "cases", "surface", "sensitivity"} & set(plan)
+
+
+def test_a_new_rubber_specimen_reruns_only_its_rubber(project):
+    rows, columns = project.read_sheet()
+    row = dict(next(row for row in rows if row["material"] == "rubber_75A"))
+    folder = project.path("raw_data/example")
+    for key in ("force_file", "strain_file"):
+        if row[key]:
+            copy = row[key].replace(".", "_new.", 1)
+            shutil.copy(folder / row[key], folder / copy)
+            row[key] = copy
+    row["specimen"] += "-new"
+    project.write_sheet(columns, [*rows, row])
+
+    plan = project.planned()
+
+    assert (plan["ingest"], plan["reduce"], plan["calibrate_rubber"]) == (1, 1, 1)
+    assert not {"calibrate_ply", "design", "solve", "surface"} & set(plan)
+
+
+def test_a_study_on_tested_rubbers_follows_the_raw_file(project):
+    small = yaml.safe_load(project.path("config/small.yaml").read_text())
+    factor = small["studies"][0]["factors"][1]
+    factor["levels"] = [{"rubber": "rubber_75A"}, 2.0, {"rubber": "rubber_88A"}]
+    small["studies"][0]["solvers"] = ["lca"]
+    del small["studies"][0]["solver_options"]
+    project.path("config/tested.yaml").write_text(yaml.safe_dump(small))
+    assert project.snakemake(config="config/tested.yaml").returncode == 0
+    rows, _ = project.read_sheet()
+    row = next(row for row in rows if row["material"] == "rubber_75A")
+    raw = project.path("raw_data/example") / row["force_file"]
+    raw.write_bytes(raw.read_bytes() + b"\n")
+
+    plan = project.planned(config="config/tested.yaml")
+
+    assert (plan["design"], plan["solve"], plan["calibrate_rubber"]) == (1, 1, 1)
+    assert set(plan) >= TABLES_OF_A_CASE_CHANGE
+
+
+def test_a_changed_range_in_the_configuration_reruns_the_reduction(project):
+    small = yaml.safe_load(project.path("config/small.yaml").read_text())
+    small["reduction"] = {"astm_d3518": {"chord_range": [0.002, 0.0061]}}
+    project.path("config/small.yaml").write_text(yaml.safe_dump(small))
+
+    plan = project.planned()
+
+    assert "ingest" not in plan
+    assert plan["reduce"] == 5
+    assert plan["calibrate_ply"] == 1
+    assert not {"calibrate_rubber", "design", "solve", "surface"} & set(plan)
+
+
+def test_a_changed_level_solves_only_what_is_new(project):
+    project.edit("config/small.yaml", "levels: [1, 3, 5]", "levels: [1, 2, 3, 5]")
+    run = project.snakemake()
+    assert run.returncode == 0, run.stderr[-3000:]
+    progress = re.findall(r"rubber/lca \d+/8 (rubber_\d+) ok \((\w+)", run.stderr)
+    assert len(progress) == 8
+    assert sum(how == "known" for _, how in progress) == 6
+
+
+def test_an_edited_module_reruns_what_rests_on_it(project):
+    project.edit("workflow/src/nptcs/sensitivity.py", "GRID_POINTS = 2_", "GRID_POINTS = 3_")
+    plan = project.planned()
+    assert plan["sensitivity"] == 1
+    assert not {"ingest", "reduce", "design", "solve", "surface", "calibrate_ply"} & set(plan)
+
+
+def test_an_edited_solver_solves_its_cases_again(project):
+    project.edit("workflow/src/nptcs/solvers/published.py", 'version="1"', 'version="2"')
+    run = project.snakemake()
+    assert run.returncode == 0, run.stderr[-3000:]
+    assert len(re.findall(r"rubber/published \d/6 \S+ ok \([\d.]+ s", run.stderr)) == 6
+    assert "rubber/lca 1/6" not in run.stderr
+    assert {r["solver_version"] for r in project.rows("cases.csv")} >= {"2"}
+
+
+def test_a_comment_reruns_nothing(project):
+    project.edit("workflow/src/nptcs/sensitivity.py", "GRID_POINTS = ", "# a word\nGRID_POINTS = ")
+    assert project.planned() == {}
+
+
+def test_a_deleted_table_comes_back_and_nothing_is_solved(project):
+    before = project.path("results/tables/impact.csv").read_bytes()
+    project.path("results/tables/impact.csv").unlink()
+    plan = project.planned()
+    assert plan["sensitivity"] == 1
+    assert not {"ingest", "design", "solve", "surface"} & set(plan)
+    assert project.snakemake().returncode == 0
+    assert project.path("results/tables/impact.csv").read_bytes() == before
+
+
+def test_the_report_alone_solves_nothing(project):
+    project.path("results/report.html").unlink()
+    run = project.snakemake("report")
+    assert run.returncode == 0
+    assert project.path("results/report.html").is_file()
+    assert "rule solve" not in run.stderr
+
+
+FAULTY_STUDY = {
+    "studies": [
+        {
+            "name": "faulty",
+            "title": "Cases that fail",
+            "factors": [
+                {"name": "kind", "label": "kind", "unit": "-", "levels": [1, 2, 3, 7, 8, 9]},
+                {"name": "other", "label": "other", "unit": "-", "levels": [0, 1]},
+            ],
+            "solvers": ["faulty"],
+            "terms": ["1", "kind", "other"],
+        }
+    ],
+    "solvers": {"faulty": {"module": "tests/unit/campaign/faulty_solver.py"}},
+}
+
+
+def test_cases_that_raise_hang_or_die_are_rows_and_the_run_fails_after_the_report(project):
+    project.path("config/faulty.yaml").write_text(yaml.safe_dump(FAULTY_STUDY))
+
+    run = project.snakemake(config="config/faulty.yaml")
+
+    assert run.returncode != 0
+    cases = {row["case_id"]: row for row in project.rows("cases.csv")}
+    assert len(cases) == 12
+    ended = {(row["kind"], row["status"]) for row in cases.values()}
+    assert ended == {
+        ("1.0", "error"),
+        ("2.0", "timeout"),
+        ("3.0", "error"),
+        ("7.0", "ok"),
+        ("8.0", "ok"),
+        ("9.0", "ok"),
+    }
+    assert "the mesh has folded" in cases["faulty_001"]["message"]
+    assert "timeout_s" in cases["faulty_003"]["message"]
+    assert "SIGKILL" in cases["faulty_005"]["message"]
+    report = project.path("results/report.html").read_text(encoding="utf-8")
+    assert "the mesh has folded" in report
+    assert "SIGKILL" in report
+    problems = project.rows("problems.csv")
+    assert len([row for row in problems if row["stage"] == "solve"]) == 6
+    assert "faulty_001" in run.stderr
+    assert not project.path("results/verdict.txt").exists()
+
+
+def test_bad_specimens_are_named_and_the_others_go_on(project):
+    rows, columns = project.read_sheet()
+    tension = [row for row in rows if row["test"] == "tension" and row["orientation_deg"] == "0"]
+    rubber = [row for row in rows if row["material"] == "rubber_75A"]
+    tension[0]["force_file"] = "no_such_file.csv"
+    rubber[0]["thickness_mm"] = ""
+    rubber[1]["test"] = "bending"
+    project.write_sheet(columns, rows)
+
+    run = project.snakemake()
+
+    assert run.returncode != 0
+    problems = {row["name"]: row["message"] for row in project.rows("problems.csv")}
+    assert "no_such_file.csv" in problems[tension[0]["specimen"]]
+    no_thickness = next(m for m in problems.values() if "thickness_mm" in m)
+    assert "specimens.csv:" in no_thickness
+    assert rubber[0]["specimen"] in no_thickness
+    assert any("bending" in message for message in problems.values())
+    read = {row["specimen"] for row in project.rows("specimens.csv")}
+    assert tension[1]["specimen"] in read
+    assert tension[0]["specimen"] not in read
+    report = project.path("results/report.html").read_text(encoding="utf-8")
+    assert "no_such_file.csv" in report
+
+
+def test_a_misspelt_key_stops_everything_before_it_starts(project):
+    project.edit("config/small.yaml", "studies:", "campagin: {batches: 2}\nstudies:")
+    run = project.snakemake()
+    assert run.returncode != 0
+    assert "campagin: unknown key; did you mean 'campaign'?" in run.stderr + run.stdout
+
+
+def test_a_surface_that_the_design_cannot_carry_is_a_problem_not_a_crash(project):
+    project.edit("config/small.yaml", "spoke_c10_mpa^2]", "spoke_c10_mpa^2, shear_band_c10_mpa^2]")
+    run = project.snakemake()
+    assert run.returncode != 0
+    (published, lca) = [row for row in project.rows("problems.csv") if row["stage"] == "surface"]
+    assert {published["solver"], lca["solver"]} == {"published", "lca"}
+    assert "shear_band_c10_mpa^2 with" in published["message"]
+
+
+def test_a_failed_run_leaves_no_report_that_looks_current(project):
+    rows, columns = project.read_sheet()
+    for row in rows:
+        if row["orientation_deg"] == "0":
+            row["include"], row["reason"] = "no", "none of these is sound"
+    project.write_sheet(columns, rows)
+
+    run = project.snakemake()
+
+    assert run.returncode != 0
+    assert "e1_mpa" in run.stderr + run.stdout
+    assert not project.path("results/report.html").exists()
+    assert project.path("results/report.stale.html").exists()
+
+
+def test_batches_recompute_nothing(project):
+    with project.path("config/small.yaml").open("a") as stream:
+        stream.write("campaign: {batches: 3}\n")
+    before = {row["case_id"] + row["solver"]: row for row in project.rows("cases.csv")}
+    run = project.snakemake()
+    assert run.returncode == 0, run.stderr[-3000:]
+    assert re.search(r"ok \([\d.]+ s", run.stderr) is None
+    after = {row["case_id"] + row["solver"]: row for row in project.rows("cases.csv")}
+    assert after == before

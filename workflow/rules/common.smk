@@ -1,0 +1,91 @@
+# The configuration and the specimen sheet, checked; what the rules ask of them.
+import time
+from pathlib import Path
+
+from snakemake.exceptions import WorkflowError
+
+from nptcs.config.root import read_config
+from nptcs.errors import InputError
+from nptcs.files import sha256_of_file
+from nptcs.provenance import code_hash
+from nptcs.solvers.registry import check_study, load, module_of, read_options
+from nptcs.tables.catalogue import TABLES as TABLE_CONTRACTS
+from nptcs.tables.specimens import read_sheet
+
+STARTED = time.time()
+
+try:
+    CONFIG = read_config(config)
+    for study in CONFIG.studies:
+        check_study(study, CONFIG.solver_options(study))
+    SHEET = Path(CONFIG.lab_data.specimen_sheet)
+    SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
+except InputError as error:
+    raise WorkflowError(str(error)) from None
+
+SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
+SERIES = sorted({specimen.series for specimen in SPECIMENS})
+RUBBERS = sorted({s.material for s in SPECIMENS if s.test.is_rubber and s.include})
+STUDIES = [study.name for study in CONFIG.studies]
+
+TABLES = [
+    f"results/tables/{name.replace('STUDY', study)}"
+    for name in TABLE_CONTRACTS
+    for study in (STUDIES if "STUDY" in name else [""])
+]
+
+
+wildcard_constraints:
+    specimen="[A-Za-z0-9._-]+",
+    series="[A-Za-z0-9._-]+",
+    rubber="[A-Za-z0-9._-]+",
+    study="[a-z][a-z0-9_]*",
+    solver="[a-z][a-z0-9_]*",
+    batch=r"\d+",
+
+
+def plain(section):
+    """A configuration section as plain values, so that Snakemake notices each change."""
+    return section.model_dump(mode="json")
+
+
+def code_of(script, *modules):
+    """Hash of a rule's script, of all that it imports from the package, and of further modules.
+
+    Snakemake goes by the script's time stamp, which a checkout renews, and not by its imports.
+    """
+    return code_hash(
+        str(Path(workflow.basedir) / f"workflow/scripts/{script}.py"), *modules
+    )
+
+
+def specimens_of_series(series):
+    return [specimen for specimen in SPECIMENS if specimen.series == series]
+
+
+def specimens_of_material(material):
+    return [specimen for specimen in SPECIMENS if specimen.material == material]
+
+
+def curves(specimens):
+    return [f"results/1_ingest/{specimen.specimen}.csv" for specimen in specimens]
+
+
+def records(specimens):
+    return [f"results/1_ingest/{specimen.specimen}.json" for specimen in specimens]
+
+
+def solver_of(study_name, solver_name):
+    """A study's solver with its checked options."""
+    options = CONFIG.solver_options(CONFIG.study(study_name))[solver_name]
+    solver = load(module_of(solver_name, options))
+    return solver, read_options(solver, options)
+
+
+def batches(study_name, solver_name=None):
+    study = CONFIG.study(study_name)
+    return [
+        f"results/5_solve/{study_name}/{solver}/batch_{batch}.jsonl"
+        for solver in ([solver_name] if solver_name else study.solvers)
+        for batch in range(1, CONFIG.campaign.batches + 1)
+    ]

@@ -1,0 +1,132 @@
+# All results → the list of problems, the report and the workbook, and the verdict on the run.
+from importlib.resources import files as package_files
+
+
+def solver_facts():
+    """What the report says of each solver: the first line of its module, and what it is given."""
+    named = {(name, study.name) for study in CONFIG.studies for name in study.solvers}
+    facts = {}
+    for name, study in sorted(named):
+        solver, _ = solver_of(study, name)
+        about = (
+            (sys.modules[solver.solve.__module__].__doc__ or "").strip().splitlines()
+        )
+        facts[name] = {
+            "about": about[0] if about else "",
+            "needs_ply": solver.needs_ply,
+        }
+    return facts
+
+
+def configured_inputs():
+    """Input files that the configuration names; raw laboratory files stand in files.csv."""
+    check = CONFIG.lca_validation
+    paths = [
+        str(SHEET),
+        *map(str, sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))),
+        CONFIG.sensitivity.published_impact,
+        check.spoke_stiffness,
+        check.published,
+        check.published_loads,
+        check.published_fem,
+    ]
+    for study in CONFIG.studies:
+        paths.append(study.published_coefficients)
+        for name in study.solvers:
+            paths += solver_of(study.name, name)[1].tables().values()
+    return list(dict.fromkeys(filter(None, paths)))
+
+
+rule problems:
+    input:
+        records=records(SPECIMENS),
+        cases="results/tables/cases.csv",
+        tables=expand("results/2_reduce/{series}_problems.csv", series=SERIES)
+        + expand("results/6_surface/{study}_problems.csv", study=STUDIES),
+    output:
+        problems="results/tables/problems.csv",
+    log:
+        "results/logs/problems.log",
+    params:
+        job={
+            "sheet_errors": [
+                [error.specimen or SHEET.name, str(error)] for error in SHEET_ERRORS
+            ],
+            "code": code_of("problems"),
+        },
+    script:
+        "../scripts/problems.py"
+
+
+rule report:
+    input:
+        problems="results/tables/problems.csv",
+        files="results/tables/files.csv",
+        specimens="results/tables/specimens.csv",
+        statistics="results/tables/statistics.csv",
+        models="results/tables/hyperelastic_models.csv",
+        ranges="results/tables/c10_against_range.csv",
+        card="results/material_card.json",
+        curves=curves(SPECIMENS),
+        records=records(SPECIMENS),
+        designs=expand("results/4_design/{study}.csv", study=STUDIES),
+        cases="results/tables/cases.csv",
+        surfaces=expand("results/6_surface/{study}.json", study=STUDIES),
+        coefficients=expand("results/tables/{study}_surface.csv", study=STUDIES),
+        quality="results/tables/surface_quality.csv",
+        impact="results/tables/impact.csv",
+        lca_validation="results/tables/lca_validation.csv",
+        lca_against_fem="results/tables/lca_against_fem.csv",
+        lca_shape="results/tables/lca_shape.csv",
+        inputs=configured_inputs(),
+    output:
+        page="results/report.html",
+        workbook="results/workbook.xlsx",
+    log:
+        "results/logs/report.log",
+    params:
+        job={
+            "config": plain(CONFIG),
+            "specimens": [plain(specimen) for specimen in SPECIMENS],
+            "solvers": solver_facts(),
+            "templates": {
+                template.name: sha256_of_file(template)
+                for template in sorted(
+                    Path(str(package_files("nptcs.report") / "templates")).iterdir()
+                )
+            },
+            "code": code_of("report"),
+        },
+    script:
+        "../scripts/report.py"
+
+
+rule verdict:
+    input:
+        problems="results/tables/problems.csv",
+        page="results/report.html",
+        workbook="results/workbook.xlsx",
+        cases="results/tables/cases.csv",
+        records=records(SPECIMENS),
+    output:
+        verdict="results/verdict.txt",
+    log:
+        "results/logs/verdict.log",
+    params:
+        job={
+            "specimens": [plain(specimen) for specimen in SPECIMENS],
+            "code": code_of("verdict"),
+        },
+    script:
+        "../scripts/verdict.py"
+
+
+# After a failed run a report that was not built by it must not look current.
+onerror:
+    import nptcs.report.stale
+
+    nptcs.report.stale.set_aside(
+        ["results/report.html", "results/workbook.xlsx"],
+        "results/logs/verdict.log",
+        STARTED,
+    )

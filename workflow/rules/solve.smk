@@ -1,0 +1,55 @@
+# Design tables → one record a case. A failed case is a record too; records are kept by content.
+
+
+def ply_card(wildcards):
+    solver, _ = solver_of(wildcards.study, wildcards.solver)
+    return ["results/3_calibrate/ply.json"] if solver.needs_ply else []
+
+
+def solver_tables(wildcards):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    return list(options.tables().values())
+
+
+def solve_job(wildcards):
+    study = CONFIG.study(wildcards.study)
+    options = CONFIG.solver_options(study)[wildcards.solver]
+    return {
+        "study": plain(study),
+        "solver": wildcards.solver,
+        "options": options,
+        "tyre": plain(CONFIG.tyre),
+        "batch": int(wildcards.batch),
+        "batches": CONFIG.campaign.batches,
+        "code": code_of("solve", module_of(wildcards.solver, options)),
+    }
+
+
+rule solve:
+    input:
+        design="results/4_design/{study}.csv",
+        ply=ply_card,
+        tables=solver_tables,
+    output:
+        records="results/5_solve/{study}/{solver}/batch_{batch}.jsonl",
+    log:
+        "results/logs/solve/{study}_{solver}_{batch}.log",
+    threads: CONFIG.campaign.cores_per_batch
+    params:
+        job=solve_job,
+        store="results/5_solve/records",
+    script:
+        "../scripts/solve.py"
+
+
+rule cases:
+    input:
+        records=[path for study in STUDIES for path in batches(study)],
+    output:
+        cases="results/tables/cases.csv",
+    log:
+        "results/logs/cases.log",
+    params:
+        job={"code": code_of("cases")},
+    script:
+        "../scripts/cases.py"

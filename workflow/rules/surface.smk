@@ -1,0 +1,58 @@
+# Solved cases → response surfaces → average gradients and comprehensive impact values.
+
+
+def surface_job(wildcards):
+    study = CONFIG.study(wildcards.study)
+    return {
+        "study": study.model_dump(
+            mode="json", include={"name", "factors", "solvers", "terms"}
+        ),
+        "code": code_of("surface"),
+    }
+
+
+def published_coefficients(wildcards):
+    path = CONFIG.study(wildcards.study).published_coefficients
+    return [path] if path else []
+
+
+rule surface:
+    input:
+        records=lambda wildcards: batches(wildcards.study),
+        published=published_coefficients,
+    output:
+        table="results/tables/{study}_surface.csv",
+        surfaces="results/6_surface/{study}.json",
+        quality="results/6_surface/{study}_quality.csv",
+        problems="results/6_surface/{study}_problems.csv",
+    log:
+        "results/logs/surface/{study}.log",
+    params:
+        job=surface_job,
+    script:
+        "../scripts/surface.py"
+
+
+rule sensitivity:
+    input:
+        surfaces=expand("results/6_surface/{study}.json", study=STUDIES),
+        designs=expand("results/4_design/{study}.csv", study=STUDIES),
+        quality=expand("results/6_surface/{study}_quality.csv", study=STUDIES),
+        published=(
+            [CONFIG.sensitivity.published_impact]
+            if CONFIG.sensitivity.published_impact
+            else []
+        ),
+    output:
+        impact="results/tables/impact.csv",
+        quality="results/tables/surface_quality.csv",
+    log:
+        "results/logs/sensitivity.log",
+    params:
+        job={
+            "studies": STUDIES,
+            "rules": list(CONFIG.sensitivity.rules),
+            "code": code_of("sensitivity"),
+        },
+    script:
+        "../scripts/sensitivity.py"

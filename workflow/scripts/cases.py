@@ -1,0 +1,17 @@
+"""Gather the records of all cases in one table."""
+
+from collections.abc import Sequence
+
+from nptcs.campaign.record import read_records
+from nptcs.console import clear_errors
+from nptcs.tables.cases import Cases, cases_table
+from nptcs.tables.io import write_table
+
+
+def gather(records: Sequence[str], cases: str) -> None:
+    write_table(cases, cases_table(read_records(list(records))), Cases)
+
+
+if __name__ == "__main__":
+    with clear_errors(snakemake.log[0]):
+        gather(snakemake.input.records, snakemake.output.cases)

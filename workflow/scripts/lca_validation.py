@@ -1,0 +1,33 @@
+"""Check the load-bearing model against the published tables."""
+
+from typing import Any
+
+import pandas as pd
+
+from nptcs.config.tyre import TyreGeometry
+from nptcs.console import clear_errors
+from nptcs.lca.validation import lca_against_fem, lca_validation, ring_shapes
+from nptcs.tables.io import write_table
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
+
+
+def validate(job: dict[str, Any], source: dict[str, str], output: dict[str, str]) -> None:
+    tyre = TyreGeometry.model_validate(job["tyre"])
+    band_c10_mpa = job["settings"]["shear_band_c10_mpa"]
+    read = {name: pd.read_csv(path) for name, path in source.items()}
+    spokes, table_11 = read["spoke_stiffness"], read["published"]
+    rows = lca_validation(
+        spokes, table_11, read["published_loads"], tyre, shear_band_c10_mpa=band_c10_mpa
+    )
+    write_table(output["validation"], rows, LcaValidation)
+    fem = lca_against_fem(spokes, read["published_fem"], tyre)
+    write_table(output["fem"], fem, LcaAgainstFem)
+    shapes = ring_shapes(spokes, table_11, tyre, shear_band_c10_mpa=band_c10_mpa)
+    write_table(output["shape"], shapes, LcaShape)
+
+
+if __name__ == "__main__":
+    with clear_errors(snakemake.log[0]):
+        validate(
+            snakemake.params.job, dict(snakemake.input.items()), dict(snakemake.output.items())
+        )

@@ -1,0 +1,27 @@
+"""Lay all results out: the HTML report and the workbook."""
+
+from collections.abc import Mapping
+from typing import Any
+
+from nptcs.console import clear_errors
+from nptcs.files import atomic_path, write_text
+from nptcs.report.data import read_results
+from nptcs.report.html import render_report
+from nptcs.report.workbook import build_workbook
+
+
+def report(job: dict[str, Any], files: Mapping[str, Any], page: str, workbook: str) -> None:
+    results = read_results(job, files)
+    with atomic_path(workbook) as temporary:
+        temporary.write_bytes(build_workbook(results))
+    write_text(page, render_report(results))
+
+
+if __name__ == "__main__":
+    with clear_errors(snakemake.log[0]):
+        report(
+            snakemake.params.job,
+            dict(snakemake.input.items()),
+            snakemake.output.page,
+            snakemake.output.workbook,
+        )

@@ -1,0 +1,50 @@
+"""Drucker stability of a hyperelastic model over a range of strain, in every simple mode."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.calibrate.fit import Model
+from nptcs.calibrate.invariants import stretches
+
+Array = NDArray[np.float64]
+# compression in a mode is the same path run backwards from λ = 1
+PATHS = {
+    "uniaxial": "rubber_tension",
+    "equibiaxial": "rubber_equibiaxial",
+    "pure shear": "rubber_pure_shear",
+}
+STEPS = 400
+
+
+def instabilities(model: Model, constants: Array, largest_strain: float) -> list[str]:
+    """Where the model is unstable, in words; empty if it is stable.
+
+    Drucker's condition dτ : dε > 0 for an incompressible material: the Hessian of the energy in
+    the logarithmic strains e1, e2 (e3 = -e1 - e2) is positive definite. Checked on uniaxial,
+    equibiaxial and pure shear paths in tension from λ = 1 to 1 + `largest_strain` and in
+    compression to its reciprocal.
+
+    Parameters
+    ----------
+    model : Model
+        The model.
+    constants : ndarray, shape (k,)
+        Its constants.
+    largest_strain : float
+        Upper end of the nominal strain range.
+    """
+    found = []
+    for words, mode in PATHS.items():
+        for direction, end in (
+            ("tension", 1 + largest_strain),
+            ("compression", 1 / (1 + largest_strain)),
+        ):
+            stretch = np.linspace(1.0, end, STEPS)
+            l1, l2, _ = stretches(mode, stretch)
+            lowest = np.linalg.eigvalsh(model.tangent(l1, l2, constants))[..., 0]
+            if (lowest <= 0).any():
+                first = stretch[int(np.argmax(lowest <= 0))] - 1
+                found.append(f"{words} {direction} from strain {first:.3g}")
+    return found

@@ -1,0 +1,145 @@
+"""Fits of hyperelastic models: constants, errors from the specimens' scatter, quality."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.calibrate.linear import robust_covariance
+from nptcs.calibrate.observations import Observation
+
+Array = NDArray[np.float64]
+
+SCATTER = "scatter between {n} specimens (jackknife)"
+REGRESSION = "scatter of the points about the fit (too few specimens of a mode for their scatter)"
+
+
+class Model(Protocol):
+    """What a hyperelastic model can do; incompressible, stresses nominal, MPa."""
+
+    @property
+    def name(self) -> str:
+        """Name in tables and configuration."""
+
+    @property
+    def constants(self) -> tuple[str, ...]:
+        """Names of the constants, units in the names."""
+
+    def solve(self, data: Sequence[Observation], start: Array | None = None) -> Array:
+        """Constants of the weighted least-squares fit."""
+
+    def stress(self, mode: str, stretch: Array, constants: Array) -> Array:
+        """Nominal stress, shape (n,)."""
+
+    def jacobian(self, mode: str, stretch: Array, constants: Array) -> Array:
+        """∂P/∂c, shape (n, k)."""
+
+    def tangent(self, l1: Array, l2: Array, constants: Array) -> Array:
+        """Hessian of the energy in logarithmic strains, shape (n, 2, 2)."""
+
+    def initial_shear_modulus(self, constants: Array) -> float:
+        """Shear modulus of the undeformed material, MPa."""
+
+    def remarks(self, constants: Array) -> list[str]:
+        """Say what a reader must know of these constants."""
+
+
+@dataclass(frozen=True)
+class Fit:
+    """Constants of a model with their covariance and the quality of the fit.
+
+    Parameters
+    ----------
+    constants : ndarray, shape (k,)
+        In the order of the model's names.
+    covariance : ndarray, shape (k, k)
+        Of the constants.
+    covariance_rule : str
+        How it was estimated.
+    points : int
+        Points in the fit.
+    rmse_mpa, r_squared : float
+        Over all points, unweighted.
+    largest_error_percent : float
+        Largest |P_model/P - 1| where P is at least the floor's fraction of its largest value.
+    """
+
+    constants: Array
+    covariance: Array
+    covariance_rule: str
+    points: int
+    rmse_mpa: float
+    largest_error_percent: float
+    r_squared: float
+
+    @property
+    def standard_errors(self) -> Array:
+        """Square roots of the covariance's diagonal, shape (k,)."""
+        return np.sqrt(np.diag(self.covariance))
+
+
+def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> Fit:
+    """Fit a model to all observations together.
+
+    Parameters
+    ----------
+    model : Model
+        Neo-Hookean, Mooney–Rivlin, Yeoh or Ogden.
+    data : sequence of Observation
+        One a specimen, of one mode or of several.
+    error_floor : float
+        Fraction of the largest stress below which relative errors are not evaluated.
+
+    Returns
+    -------
+    Fit
+        The covariance is the delete-one jackknife over specimens within each mode,
+        Σ_h (n_h - 1)/n_h Σ_i (c_hi - c̄_h)(c_hi - c̄_h)ᵀ, which is s²/n for a mean; with a
+        single specimen in some mode it is the regression's (HC1), and says so.
+    """
+    constants = model.solve(data)
+    stress = np.concatenate([o.stress for o in data])
+    residual = _residuals(model, data, constants)
+    covariance, rule = _covariance(model, data, constants)
+    large = np.abs(stress) >= error_floor * np.abs(stress).max()
+    total = float(((stress - stress.mean()) ** 2).sum())
+    return Fit(
+        constants,
+        covariance,
+        rule,
+        len(stress),
+        float(np.sqrt(np.mean(residual**2))),
+        float(100 * np.max(np.abs(residual[large] / stress[large]))),
+        1.0 - float(residual @ residual) / total if total > 0 else float("nan"),
+    )
+
+
+def _residuals(model: Model, data: Sequence[Observation], constants: Array) -> Array:
+    return np.concatenate([model.stress(o.mode, o.stretch, constants) - o.stress for o in data])
+
+
+def _covariance(model: Model, data: Sequence[Observation], constants: Array) -> tuple[Array, str]:
+    counts = Counter(o.mode for o in data)
+    if min(counts.values()) > 1:
+        return _jackknife(model, data, constants), SCATTER.format(n=len(data))
+    jacobian = np.concatenate([model.jacobian(o.mode, o.stretch, constants) for o in data])
+    weight = np.concatenate([o.weight for o in data])
+    return robust_covariance(jacobian, _residuals(model, data, constants), weight), REGRESSION
+
+
+def _jackknife(model: Model, data: Sequence[Observation], constants: Array) -> Array:
+    total = np.zeros((len(constants), len(constants)))
+    for mode in {o.mode for o in data}:
+        left_out = [i for i, o in enumerate(data) if o.mode == mode]
+        estimates = np.array(
+            [model.solve([*data[:i], *data[i + 1 :]], start=constants) for i in left_out]
+        )
+        deviation = estimates - estimates.mean(axis=0)
+        n = len(left_out)
+        total += (n - 1) / n * deviation.T @ deviation
+    return total

@@ -1,0 +1,162 @@
+"""The points that a hyperelastic fit sees: loading branches inside the strain range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from nptcs.config.calibration import RubberSettings
+from nptcs.errors import InputError
+from nptcs.reduce.rows import finite_pair, loading_branch
+from nptcs.tables.specimens import Specimen
+
+Array = NDArray[np.float64]
+SMALLEST_NUMBER_OF_POINTS = 3
+
+
+@dataclass(frozen=True)
+class Observation:
+    """One specimen's points in the range, with the weight of each.
+
+    Parameters
+    ----------
+    specimen, mode : str
+        Id and test type.
+    stretch, stress : ndarray, shape (n,)
+        λ and nominal stress (MPa).
+    weight : ndarray, shape (n,)
+        Factor of each squared residual.
+    """
+
+    specimen: str
+    mode: str
+    stretch: Array
+    stress: Array
+    weight: Array
+
+
+def undetermined(model: str, constants: int, rank: int, data: Sequence[Observation]) -> InputError:
+    """Error for data that cannot tell the constants of a model apart."""
+    return InputError(
+        f"{model}: {constants} constants, the data determine {rank}",
+        "widen the strain range, add another mode of deformation, or use a simpler model",
+        specimen=", ".join(o.specimen for o in data),
+        column="strain_axial",
+    )
+
+
+def observations(
+    name: str,
+    curves: Mapping[str, pd.DataFrame],
+    specimens: Sequence[Specimen],
+    settings: RubberSettings,
+    strain_range: tuple[float, float],
+) -> tuple[list[Observation], list[str]]:
+    """Points of the included specimens of a rubber, and remarks on what is missing.
+
+    Parameters
+    ----------
+    name : str
+        Material in the sheet.
+    curves : mapping of str to DataFrame
+        Curves by specimen id.
+    specimens : sequence of Specimen
+        The sheet.
+    settings : RubberSettings
+        Weights, and whether one specimen alone is fitted.
+    strain_range : (float, float)
+        Nominal strain, from and to.
+
+    Raises
+    ------
+    InputError
+        If no specimen is left, or one has fewer than three points in the range.
+    """
+    chosen = _chosen(name, specimens, settings.only_specimen)
+    remarks = [
+        f"{s.specimen}: no curve, not in the fit" for s in chosen if s.specimen not in curves
+    ]
+    found = []
+    for specimen in chosen:
+        if specimen.specimen in curves:
+            observation, words = observe(
+                specimen, curves[specimen.specimen], settings, strain_range
+            )
+            found.append(observation)
+            remarks += words
+    if not found:
+        raise InputError(
+            f"material {name}: no curve to fit",
+            "ingest at least one included rubber specimen of this material",
+            column="material",
+            value=name,
+        )
+    return found, remarks
+
+
+def _chosen(name: str, specimens: Sequence[Specimen], only: str | None) -> list[Specimen]:
+    chosen = [s for s in specimens if s.material == name and s.include and s.test.is_rubber]
+    if only is None:
+        return chosen
+    alone = [s for s in chosen if s.specimen == only]
+    if not alone:
+        raise InputError(
+            f"material {name} has no included specimen of this name",
+            "correct calibration.rubber.only_specimen or set it to null",
+            column="calibration.rubber.only_specimen",
+            value=only,
+        )
+    return alone
+
+
+def observe(
+    specimen: Specimen,
+    curve: pd.DataFrame,
+    settings: RubberSettings,
+    strain_range: tuple[float, float],
+) -> tuple[Observation, list[str]]:
+    """Points of one specimen in the range, and a remark if its strain ends before it does.
+
+    Raises
+    ------
+    InputError
+        If fewer than three points lie in the range, or none has a tensile stress.
+    """
+    low, high = strain_range
+    strain, stress = finite_pair(loading_branch(curve, specimen), "strain_axial", "stress_mpa")
+    inside = (strain >= low) & (strain <= high)
+    if inside.sum() < SMALLEST_NUMBER_OF_POINTS:
+        raise InputError(
+            f"{int(inside.sum())} points in the strain range {low:g} to {high:g}",
+            "widen calibration.rubber.strain_range or leave the specimen out",
+            specimen=specimen.specimen,
+            column="strain_axial",
+        )
+    if not stress[inside].max() > 0:
+        raise InputError(
+            f"no tensile stress in the strain range {low:g} to {high:g}",
+            "check the curve's strain origin, or leave the specimen out",
+            specimen=specimen.specimen,
+            column="stress_mpa",
+            value=float(stress[inside].max()),
+        )
+    words = []
+    if strain.max() < high:
+        words.append(f"{specimen.specimen}: strain ends at {strain.max():.4g}, before {high:g}")
+    stretch, stress = 1.0 + strain[inside], stress[inside]
+    weight = _weight(stress, settings)
+    return Observation(specimen.specimen, specimen.test.value, stretch, stress, weight), words
+
+
+def _weight(stress: Array, settings: RubberSettings) -> Array:
+    if settings.weights == "points":
+        return np.ones_like(stress)
+    if settings.weights == "specimens":
+        return np.full_like(stress, 1.0 / len(stress))
+    # below the floor a relative residual is noise over nearly nothing
+    scale = np.maximum(np.abs(stress), settings.relative_error_floor * np.abs(stress).max())
+    return 1.0 / (len(stress) * scale**2)

@@ -1,0 +1,132 @@
+"""The rubber card: hyperelastic constants within a strain range."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from nptcs.calibrate.drucker import instabilities
+from nptcs.calibrate.fit import Fit, fit_model
+from nptcs.calibrate.models import model_named
+from nptcs.calibrate.observations import observations
+from nptcs.calibrate.toe import toe_words
+from nptcs.config.calibration import CalibrationSettings
+from nptcs.materials import Covariance, Quantity, RubberCard
+from nptcs.reduce.deviations import CROSSHEAD
+from nptcs.tables.specimens import Specimen
+
+
+def calibrate_rubber(
+    name: str,
+    curves: Mapping[str, pd.DataFrame],
+    specimens: Sequence[Specimen],
+    settings: CalibrationSettings,
+    strain_sources: Mapping[str, str] | None = None,
+) -> RubberCard:
+    """Fit the card's model to the included specimens of a rubber.
+
+    Parameters
+    ----------
+    name : str
+        Material in the sheet, e.g. rubber_75A.
+    curves : mapping of str to DataFrame
+        Tidy curves by specimen id (strain_axial nominal, stress_mpa nominal).
+    specimens : sequence of Specimen
+        The sheet; specimens with include = no do not enter.
+    settings : CalibrationSettings
+        Model, strain range and weights; neo-Hookean within 15 % by default, as in the study.
+    strain_sources : mapping of str to str, optional
+        Where each specimen's strain came from, as the ingest records say; the card says which
+        specimens have crosshead strain.
+
+    Returns
+    -------
+    RubberCard
+        Constants with standard errors and covariance, quality of the fit, and remarks.
+
+    Raises
+    ------
+    InputError
+        If there is no curve, too few points in the range, or the data cannot tell the
+        constants apart.
+    """
+    rubber = settings.rubber
+    model = model_named(rubber.model, rubber.ogden_terms)
+    data, remarks = observations(name, curves, specimens, rubber, rubber.strain_range)
+    fit = fit_model(model, data, rubber.relative_error_floor)
+    unstable = instabilities(model, fit.constants, rubber.strain_range[1])
+    used = tuple(o.specimen for o in data)
+    origins = {s.specimen: s.origin for s in specimens}
+    sources = strain_sources or {}
+    crosshead = [
+        f"warning: {name}: {CROSSHEAD}" for name in used if sources.get(name) == "crosshead"
+    ]
+    low, high = rubber.strain_range
+    rule = (
+        f"{model.name}, least squares on nominal stress, strain {low:g} to {high:g}, "
+        f"weights: {rubber.weights}, {fit.points} points of {len(used)} specimens; "
+        f"standard error: {fit.covariance_rule}"
+    )
+    return RubberCard(
+        name=name,
+        synthetic=any(origins[specimen] == "synthetic" for specimen in used),
+        model=model.name,
+        constants=_quantities(model.constants, fit, rule, used),
+        covariance=_covariance(model.constants, fit, used),
+        strain_range=rubber.strain_range,
+        fit_quality={
+            "rmse_mpa": fit.rmse_mpa,
+            "largest_error_percent": fit.largest_error_percent,
+            "r_squared": fit.r_squared,
+            "drucker_stable": float(not unstable),
+            "initial_shear_modulus_mpa": model.initial_shear_modulus(fit.constants),
+        },
+        checks=(
+            *model.remarks(fit.constants),
+            *_stability_words(unstable, high),
+            *toe_words(data),
+            *crosshead,
+            *remarks,
+        ),
+    )
+
+
+def unit_of(constant: str) -> str:
+    """Return the unit of a constant, from its name."""
+    return "MPa" if constant.endswith("_mpa") else "1"
+
+
+def _quantities(
+    names: Sequence[str], fit: Fit, rule: str, used: tuple[str, ...]
+) -> dict[str, Quantity]:
+    return {
+        name: Quantity(
+            value=float(value),
+            unit=unit_of(name),
+            standard_error=float(error) if np.isfinite(error) else None,
+            origin="measured",
+            rule=rule,
+            specimens=used,
+        )
+        for name, value, error in zip(names, fit.constants, fit.standard_errors, strict=True)
+    }
+
+
+def _covariance(names: Sequence[str], fit: Fit, used: tuple[str, ...]) -> Covariance | None:
+    if not np.isfinite(fit.covariance).all():
+        return None
+    return Covariance(
+        names=tuple(names),
+        units=tuple(unit_of(name) for name in names),
+        rule=fit.covariance_rule,
+        specimens=used,
+        matrix=tuple(tuple(float(x) for x in row) for row in fit.covariance),
+    )
+
+
+def _stability_words(unstable: list[str], high: float) -> list[str]:
+    if unstable:
+        return ["warning: not stable in Drucker's sense: " + "; ".join(unstable)]
+    return [f"stable in Drucker's sense in all modes up to strain {high:g}"]

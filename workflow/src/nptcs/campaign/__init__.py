@@ -1,0 +1,1 @@
+"""The campaign: many solver cases, each isolated, each recorded, none solved twice."""

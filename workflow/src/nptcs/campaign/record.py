@@ -1,0 +1,146 @@
+"""The record of one solver case, kept under a name made of all that decides its content."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+import pandas as pd
+from pydantic import BaseModel, ConfigDict, Field, ValidationError
+
+from nptcs.errors import InputError
+from nptcs.files import sha256_of_text, write_text
+from nptcs.solvers.contract import SolverResult, Status
+
+
+class CaseJob(BaseModel):
+    """One case as it is handed to a solver's process.
+
+    All that decides the result is in here, and nothing else is but the case's name and the time
+    limit; `key` is made of it.
+    """
+
+    model_config = ConfigDict(extra="forbid", frozen=True)
+
+    study: str
+    case_id: str
+    solver: str
+    solver_version: str
+    module: str = Field(description="Module or file that defines the solver")
+    code: str = Field(description="Hash of the solver's code and of all that it imports")
+    values: dict[str, float]
+    load_n: float
+    tyre: dict[str, Any]
+    ply: dict[str, float] | None
+    options: dict[str, Any]
+    without_effect: tuple[str, ...] = Field(description="Options that are no part of the key")
+    tables: dict[str, list[dict[str, Any]]]
+
+    @property
+    def key(self) -> str:
+        """The content address: the same key, the same result."""
+        content = self.model_dump(exclude={"study", "case_id", "module", "without_effect"})
+        for name in self.without_effect:
+            content["options"].pop(name, None)
+        return sha256_of_text(json.dumps(content, sort_keys=True))
+
+    @property
+    def timeout_s(self) -> float:
+        """Wall time after which the case is stopped."""
+        return float(self.options["timeout_s"])
+
+
+class CaseRecord(BaseModel):
+    """How one case ended: one line of a batch file, one row of ``cases.csv``."""
+
+    model_config = ConfigDict(extra="forbid")
+
+    study: str
+    case_id: str
+    solver: str
+    solver_version: str
+    key: str
+    values: dict[str, float]
+    load_n: float
+    wall_time_s: float = Field(description="Time of the run that made the result")
+    result: SolverResult
+
+
+def make_record(job: CaseJob, result: SolverResult, wall_time_s: float) -> CaseRecord:
+    """Join a job and its result."""
+    return CaseRecord(
+        study=job.study,
+        case_id=job.case_id,
+        solver=job.solver,
+        solver_version=job.solver_version,
+        key=job.key,
+        values=job.values,
+        load_n=job.load_n,
+        wall_time_s=wall_time_s,
+        result=result,
+    )
+
+
+class RecordStore:
+    """A folder with one JSON file a solved case, named by the case's key."""
+
+    def __init__(self, folder: str | Path) -> None:
+        self.folder = Path(folder)
+
+    def path(self, key: str) -> Path:
+        """Return where the record of that key is kept."""
+        return self.folder / key[:2] / f"{key}.json"
+
+    def read(self, job: CaseJob) -> CaseRecord | None:
+        """Return the record of a case that was solved before; None if there is no sound one.
+
+        An unreadable file is a miss. The case's name is the job's: two studies share a record.
+        """
+        try:
+            content = json.loads(self.path(job.key).read_text(encoding="utf-8"))
+            record = CaseRecord.model_validate(content)
+        except (OSError, UnicodeDecodeError, json.JSONDecodeError, ValidationError):
+            return None
+        if record.key != job.key or record.result.status != Status.OK:
+            return None
+        return record.model_copy(update={"study": job.study, "case_id": job.case_id})
+
+    def write(self, record: CaseRecord) -> None:
+        """Keep a solved case; one that failed is not kept, so that it is tried again."""
+        if record.result.status == Status.OK:
+            write_text(self.path(record.key), record.model_dump_json(indent=1))
+
+
+def read_records(paths: list[str]) -> list[CaseRecord]:
+    """Read batch files: one record a line."""
+    return [
+        CaseRecord.model_validate_json(line)
+        for path in paths
+        for line in Path(path).read_text(encoding="utf-8").splitlines()
+    ]
+
+
+def write_records(path: str | Path, records: list[CaseRecord]) -> None:
+    """Write a batch file, atomically: one record a line."""
+    write_text(path, "".join(record.model_dump_json() + "\n" for record in records))
+
+
+def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
+    """Read the CSV files that a solver asks for, as rows of plain numbers and text.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing or has no rows.
+    """
+    tables = {}
+    for name, path in paths.items():
+        if not Path(path).is_file():
+            raise InputError("this table of a solver does not exist", file=path, column=name)
+        rows = pd.read_csv(path, comment="#").to_dict("records")
+        if not rows:
+            raise InputError("this table of a solver has no rows", file=path, column=name)
+        tables[name] = [{str(key): value for key, value in row.items()} for row in rows]
+    return tables

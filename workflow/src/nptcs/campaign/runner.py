@@ -1,0 +1,179 @@
+"""Run solver cases side by side, one process a case, so that none can harm another."""
+
+from __future__ import annotations
+
+import multiprocessing
+import signal
+import sys
+import time
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from multiprocessing.connection import Connection, wait
+from multiprocessing.process import BaseProcess
+
+from nptcs.campaign import worker
+from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
+from nptcs.solvers.contract import SolverResult, Status
+
+KILL_AFTER_S = 2.0
+"""Grace between the polite and the final signal to a case that is out of time."""
+
+Progress = Callable[[CaseRecord, bool, int, int], None]
+"""Called with the record, whether it was reused, how many are done, how many there are."""
+
+
+@dataclass
+class _Running:
+    job: CaseJob
+    process: BaseProcess
+    channel: Connection
+    started: float
+
+
+def run_cases(
+    jobs: Sequence[CaseJob], store: RecordStore, cores: int, progress: Progress
+) -> list[CaseRecord]:
+    """Solve cases, or take their records from the store.
+
+    A case that raises, hangs, crashes or kills its process becomes one record with a status and
+    a message; the others go on.
+
+    Parameters
+    ----------
+    jobs : sequence of CaseJob
+        The cases.
+    store : RecordStore
+        Solved cases; new ones are added at once, so that an interrupted campaign goes on where
+        it stopped.
+    cores : int
+        Cases that run at a time.
+    progress : callable
+        Told of each record as it comes.
+
+    Returns
+    -------
+    list of CaseRecord
+        One a job, in the order of `jobs`.
+    """
+    records: dict[int, CaseRecord] = {}
+
+    def done(position: int, record: CaseRecord, reused: bool) -> None:
+        if not reused:
+            store.write(record)
+        records[position] = record
+        progress(record, reused, len(records), len(jobs))
+
+    waiting = []
+    for position, job in enumerate(jobs):
+        known = store.read(job)
+        if known is None:
+            waiting.append(position)
+        else:
+            done(position, known, True)
+    if waiting:
+        for position, result, seconds in _solve_all(jobs, waiting, cores):
+            done(position, make_record(jobs[position], result, seconds), False)
+    return [records[position] for position in range(len(jobs))]
+
+
+def _solve_all(
+    jobs: Sequence[CaseJob], waiting: Sequence[int], cores: int
+) -> Iterator[tuple[int, SolverResult, float]]:
+    """Solve the jobs at the positions `waiting`; yield each as it ends."""
+    context = multiprocessing.get_context("forkserver")
+    modules = {jobs[position].module for position in waiting}
+    preload = [module for module in modules if not module.endswith(".py")]
+    context.set_forkserver_preload(["nptcs.campaign.worker", *sorted(preload)])
+    queue = list(reversed(waiting))
+    running: dict[int, _Running] = {}
+    try:
+        while queue or running:
+            while queue and len(running) < cores:
+                position = queue.pop()
+                running[position] = _start(jobs[position])
+            for position in _ended(running):
+                case = running.pop(position)
+                yield position, *_collect(case)
+    finally:
+        for case in running.values():
+            _stop(case.process)
+
+
+def _start(job: CaseJob) -> _Running:
+    """Start the process of a case."""
+    context = multiprocessing.get_context("forkserver")
+    receive, send = context.Pipe(duplex=False)
+    process = context.Process(target=worker.run, args=(job, send), name=job.case_id)
+    with _without_main_file():
+        process.start()
+    send.close()
+    return _Running(job, process, receive, time.monotonic())
+
+
+def _ended(running: dict[int, _Running]) -> list[int]:
+    """Wait until a case has sent its result, died or run out of time; name all that have."""
+    now = time.monotonic()
+    left = min(case.started + case.job.timeout_s - now for case in running.values())
+    ready = wait([case.channel for case in running.values()], timeout=max(0.0, left))
+    now = time.monotonic()
+    return [
+        position
+        for position, case in running.items()
+        if case.channel in ready or now - case.started >= case.job.timeout_s
+    ]
+
+
+def _collect(case: _Running) -> tuple[SolverResult, float]:
+    """Take the result of a case that has ended, or say how it died."""
+    seconds = time.monotonic() - case.started
+    try:
+        if not case.channel.poll():
+            message = f"stopped after {seconds:.1f} s (timeout_s = {case.job.timeout_s:g})"
+            return SolverResult(status=Status.TIMEOUT, message=message), seconds
+        text, seconds = case.channel.recv()
+        return SolverResult.model_validate_json(text), seconds
+    except EOFError:
+        case.process.join(KILL_AFTER_S)
+        code = case.process.exitcode
+        return SolverResult(status=Status.ERROR, message=_cause_of_death(code)), seconds
+    finally:
+        case.channel.close()
+        _stop(case.process)
+
+
+def _cause_of_death(exit_code: int | None) -> str:
+    """Say in words how a process ended that sent no result."""
+    if exit_code is not None and exit_code < 0:
+        return f"the solver's process was killed by signal {signal.Signals(-exit_code).name}"
+    return f"the solver's process ended without a result (exit code {exit_code})"
+
+
+def _stop(process: BaseProcess) -> None:
+    """End a process, politely first, and free it."""
+    process.join(0.1)
+    if process.is_alive():
+        process.terminate()
+        process.join(KILL_AFTER_S)
+    if process.is_alive():
+        process.kill()
+        process.join()
+    process.close()
+
+
+@contextmanager
+def _without_main_file() -> Iterator[None]:
+    """Keep a new process from running the caller's main script a second time.
+
+    multiprocessing imports the parent's ``__main__`` in each child when it has a file. Here that
+    may be a Snakemake script, and the worker needs nothing of it.
+    """
+    main = sys.modules["__main__"]
+    file = main.__dict__.pop("__file__", None)
+    spec, main.__spec__ = main.__spec__, None
+    try:
+        yield
+    finally:
+        main.__spec__ = spec
+        if file is not None:
+            main.__file__ = file

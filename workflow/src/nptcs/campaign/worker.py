@@ -1,0 +1,55 @@
+"""One solver case in a process of its own."""
+
+from __future__ import annotations
+
+import os
+import threading
+import time
+import traceback
+from multiprocessing import parent_process
+from multiprocessing.connection import Connection
+
+from nptcs.campaign.record import CaseJob
+from nptcs.config.tyre import TyreGeometry
+from nptcs.solvers.contract import CaseInputs, SolverResult, Status
+from nptcs.solvers.registry import load, read_options
+
+
+def solve(job: CaseJob) -> SolverResult:
+    """Solve a case; whatever the solver raises becomes a result with status ``error``."""
+    try:
+        solver = load(job.module)
+        inputs = CaseInputs(
+            case_id=job.case_id,
+            values=job.values,
+            load_n=job.load_n,
+            tyre=TyreGeometry.model_validate(job.tyre),
+            options=read_options(solver, job.options),
+            ply=job.ply,
+            tables=job.tables,
+        )
+        return SolverResult.model_validate(solver.solve(inputs))
+    except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
+        where = traceback.extract_tb(error.__traceback__)[-1]
+        file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
+        return SolverResult(
+            status=Status.ERROR,
+            message=f"{type(error).__name__}: {error} ({file}, line {where.lineno})",
+        )
+
+
+def run(job: CaseJob, channel: Connection) -> None:
+    """Solve a case and send ``(result, wall time in s)`` back through the pipe."""
+    threading.Thread(target=_leave_with_parent, daemon=True).start()
+    start = time.perf_counter()
+    result = solve(job)
+    channel.send((result.model_dump_json(), time.perf_counter() - start))
+    channel.close()
+
+
+def _leave_with_parent() -> None:
+    """End this process when the campaign that started it is gone, however it went."""
+    parent = parent_process()
+    if parent is not None:
+        parent.join()
+        os._exit(1)

@@ -1,0 +1,278 @@
+"""Rules by which curves become properties: every range with the standard's value as default.
+
+A section a standard, because each has its own ranges; ``tension_standard`` and its siblings
+say which one is in force. Ranges that the standards leave to the laboratory, or whose numbers
+were not read in a public source, are marked "check against your copy of the standard" in
+``docs/methods/reduction.md``.
+"""
+
+from __future__ import annotations
+
+from typing import Annotated, ClassVar, Literal
+
+from pydantic import AfterValidator, Field
+
+from nptcs.config.base import Strict
+
+ChordMethod = Literal["nearest_points", "interpolated", "least_squares"]
+
+
+def _in_order(interval: tuple[float, float]) -> tuple[float, float]:
+    low, high = interval
+    if not low < high:
+        raise ValueError(f"runs from low to high, got {low:g} to {high:g}")
+    return interval
+
+
+Interval = Annotated[tuple[float, float], AfterValidator(_in_order)]
+
+CHORD_METHODS = (
+    "nearest_points: the recorded points nearest to both ends of the range; "
+    "interpolated: linear interpolation at both ends; "
+    "least_squares: regression line over the points inside the range"
+)
+
+
+class Rules(Strict):
+    """What the sections of all standards have in common."""
+
+    title: ClassVar[str]
+    minimum_specimens: int = Field(5, ge=1, description="Number of specimens asked for")
+    reported_statistic: Literal["mean", "median"] = Field(
+        "mean", description="Statistic that the standard reports for a group"
+    )
+    expected_width_mm: dict[int, Interval] = Field(
+        default_factory=dict,
+        description="Orientation in degrees (0 for rubber): recommended width, from and to, mm",
+    )
+    expected_thickness_mm: dict[int, Interval] = Field(
+        default_factory=dict,
+        description="Orientation in degrees (0 for rubber): recommended thickness, from and to, mm",
+    )
+    stations: int = Field(1, ge=1, description="Places at which width and thickness are measured")
+
+
+class ChordRules(Rules):
+    """Rules of a test with a chord modulus."""
+
+    chord_range: Interval = Field((0.001, 0.003), description="Strain range of the chord")
+    chord_method: ChordMethod = Field("nearest_points", description=CHORD_METHODS)
+    end_tolerance: float = Field(
+        0.1,
+        gt=0,
+        le=0.5,
+        description="Largest distance of a recorded point from its end of the chord, "
+        "as a fraction of the chord's width; beyond it the value is flagged",
+    )
+    time_to_failure_min: Interval | None = Field(
+        (1.0, 10.0), description="Time to failure that the standard asks for, minutes; null: none"
+    )
+
+
+class TensionRules(ChordRules):
+    """Rules of a tension test."""
+
+    low_ultimate_strain: float | None = Field(
+        None,
+        gt=0,
+        description="Ultimate strain below which the chord is taken over fractions of the "
+        "ultimate strain instead of chord_range; null: never",
+    )
+    low_ultimate_fractions: Interval = Field(
+        (0.25, 0.5), description="Those fractions of the ultimate strain"
+    )
+
+
+class AstmD3039(TensionRules):
+    """ASTM D3039: tensile properties of polymer matrix composites."""
+
+    title: ClassVar[str] = "ASTM D3039"
+    low_ultimate_strain: float | None = Field(
+        0.006, gt=0, description="Ultimate strain below which fractions of it bound the chord"
+    )
+    expected_width_mm: dict[int, Interval] = Field(
+        {0: (14.25, 15.75), 90: (23.75, 26.25), 45: (23.75, 26.25)},
+        description="Recommended width by orientation, mm (15 and 25 within 5 %)",
+    )
+    expected_thickness_mm: dict[int, Interval] = Field(
+        {0: (0.8, 1.2), 90: (1.6, 2.4), 45: (2.0, 3.0)},
+        description="Recommended thickness by orientation, mm (1.0, 2.0, 2.5 within 20 %)",
+    )
+    stations: int = Field(3, ge=1, description="Places at which width and thickness are measured")
+
+
+class Iso527(TensionRules):
+    """ISO 527-4/-5: tensile properties of fibre-reinforced plastics."""
+
+    title: ClassVar[str] = "ISO 527-4"
+    chord_range: Interval = Field((0.0005, 0.0025), description="Strain range of the chord")
+    time_to_failure_min: Interval | None = Field(
+        None, description="Time to failure that the standard asks for, minutes; null: none"
+    )
+
+
+class AstmD6641(ChordRules):
+    """ASTM D6641: compression of polymer matrix composites, combined loading fixture."""
+
+    title: ClassVar[str] = "ASTM D6641"
+    bending_limit_percent: float = Field(
+        10.0, gt=0, description="Largest |B_y| in the middle of the chord and at failure, percent"
+    )
+    expected_width_mm: dict[int, Interval] = Field(
+        {0: (11.4, 13.7), 90: (11.4, 13.7)},
+        description="Recommended width by orientation, mm (12 to 13 within 5 %)",
+    )
+
+
+class ShearRules(ChordRules):
+    """Rules of the tension test of a ±45° laminate."""
+
+    chord_range: Interval = Field((0.002, 0.006), description="Shear strain range of the chord")
+    chord_width: Interval | None = Field(
+        None, description="Width of the recorded chord that the standard allows; null: any"
+    )
+    chord_start: Interval | None = Field(
+        None, description="Lower end of the recorded chord that the standard allows; null: any"
+    )
+    offset_strain: float | None = Field(
+        None, gt=0, description="Offset of the offset strength; null: the standard has none"
+    )
+    largest_shear_strain: float = Field(
+        0.05, gt=0, description="Shear strain at which the curve is cut"
+    )
+
+
+class AstmD3518(ShearRules):
+    """ASTM D3518: in-plane shear by tension of a ±45° laminate."""
+
+    title: ClassVar[str] = "ASTM D3518"
+    chord_width: Interval | None = Field(
+        (0.0038, 0.0042), description="Width of the recorded chord that the standard allows"
+    )
+    chord_start: Interval | None = Field(
+        (0.0015, 0.0025), description="Lower end of the recorded chord that the standard allows"
+    )
+    offset_strain: float | None = Field(0.002, gt=0, description="Offset of the offset strength")
+    expected_width_mm: dict[int, Interval] = Field(
+        {45: (23.75, 26.25)}, description="Recommended width, mm (25 within 5 %)"
+    )
+    stations: int = Field(3, ge=1, description="Places at which width and thickness are measured")
+
+
+class Iso14129(ShearRules):
+    """ISO 14129: in-plane shear by tension of a ±45° laminate."""
+
+    title: ClassVar[str] = "ISO 14129"
+    chord_range: Interval = Field((0.001, 0.005), description="Shear strain range of the chord")
+    time_to_failure_min: Interval | None = Field(
+        None, description="Time to failure that the standard asks for, minutes; null: none"
+    )
+
+
+class RubberRules(Rules):
+    """Rules of a tension test of rubber."""
+
+    minimum_specimens: int = Field(3, ge=1, description="Number of specimens asked for")
+    reported_statistic: Literal["mean", "median"] = Field(
+        "median", description="Statistic that the standard reports for a group"
+    )
+    elongations_percent: tuple[float, ...] = Field(
+        (100.0, 300.0), description="Elongations at which the stress is given, percent"
+    )
+    gauge_speed_mm_per_min: Interval | None = Field(
+        (50.0, 550.0),
+        description="Speed at which the gauge length grows that is compatible with 500 mm/min "
+        "of grip separation (the shoulders take their share); null: not checked",
+    )
+
+
+class AstmD412(RubberRules):
+    """ASTM D412: tension of vulcanised rubber."""
+
+    title: ClassVar[str] = "ASTM D412"
+    expected_width_mm: dict[int, Interval] = Field(
+        {0: (5.7, 6.3)}, description="Width of die C, mm (6 within 5 %)"
+    )
+    expected_thickness_mm: dict[int, Interval] = Field({0: (1.3, 3.3)}, description="Thickness, mm")
+
+
+class Iso37(RubberRules):
+    """ISO 37: tension of vulcanised rubber."""
+
+    title: ClassVar[str] = "ISO 37"
+    expected_width_mm: dict[int, Interval] = Field(
+        {0: (5.6, 6.4)}, description="Width of the type 1 dumb-bell, mm"
+    )
+    expected_thickness_mm: dict[int, Interval] = Field(
+        {0: (1.8, 2.2)}, description="Thickness of the type 1 dumb-bell, mm"
+    )
+
+
+class StatisticsSettings(Strict):
+    """Statistics of a group of specimens."""
+
+    outlier_significance: float = Field(
+        0.05, gt=0, lt=1, description="Significance α of the maximum normed residual test"
+    )
+    b_basis_minimum_specimens: int = Field(
+        5, ge=3, description="Smallest group for which a normal B-basis value is given"
+    )
+    b_basis_full_specimens: int = Field(
+        18, ge=3, description="Group size below which the B-basis value is noted as provisional"
+    )
+    pool_properties: tuple[str, ...] = Field(
+        ("modulus", "poisson_ratio"),
+        description="Properties that are pooled; strengths in tension and compression are not "
+        "the same quantity",
+    )
+    pool_tests: tuple[tuple[str, ...], ...] = Field(
+        (("tension", "compression"),),
+        description="Tests whose groups of equal material, orientation and property are also "
+        "shown pooled (standard deviation within the groups)",
+    )
+
+
+class ReductionSettings(Strict):
+    """How curves become properties and properties become group statistics."""
+
+    tension_standard: Literal["astm_d3039", "iso_527_4"] = Field(
+        "astm_d3039", description="Standard of the tension tests"
+    )
+    shear_standard: Literal["astm_d3518", "iso_14129"] = Field(
+        "astm_d3518", description="Standard of the ±45° tension tests"
+    )
+    rubber_standard: Literal["astm_d412", "iso_37"] = Field(
+        "astm_d412", description="Standard of the rubber tests"
+    )
+    astm_d3039: AstmD3039 = Field(AstmD3039(), description="Tension, ASTM")
+    iso_527_4: Iso527 = Field(Iso527(), description="Tension, ISO")
+    astm_d6641: AstmD6641 = Field(AstmD6641(), description="Compression")
+    astm_d3518: AstmD3518 = Field(AstmD3518(), description="In-plane shear, ASTM")
+    iso_14129: Iso14129 = Field(Iso14129(), description="In-plane shear, ISO")
+    astm_d412: AstmD412 = Field(AstmD412(), description="Rubber, ASTM")
+    iso_37: Iso37 = Field(Iso37(), description="Rubber, ISO")
+    statistics: StatisticsSettings = Field(
+        StatisticsSettings(), description="Statistics of the groups"
+    )
+
+    def tension(self) -> TensionRules:
+        """Rules in force for tension tests."""
+        return self.astm_d3039 if self.tension_standard == "astm_d3039" else self.iso_527_4
+
+    def shear(self) -> ShearRules:
+        """Rules in force for ±45° tension tests."""
+        return self.astm_d3518 if self.shear_standard == "astm_d3518" else self.iso_14129
+
+    def rubber(self) -> RubberRules:
+        """Rules in force for rubber tests."""
+        return self.astm_d412 if self.rubber_standard == "astm_d412" else self.iso_37
+
+    def rules(self, test: str) -> Rules:
+        """Rules in force for a test type of the specimen sheet."""
+        if test == "tension":
+            return self.tension()
+        if test == "compression":
+            return self.astm_d6641
+        if test == "shear":
+            return self.shear()
+        return self.rubber()

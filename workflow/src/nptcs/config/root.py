@@ -1,0 +1,128 @@
+"""The whole configuration, and its errors in words that a user can act on."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any, Self
+
+from pydantic import Field, ValidationError, model_validator
+
+from nptcs.config.base import Strict
+from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.explain import describe
+from nptcs.config.ingest import IngestSettings
+from nptcs.config.reduction import ReductionSettings
+from nptcs.config.sensitivity import Sensitivity
+from nptcs.config.study import Study
+from nptcs.config.tyre import TyreGeometry
+from nptcs.errors import InputError
+
+
+class LabData(Strict):
+    """Where the laboratory's files are."""
+
+    specimen_sheet: str = Field(
+        "raw_data/example/specimens.csv",
+        description="Specimen sheet; its folder holds the raw files that it names",
+    )
+    formats: str = Field(
+        "config/formats", description="Folder with the format profiles of test machines"
+    )
+
+
+class Campaign(Strict):
+    """How solver cases are run."""
+
+    batches: int = Field(
+        1, ge=1, description="Jobs that a study is cut into for each solver (for clusters)"
+    )
+    cores_per_batch: int = Field(
+        2, ge=1, description="Cases that a batch solves at a time; no more than `-j` allows"
+    )
+
+
+class LcaValidation(Strict):
+    """The published numbers that the load-bearing model is checked against."""
+
+    spoke_stiffness: str = Field(
+        "raw_data/published/table10_spoke_stiffness.csv", description="Table 10 of the paper"
+    )
+    published: str = Field(
+        "raw_data/published/table11_lca_validation.csv", description="Table 11 of the paper"
+    )
+    published_loads: str = Field(
+        "raw_data/published/figure15_load_errors.csv",
+        description="Largest errors of LCA against FEM by load, section 4.3.2",
+    )
+    published_fem: str = Field(
+        "raw_data/published/table7_rubber_doe.csv", description="Table 7 of the paper"
+    )
+    shear_band_c10_mpa: float = Field(5.0, gt=0, description="C10 of the band in table 11")
+
+
+class ReportSettings(Strict):
+    """What stands at the head of the report."""
+
+    title: str = Field("Load-bearing study of a non-pneumatic tyre with composite spokes")
+    laboratory: str = Field("", description="Name of the laboratory, shown under the title")
+
+
+class Config(Strict):
+    """The configuration file ``config/config.yaml``."""
+
+    lab_data: LabData = LabData()
+    ingest: IngestSettings = IngestSettings()
+    reduction: ReductionSettings = ReductionSettings()
+    calibration: CalibrationSettings = CalibrationSettings()
+    tyre: TyreGeometry = TyreGeometry()
+    studies: tuple[Study, ...] = Field(min_length=1, description="Studies, each on its own")
+    solvers: dict[str, dict[str, Any]] = Field(
+        default_factory=dict, description="Options of each solver, by its name"
+    )
+    campaign: Campaign = Campaign()
+    sensitivity: Sensitivity = Sensitivity()
+    lca_validation: LcaValidation = LcaValidation()
+    report: ReportSettings = ReportSettings()
+
+    @model_validator(mode="after")
+    def _study_names_differ(self) -> Self:
+        names = [study.name for study in self.studies]
+        if len(set(names)) < len(names):
+            raise ValueError(f"studies: a name is given twice: {names}")
+        return self
+
+    def study(self, name: str) -> Study:
+        """Return the study of that name."""
+        return next(study for study in self.studies if study.name == name)
+
+    def solver_options(self, study: Study) -> dict[str, dict[str, Any]]:
+        """Return the options of each solver of a study: its own laid over the general ones."""
+        return {
+            name: {**self.solvers.get(name, {}), **study.solver_options.get(name, {})}
+            for name in study.solvers
+        }
+
+
+def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> Config:
+    """Check configuration values against the schema.
+
+    Parameters
+    ----------
+    values : mapping
+        What the YAML file holds.
+    file : str
+        Name of the file, for the message.
+
+    Returns
+    -------
+    Config
+
+    Raises
+    ------
+    InputError
+        All faults in one message: the key's path, the value, and the nearest known key.
+    """
+    try:
+        return Config.model_validate(values)
+    except ValidationError as error:
+        raise InputError(describe(error, Config), file=file) from None

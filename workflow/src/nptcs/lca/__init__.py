@@ -1,0 +1,29 @@
+"""The load-bearing analysis model (LCA): a Timoshenko ring on spokes, pressed onto flat ground.
+
+The paper's section 3.3, solved exactly: ``solve`` for one design, ``curve`` for its load–
+displacement curve, ``solve_batch`` for a table of designs; ``solve_law`` for spokes whose force
+follows a curve or that stand singly.
+"""
+
+from nptcs.lca.batch import Batch, solve_batch
+from nptcs.lca.section import RingSection
+from nptcs.lca.single import ModelError, curve, solve
+from nptcs.lca.spoke_law import SpokeLaw
+from nptcs.lca.spokes import LinearSpokes
+from nptcs.lca.state import LcaState
+from nptcs.lca.with_law import LawState, solve_law, stiffness_ripple
+
+__all__ = [
+    "Batch",
+    "LawState",
+    "LcaState",
+    "LinearSpokes",
+    "ModelError",
+    "RingSection",
+    "SpokeLaw",
+    "curve",
+    "solve",
+    "solve_batch",
+    "solve_law",
+    "stiffness_ripple",
+]

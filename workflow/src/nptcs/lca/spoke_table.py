@@ -1,0 +1,90 @@
+"""Stiffness of one spoke against the constant C10 of its rubber, as in table 10 of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import PchipInterpolator
+
+from nptcs.errors import InputError
+from nptcs.lca.checks import require_positive
+from nptcs.lca.scaling import Array
+from nptcs.lca.spokes import LinearSpokes
+
+COLUMNS = ("spoke_c10_mpa", "tension_stiffness_n_per_mm", "compression_stiffness_n_per_mm")
+
+
+class OutOfRangeError(InputError):
+    """A C10 for which the table has no spoke."""
+
+
+@dataclass(frozen=True)
+class SpokeTable:
+    """Stiffness in tension and compression at increasing C10; arrays of shape ``(n,)``."""
+
+    c10_mpa: Array
+    tension_n_per_mm: Array
+    compression_n_per_mm: Array
+
+    @classmethod
+    def from_rows(cls, rows: Sequence[Mapping[Any, Any]]) -> SpokeTable:
+        """Read the columns `COLUMNS` of a table, in any order of rows.
+
+        Raises
+        ------
+        InputError
+            A column or a number is missing, a value is not positive, a C10 comes twice, or
+            there are fewer than two rows.
+        """
+        if len(rows) < 2:
+            raise InputError("needs at least two rows", remedy="give the stiffness at two C10")
+        table = np.array(
+            [[_number(row, name, i) for name in COLUMNS] for i, row in enumerate(rows)]
+        )
+        table = table[np.argsort(table[:, 0])]
+        if np.any(np.diff(table[:, 0]) == 0):
+            raise InputError(
+                "a C10 comes twice", remedy="keep one row a C10", column="spoke_c10_mpa"
+            )
+        return cls(table[:, 0], table[:, 1], table[:, 2])
+
+    def spokes(self, c10_mpa: float, count: int) -> LinearSpokes:
+        """Return the spokes of a rubber, by monotone cubic interpolation between the rows.
+
+        Raises
+        ------
+        OutOfRangeError
+            `c10_mpa` lies outside the table; it is not extrapolated.
+        """
+        low, high = float(self.c10_mpa[0]), float(self.c10_mpa[-1])
+        if not low <= c10_mpa <= high:
+            raise OutOfRangeError(
+                f"the spoke stiffness table reaches from C10 = {low:g} to {high:g} MPa",
+                remedy="stay within it, or extend the table; it is not extrapolated",
+                column="spoke_c10_mpa",
+                value=c10_mpa,
+            )
+        tension, compression = (
+            float(PchipInterpolator(self.c10_mpa, values)(c10_mpa))
+            for values in (self.tension_n_per_mm, self.compression_n_per_mm)
+        )
+        return LinearSpokes(tension, compression, count)
+
+
+def _number(row: Mapping[Any, Any], column: str, line: int) -> float:
+    """Read one positive number, or say where it is missing."""
+    try:
+        value = float(row[column])
+    except (KeyError, TypeError, ValueError) as error:
+        raise InputError(
+            "number is missing",
+            remedy="give a column with numbers",
+            line=line,
+            column=column,
+            value=row.get(column),
+        ) from error
+    require_positive(column, value)
+    return value

@@ -1,0 +1,114 @@
+"""The statistics table: a row for each group of specimens and property."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+
+import pandas as pd
+
+from nptcs.config.reduction import ReductionSettings
+from nptcs.errors import InputError
+from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
+from nptcs.reduce.pooling import pooled_rows
+from nptcs.reduce.rows import TEST_CONDITIONS
+from nptcs.reduce.sample import describe
+from nptcs.tables.specimens import Specimen
+from nptcs.tables.statistics import StatisticsTable
+
+GROUP = ["test", "material", "orientation_deg", "property"]
+
+
+def group_statistics(
+    properties: pd.DataFrame, specimens: Sequence[Specimen], settings: ReductionSettings
+) -> pd.DataFrame:
+    """Statistics of each property over the specimens of a test, material and orientation.
+
+    Parameters
+    ----------
+    properties : DataFrame
+        `nptcs.tables.properties.PropertiesTable`.
+    specimens : sequence of Specimen
+        The sheet: a specimen with include = no stays in `properties` but is left out here,
+        with its reason in the column ``left_out``.
+    settings : ReductionSettings
+        Standards (for the number of specimens asked for) and statistics.
+
+    Returns
+    -------
+    DataFrame
+        `nptcs.tables.statistics.StatisticsTable`: a row a group, then the pooled rows.
+
+    Raises
+    ------
+    InputError
+        If a property belongs to a specimen that the sheet does not name.
+    """
+    sheet = _sheet(properties, specimens)
+    rows = []
+    for key, group in properties.groupby(GROUP, dropna=False, sort=False):
+        included = group[[sheet[s].include for s in group["specimen"]]]
+        rules = settings.rules(str(key[0]))
+        row = {
+            **dict(zip(GROUP, key, strict=True)),
+            **_words(group, included),
+            "left_out": _left_out(group["specimen"], sheet),
+            "scope": "group",
+            "reported_statistic": rules.reported_statistic,
+        }
+        measured = included[included["value"].notna()]
+        numbers, notes = describe(
+            measured["value"].to_numpy(),
+            measured["specimen"].tolist(),
+            settings.statistics,
+            allowable=key[3] not in TEST_CONDITIONS,
+        )
+        notes = [*_number_notes(measured, included, rules.minimum_specimens, rules.title), *notes]
+        rows.append({**row, **numbers, "notes": "; ".join(notes)})
+    rows += pooled_rows(properties, sheet, settings.statistics)
+    return StatisticsTable.validate(pd.DataFrame(rows)[list(StatisticsTable.to_schema().columns)])
+
+
+def _sheet(properties: pd.DataFrame, specimens: Sequence[Specimen]) -> dict[str, Specimen]:
+    sheet = {s.specimen: s for s in specimens}
+    for name in properties["specimen"].unique():
+        if name not in sheet:
+            raise InputError(
+                "has properties but no row in the specimen sheet",
+                "add its row, or rebuild the property table",
+                specimen=str(name),
+            )
+    return sheet
+
+
+def _words(group: pd.DataFrame, included: pd.DataFrame) -> dict[str, str]:
+    """Return unit, rule and range of a group; several of them are joined with ' | '."""
+    source = included if len(included) else group
+    return {name: _joined(source[name]) for name in ("unit", "rule", "range")}
+
+
+def _joined(texts: Iterable[str]) -> str:
+    return " | ".join(dict.fromkeys(text for text in texts if text))
+
+
+def _left_out(names: Iterable[str], sheet: dict[str, Specimen]) -> str:
+    return "; ".join(f"{n}: {sheet[n].reason}" for n in names if not sheet[n].include)
+
+
+def _number_notes(
+    measured: pd.DataFrame, included: pd.DataFrame, asked: int, title: str
+) -> list[str]:
+    notes = []
+    lacking = included.loc[included["value"].isna(), "specimen"]
+    if len(lacking):
+        notes.append("not assessed: " + ", ".join(lacking))
+    if len(measured) < asked:
+        notes.append(f"n = {len(measured)}, {title} asks for {asked}")
+    if len(set(measured["range"])) > 1:
+        notes.append("ranges differ between specimens")
+    crosshead = with_crosshead_strain(measured)
+    if crosshead:
+        notes.append(f"{CROSSHEAD}: {', '.join(crosshead)}")
+    flagged = list(measured.loc[measured["flags"] != "", "specimen"])
+    if flagged:
+        notes.append("flagged: " + ", ".join(flagged))
+    return notes

@@ -1,0 +1,71 @@
+"""The report: one HTML file that needs no network, no script and no other file."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from nptcs.report.data import Results
+from nptcs.report.head import head_blocks
+from nptcs.report.lca import lca_section
+from nptcs.report.materials import materials_section
+from nptcs.report.provenance import provenance_section
+from nptcs.report.sheets import sheets_of
+from nptcs.report.specimens import specimens_section
+from nptcs.report.studies import (
+    cases_section,
+    design_section,
+    sensitivity_section,
+    surfaces_section,
+)
+
+
+def render_report(results: Results) -> str:
+    """Lay all results out as one HTML page.
+
+    The page depends on the results alone: the same results give the same page.
+
+    Parameters
+    ----------
+    results : Results
+        Everything that a run has made.
+
+    Returns
+    -------
+    str
+        HTML text, UTF-8, with styles and figures inside.
+    """
+    sheets = sheets_of(results)
+    builders = (
+        specimens_section,
+        materials_section,
+        design_section,
+        cases_section,
+        surfaces_section,
+        sensitivity_section,
+        lca_section,
+        provenance_section,
+    )
+    environment = Environment(
+        loader=PackageLoader("nptcs.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("report.html.j2").render(
+        settings=results.config.report,
+        sound=results.verdict()[0],
+        synthetic=results.any_synthetic,
+        head=head_blocks(results, sheets),
+        sections=[build(results, sheets) for build in builders],
+        style=_resource("report.css"),
+        script=_resource("sort.js"),
+    )
+
+
+def _resource(name: str) -> Markup:
+    """Read a file that belongs to the template and goes into the page as it is."""
+    return Markup(resources.files("nptcs.report").joinpath("templates", name).read_text("utf-8"))

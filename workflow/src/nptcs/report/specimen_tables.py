@@ -1,0 +1,73 @@
+"""Tables of specimens that no file holds in this form: the sheet, and the ingest records."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from nptcs.report.data import Results
+
+_SHEET_NUMBERS = (
+    "orientation_deg",
+    "mean_width_mm",
+    "mean_thickness_mm",
+    "area_mm2",
+    "gauge_length_mm",
+)
+
+
+def sheet_table(results: Results) -> pd.DataFrame:
+    """Lay the specimen sheet out with mean dimensions."""
+    return pd.DataFrame(
+        [
+            {
+                "specimen": s.specimen,
+                "test": s.test.value,
+                "material": s.material,
+                "orientation_deg": s.orientation_deg,
+                "mean_width_mm": s.mean_width_mm,
+                "mean_thickness_mm": s.mean_thickness_mm,
+                "area_mm2": s.area_mm2,
+                "gauge_length_mm": s.gauge_length_mm,
+                "include": "yes" if s.include else "no",
+                "reason": s.reason,
+                "origin": s.origin,
+                "force_file": s.force_file,
+                "strain_file": s.strain_file,
+                "remarks": s.remarks,
+            }
+            for s in results.sheet
+        ]
+    ).astype({name: float for name in _SHEET_NUMBERS})
+
+
+def conditioning_table(results: Results) -> pd.DataFrame:
+    """Lay out how each curve came about, a row a specimen."""
+    return pd.DataFrame(
+        [
+            {
+                "specimen": name,
+                "status": record.status,
+                "readings": sum(file.rows for file in record.files),
+                "format": ", ".join(dict.fromkeys(file.format for file in record.files)),
+                "strain_source": record.strain_source,
+                "steps": "; ".join(
+                    f"{step.name}: {step.changed or 'no change'}"
+                    for step in record.steps
+                    if step.on
+                ),
+                "flags": "; ".join(record.flags),
+                "message": record.message,
+            }
+            for name, record in results.records.items()
+        ],
+        columns=[
+            "specimen",
+            "status",
+            "readings",
+            "format",
+            "strain_source",
+            "steps",
+            "flags",
+            "message",
+        ],
+    )

@@ -1,0 +1,40 @@
+"""Reports that a failed run left behind must not look current."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Sequence
+from pathlib import Path
+
+
+def set_aside(files: Sequence[str | Path], verdict_log: str | Path, started: float) -> list[Path]:
+    """Rename files that a failed run has not confirmed: ``report.html`` → ``report.stale.html``.
+
+    A run that reached its verdict has brought the report up to date, with all problems at its
+    top; such a report stays. So does a file that this run has built.
+
+    Parameters
+    ----------
+    files : sequence of str or Path
+        The report and the workbook; those that do not exist are passed over.
+    verdict_log : str or Path
+        Log of the rule ``verdict``, which is the last one.
+    started : float
+        When the run began, in seconds since the epoch.
+
+    Returns
+    -------
+    list of Path
+        The new names.
+    """
+    log = Path(verdict_log)
+    if log.is_file() and log.stat().st_mtime >= started:
+        return []
+    renamed = []
+    for path in map(Path, files):
+        if path.is_file() and path.stat().st_mtime < started:
+            stale = path.with_name(f"{path.stem}.stale{path.suffix}")
+            path.replace(stale)
+            renamed.append(stale)
+            print(f"{path} is of an earlier run; it is now {stale}", file=sys.stderr)
+    return renamed

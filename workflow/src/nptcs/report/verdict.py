@@ -1,0 +1,55 @@
+"""The verdict on a run: one line that counts what gave a result."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import pandas as pd
+
+from nptcs.tables.curves import IngestRecord
+from nptcs.tables.specimens import Specimen
+
+
+def verdict(
+    problems: pd.DataFrame,
+    cases: pd.DataFrame,
+    sheet: Sequence[Specimen],
+    records: Mapping[str, IngestRecord],
+) -> tuple[bool, str]:
+    """Say in one line whether everything gave a result, with counts.
+
+    Parameters
+    ----------
+    problems, cases : DataFrame
+        ``problems.csv`` and ``cases.csv``.
+    sheet : sequence of Specimen
+        Good rows of the specimen sheet; bad rows are problems.
+    records : mapping of str to IngestRecord
+        How each specimen was read.
+
+    Returns
+    -------
+    sound : bool
+        False if there is any problem.
+    line : str
+        ``No problems: all 87 cases solved; 33 of 34 specimens used (1 left out by the sheet).``
+    """
+    solved, number = int((cases["status"] == "ok").sum()), len(cases)
+    share = f"all {number} cases" if solved == number else f"{solved} of {number} cases"
+    counts = f"{share} solved; {_specimens(sheet, records)}."
+    if problems.empty:
+        return True, f"No problems: {counts}"
+    return False, f"{len(problems)} problem{'s' * (len(problems) > 1)}: {counts}"
+
+
+def _specimens(sheet: Sequence[Specimen], records: Mapping[str, IngestRecord]) -> str:
+    """Count the specimens used, left out and unreadable."""
+    included = [s.specimen for s in sheet if s.include]
+    failed = [name for name in included if records[name].status != "ok"]
+    notes = []
+    if left_out := len(sheet) - len(included):
+        notes.append(f"{left_out} left out by the sheet")
+    if failed:
+        notes.append(f"{len(failed)} could not be read")
+    text = f"{len(included) - len(failed)} of {len(sheet)} specimens used"
+    return f"{text} ({', '.join(notes)})" if notes else text

@@ -1,0 +1,169 @@
+"""The load-bearing analysis model as a solver: it sees the two rubbers, nothing else."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Literal
+
+import numpy as np
+from pydantic import Field
+
+from nptcs import lca
+from nptcs.config.tyre import TyreGeometry
+from nptcs.errors import InputError
+from nptcs.lca.spoke_law_table import SpokeLawTable
+from nptcs.lca.spoke_table import OutOfRangeError, SpokeTable
+from nptcs.lca.state import LcaState
+from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+
+VERSION = "1"
+
+
+class LcaOptions(SolverOptions):
+    """Options of the solver ``lca``."""
+
+    section: Literal["sandwich", "printed"] = Field(
+        "sandwich", description="Section of the shear band: the physical one or section 3.3.3's"
+    )
+    spoke_stiffness_table: str = Field(
+        "raw_data/published/table10_spoke_stiffness.csv",
+        description="CSV with spoke_c10_mpa, tension_stiffness_n_per_mm and "
+        "compression_stiffness_n_per_mm of one spoke; interpolated in C10, never extrapolated",
+    )
+    spoke_law_table: str | None = Field(
+        None,
+        description="CSV with spoke_c10_mpa, elongation_mm and force_n: force–displacement curves "
+        "of one spoke, tension positive, that replace the two stiffnesses",
+    )
+    contact_spokes: Literal["paper", "local"] = Field(
+        "paper",
+        description="Spokes over the contact: all shortened by the wheel's displacement "
+        "(equation 14), or each by the band's displacement at its place",
+    )
+    curve_points: int = Field(
+        20, ge=2, le=1000, description="Points of the load–displacement curve, up to the load"
+    )
+
+    def tables(self) -> Mapping[str, str]:
+        """Name the table of spoke stiffness, or that of spoke curves."""
+        if self.spoke_law_table is not None:
+            return {"spoke_law": self.spoke_law_table}
+        return {"spoke_stiffness": self.spoke_stiffness_table}
+
+
+def solve(inputs: CaseInputs) -> SolverResult:
+    """Solve one case: ``shear_band_c10_mpa`` and ``spoke_c10_mpa`` at the load.
+
+    Returns
+    -------
+    SolverResult
+        ``error`` with a reason where the spokes' C10 lies outside the table, or the load needs
+        more displacement than the wheel has room for or the spokes' curve reaches.
+    """
+    options: LcaOptions = inputs.options
+    section = lca.RingSection.from_tyre(
+        inputs.tyre, inputs.values["shear_band_c10_mpa"], options.section
+    )
+    try:
+        spokes = _spokes(inputs)
+        if isinstance(spokes, lca.LinearSpokes):
+            return _solve_linear(inputs, section, spokes)
+        return _solve_law(inputs, section, spokes)
+    except (OutOfRangeError, lca.ModelError) as reason:
+        return SolverResult(status=Status.ERROR, message=str(reason))
+
+
+def _room_mm(tyre: TyreGeometry) -> float:
+    """Return the displacement at which the band meets the rim."""
+    return tyre.band_radius_mm - tyre.rim_diameter_mm / 2
+
+
+def _spokes(inputs: CaseInputs) -> lca.LinearSpokes | lca.SpokeLaw:
+    """Read the spokes of the case's rubber, with the table's name in any complaint."""
+    options: LcaOptions = inputs.options
+    (key, path), c10 = next(iter(options.tables().items())), inputs.values["spoke_c10_mpa"]
+    rows, count = inputs.tables[key], inputs.tyre.spoke_count
+    try:
+        if options.spoke_law_table is not None:
+            return SpokeLawTable.from_rows(rows, count).law(c10)
+        spokes = SpokeTable.from_rows(rows).spokes(c10, count)
+    except InputError as error:
+        error.file = path
+        raise
+    if options.contact_spokes == "local":
+        return lca.SpokeLaw.linear(spokes, _room_mm(inputs.tyre))
+    return spokes
+
+
+def _loads(inputs: CaseInputs) -> list[float]:
+    """Return the loads of the curve without zero; the last is the case's own."""
+    points = inputs.options.curve_points
+    return [float(load) for load in inputs.load_n * np.arange(1, points + 1) / points]
+
+
+def _solve_linear(
+    inputs: CaseInputs, section: lca.RingSection, spokes: lca.LinearSpokes
+) -> SolverResult:
+    """Solve the exact model of two stiffnesses."""
+    room = _room_mm(inputs.tyre)
+    state = lca.solve(section, spokes, load_n=inputs.load_n, largest_displacement_mm=room)
+    loads = _loads(inputs)
+    curve = lca.curve(section, spokes, load_n=loads, largest_displacement_mm=room)
+    extra = {
+        "tangent_stiffness_n_per_mm": state.tangent_stiffness_n_per_mm,
+        "contact_length_mm": state.contact_length_mm,
+        "mean_pressure_mpa": state.mean_pressure_mpa,
+    }
+    return _result(state, extra, [float(value) for value in curve["displacement_mm"]], loads)
+
+
+def _solve_law(inputs: CaseInputs, section: lca.RingSection, law: lca.SpokeLaw) -> SolverResult:
+    """Solve the model of a spoke curve at every load of the curve."""
+    contact, loads = inputs.options.contact_spokes, _loads(inputs)
+    states = [lca.solve_law(section, law, load_n=load, contact=contact) for load in loads]
+    state, room = states[-1], _room_mm(inputs.tyre)
+    if state.displacement_mm > room:
+        raise lca.ModelError(
+            f"load-bearing model: needs a displacement of {state.displacement_mm:.4g} mm, more "
+            f"than the {room:.4g} mm that the wheel allows",
+            remedy="give a smaller load, or a stiffer ring or spokes",
+        )
+    extra = {
+        "lowest_elongation_mm": state.elongation_mm[0],
+        "highest_elongation_mm": state.elongation_mm[1],
+    }
+    return _result(state, extra, [each.displacement_mm for each in states], loads)
+
+
+def _result(
+    state: LcaState | lca.LawState,
+    extra: dict[str, float],
+    displacement: list[float],
+    force: list[float],
+) -> SolverResult:
+    """Return the contract's record of a solved state."""
+    return SolverResult(
+        status=Status.OK,
+        message=state.doubts,
+        vertical_stiffness_n_per_mm=state.stiffness_n_per_mm,
+        displacement_mm=state.displacement_mm,
+        extra={
+            "theta_c_deg": state.theta_c_deg,
+            "theta_t_deg": state.theta_t_deg,
+            "contact_force_n": state.contact_force_n,
+            "ring_force_n": state.ring_force_n,
+            "balance_residual": state.balance_residual,
+            **extra,
+        },
+        curve={"displacement_mm": [0.0, *displacement], "force_n": [0.0, *force]},
+    )
+
+
+SOLVER = Solver(
+    name="lca",
+    version=VERSION,
+    solve=solve,
+    factors=frozenset({"shear_band_c10_mpa", "spoke_c10_mpa"}),
+    required=frozenset({"shear_band_c10_mpa", "spoke_c10_mpa"}),
+    options=LcaOptions,
+)

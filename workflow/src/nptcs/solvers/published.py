@@ -1,0 +1,69 @@
+"""The published finite element results, as a solver that looks a case up.
+
+Tables 5 and 7 of Sun et al., Machines 2024, 12, 358: Abaqus results of the authors, at 5000 N.
+They let the whole analysis run on real finite element data without a licence.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+
+from pydantic import Field
+
+from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+
+RESPONSE = "stiffness_n_per_mm"
+FACTORS = frozenset(
+    {"spacing_mm", "thickness_mm", "angle_deg", "shear_band_c10_mpa", "spoke_c10_mpa"}
+)
+
+
+class PublishedOptions(SolverOptions):
+    """Options of the solver ``published``."""
+
+    archive: str = Field(description="CSV: case, the factors, stiffness_n_per_mm")
+    archive_load_n: float = Field(5000.0, gt=0, description="Load at which the archive was made")
+
+    def tables(self) -> Mapping[str, str]:
+        """Name the archive as the one table that is read."""
+        return {"archive": self.archive}
+
+
+def solve(inputs: CaseInputs) -> SolverResult:
+    """Look the case up in the archive; a case that is not there is an error, never a guess."""
+    options: PublishedOptions = inputs.options
+    if not math.isclose(inputs.load_n, options.archive_load_n):
+        return SolverResult(
+            status=Status.ERROR,
+            message=f"the archive holds results at {options.archive_load_n:g} N, "
+            f"not at {inputs.load_n:g} N",
+        )
+    rows = inputs.tables["archive"]
+    factors = [column for column in rows[0] if column not in ("case", RESPONSE)]
+    wanted = {name: inputs.values[name] for name in factors if name in inputs.values}
+    for row in rows:
+        if len(wanted) == len(factors) and all(
+            math.isclose(row[name], value) for name, value in wanted.items()
+        ):
+            stiffness = float(row[RESPONSE])
+            return SolverResult(
+                status=Status.OK,
+                message=f"row {row['case']:g} of {options.archive}",
+                vertical_stiffness_n_per_mm=stiffness,
+                displacement_mm=inputs.load_n / stiffness,
+            )
+    return SolverResult(
+        status=Status.ERROR,
+        message=f"{options.archive} holds no case with "
+        + ", ".join(f"{name} = {inputs.values.get(name, math.nan):g}" for name in factors),
+    )
+
+
+SOLVER = Solver(
+    name="published",
+    version="1",
+    solve=solve,
+    factors=FACTORS,
+    options=PublishedOptions,
+)

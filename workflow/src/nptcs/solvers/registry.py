@@ -1,0 +1,122 @@
+"""The solvers by name: those of this package and those that a laboratory brings along."""
+
+from __future__ import annotations
+
+import importlib
+import importlib.util
+import sys
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from pydantic import ValidationError
+
+from nptcs.config.explain import describe
+from nptcs.config.study import Study
+from nptcs.errors import InputError
+from nptcs.solvers.contract import Solver, SolverOptions
+
+MODULES = {
+    "fe_spoke": "nptcs.solvers.fe_spoke",
+    "fe_tyre": "nptcs.solvers.fe_tyre",
+    "lca": "nptcs.solvers.lca",
+    "published": "nptcs.solvers.published",
+}
+"""Solvers of this package: a name and the module that defines ``SOLVER``."""
+
+
+def module_of(name: str, options: Mapping[str, Any]) -> str:
+    """Return the module, or the Python file, in which a solver is defined.
+
+    Parameters
+    ----------
+    name : str
+        Name of the solver.
+    options : mapping
+        Its section of the configuration; a key ``module`` names the Python file of a solver
+        that does not belong to this package.
+
+    Raises
+    ------
+    InputError
+        For an unknown name.
+    """
+    if "module" in options:
+        return str(options["module"])
+    if name not in MODULES:
+        raise InputError(
+            "unknown solver",
+            column="solvers",
+            value=name,
+            remedy=f"use one of {', '.join(sorted(MODULES))}, or give the file of your own "
+            f"solver as solvers.{name}.module",
+        )
+    return MODULES[name]
+
+
+def load(module: str) -> Solver:
+    """Import a solver's module (dotted name, or the path of a Python file)."""
+    if not module.endswith(".py"):
+        return importlib.import_module(module).SOLVER
+    path = Path(module)
+    if not path.is_file():
+        raise InputError("the solver's file does not exist", file=path, remedy="correct `module`")
+    spec = importlib.util.spec_from_file_location(f"nptcs_solver_{path.stem}", path)
+    if spec is None or spec.loader is None:
+        raise InputError("not a Python file", file=path, remedy="give a file that ends in .py")
+    loaded = importlib.util.module_from_spec(spec)
+    sys.modules[spec.name] = loaded
+    spec.loader.exec_module(loaded)
+    return loaded.SOLVER
+
+
+def read_options(solver: Solver, options: Mapping[str, Any]) -> SolverOptions:
+    """Check a solver's options against its schema.
+
+    Raises
+    ------
+    InputError
+        Naming the key, the value and the nearest known key.
+    """
+    own = {key: value for key, value in options.items() if key != "module"}
+    try:
+        return solver.options.model_validate(own)
+    except ValidationError as error:
+        raise InputError(describe(error, solver.options), column=f"solvers.{solver.name}") from None
+
+
+def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
+    """Refuse a study that one of its solvers cannot answer.
+
+    Parameters
+    ----------
+    study : Study
+        Factors, fixed values and the names of the solvers.
+    options : mapping
+        Options of each of these solvers.
+
+    Raises
+    ------
+    InputError
+        When a solver does not see a factor of the study (it would return a constant), lacks a
+        value that it needs, or has faulty options.
+    """
+    for name in study.solvers:
+        solver = load(module_of(name, options[name]))
+        read_options(solver, options[name])
+        varied = {factor.name for factor in study.factors}
+        if unseen := sorted(varied - solver.factors):
+            raise InputError(
+                f"solver '{name}' cannot see {', '.join(unseen)}: its result would not change "
+                "with it",
+                column=f"studies.{study.name}.solvers",
+                value=name,
+                remedy=f"leave '{name}' out of this study; it sees "
+                + ", ".join(sorted(solver.factors)),
+            )
+        if lacking := sorted(solver.required - varied - set(study.fixed)):
+            raise InputError(
+                f"solver '{name}' needs {', '.join(lacking)}",
+                column=f"studies.{study.name}.fixed",
+                remedy="give a value under `fixed`, or make it a factor",
+            )

@@ -1,0 +1,1 @@
+"""Polynomial response surfaces, as equations 21 and 22 of the paper."""

@@ -1,0 +1,158 @@
+"""Terms of a response surface: how they are written, evaluated and differentiated."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import product
+from math import comb, prod
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.errors import InputError
+
+_POWER = re.compile(r"^\s*([A-Za-z_]\w*)\s*(?:\^\s*(\d+))?\s*$")
+
+
+@dataclass(frozen=True)
+class Polynomial:
+    """A sum of monomials in named factors, without its coefficients.
+
+    Parameters
+    ----------
+    factors : tuple of str
+        Names of the n factors.
+    exponents : tuple of tuple of int
+        One tuple of n powers for each of the p terms.
+    """
+
+    factors: tuple[str, ...]
+    exponents: tuple[tuple[int, ...], ...]
+
+    def __len__(self) -> int:
+        return len(self.exponents)
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """The terms as text: ``1``, ``thickness_mm``, ``thickness_mm*angle_deg``, …."""
+        return tuple(_name(self.factors, powers) for powers in self.exponents)
+
+    def matrix(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Evaluate the terms: points of shape (m, n) give a design matrix of shape (m, p)."""
+        return np.prod(x[:, None, :] ** np.array(self.exponents)[None, :, :], axis=2)
+
+    def derivative_matrix(self, x: NDArray[np.float64], factor: str) -> NDArray[np.float64]:
+        """Evaluate ∂(term)/∂(factor): points of shape (m, n) give a matrix of shape (m, p)."""
+        axis = self.factors.index(factor)
+        powers = np.array(self.exponents)
+        lowered = powers.copy()
+        lowered[:, axis] = np.maximum(lowered[:, axis] - 1, 0)
+        return powers[:, axis] * np.prod(x[:, None, :] ** lowered[None, :, :], axis=2)
+
+
+def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
+    """Read terms such as ``1``, ``x``, ``x^2``, ``x*y``.
+
+    Parameters
+    ----------
+    terms : sequence of str
+        As written in the configuration.
+    factors : sequence of str
+        Names of the study's factors.
+
+    Returns
+    -------
+    Polynomial
+        In the order given.
+
+    Raises
+    ------
+    InputError
+        For a term that cannot be read, an unknown factor, a term named twice, or a term whose
+        lower-order relatives are missing (the fit in coded units and the one in natural units
+        would then be two different surfaces).
+    """
+    exponents = [_exponents(term, factors) for term in terms]
+    polynomial = Polynomial(tuple(factors), tuple(exponents))
+    for position, powers in enumerate(exponents):
+        if powers in exponents[:position]:
+            raise InputError(
+                "this term stands twice", column="terms", value=terms[position], remedy="drop one"
+            )
+    missing = _missing_lower_terms(polynomial)
+    if missing:
+        raise InputError(
+            "terms of lower order are missing, so that the surface would depend on the choice of "
+            "units",
+            column="terms",
+            value=list(missing),
+            remedy="add these terms",
+        )
+    return polynomial
+
+
+def coded_to_natural(
+    polynomial: Polynomial, centre: NDArray[np.float64], half_range: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    """Build the matrix M with b_natural = M b_coded, for c = (x - centre) / half_range.
+
+    Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem. Shape (p, p).
+    """
+    index = {powers: row for row, powers in enumerate(polynomial.exponents)}
+    matrix = np.zeros((len(polynomial), len(polynomial)))
+    for column, powers in enumerate(polynomial.exponents):
+        for lower in product(*(range(power + 1) for power in powers)):
+            matrix[index[lower], column] = prod(
+                comb(power, low) * (-middle) ** (power - low) / half**power
+                for power, low, middle, half in zip(powers, lower, centre, half_range, strict=True)
+            )
+    return matrix
+
+
+def _exponents(term: str, factors: Sequence[str]) -> tuple[int, ...]:
+    """Read one term."""
+    powers = [0] * len(factors)
+    if term.strip() == "1":
+        return tuple(powers)
+    for part in term.split("*"):
+        match = _POWER.match(part)
+        if match is None:
+            raise InputError(
+                "this term cannot be read",
+                column="terms",
+                value=term,
+                remedy="write '1', 'a', 'a^2' or 'a*b' with factor names",
+            )
+        name, power = match.group(1), int(match.group(2) or 1)
+        if name not in factors:
+            raise InputError(
+                f"'{name}' is no factor of the study",
+                column="terms",
+                value=term,
+                remedy=f"use {', '.join(factors)}",
+            )
+        powers[list(factors).index(name)] += power
+    return tuple(powers)
+
+
+def _missing_lower_terms(polynomial: Polynomial) -> tuple[str, ...]:
+    """Name the terms that the expansion of the given ones contains and that are not there."""
+    given = set(polynomial.exponents)
+    lower = {
+        below
+        for powers in polynomial.exponents
+        for below in product(*(range(power + 1) for power in powers))
+    }
+    return tuple(_name(polynomial.factors, powers) for powers in sorted(lower - given))
+
+
+def _name(factors: Sequence[str], powers: Sequence[int]) -> str:
+    """Write a term as text."""
+    parts = [
+        name if power == 1 else f"{name}^{power}"
+        for name, power in zip(factors, powers, strict=True)
+        if power
+    ]
+    return "*".join(parts) or "1"

@@ -1,0 +1,57 @@
+"""Contract of the comprehensive impact values."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+import pandera.pandas as pa
+from pandera.typing.pandas import Series
+
+
+class Impact(pa.DataFrameModel):
+    """``impact.csv``: average gradient × range, ours and as printed in table 9."""
+
+    solver: Series[str]
+    study: Series[str]
+    factor: Series[str]
+    rule: Series[str] = pa.Field(description="How the gradient is averaged")
+    gradient: Series[float] = pa.Field(description="N/mm per unit of the factor")
+    range: Series[float] = pa.Field(gt=0, description="Highest minus lowest level")
+    impact: Series[float] = pa.Field(description="gradient × range, N/mm")
+    published_gradient: Series[float] = pa.Field(nullable=True)
+    published_impact: Series[float] = pa.Field(nullable=True)
+    difference_percent: Series[float] = pa.Field(
+        nullable=True, description="(|impact| - published) / published"
+    )
+
+    class Config:
+        """Exactly these columns."""
+
+        strict = True
+        coerce = True
+        ordered = True
+
+
+def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
+    """Set the printed values of table 9 beside ours.
+
+    Parameters
+    ----------
+    impact : DataFrame
+        ``solver, study, factor, rule, gradient, range, impact``.
+    published : DataFrame
+        ``study, factor, gradient, range, impact`` as printed; may be empty.
+
+    Returns
+    -------
+    DataFrame
+        As `Impact`. A printed value stands beside ours only where the range is the same.
+    """
+    printed = published.rename(
+        columns={"gradient": "published_gradient", "impact": "published_impact"}
+    )
+    table = impact.merge(printed, how="left", on=["study", "factor"], suffixes=("", "_printed"))
+    other_range = ~np.isclose(table["range"], table.pop("range_printed").astype(float))
+    table.loc[other_range, ["published_gradient", "published_impact"]] = np.nan
+    table["difference_percent"] = 100 * (table["impact"].abs() / table["published_impact"] - 1)
+    return table[list(Impact.to_schema().columns)]

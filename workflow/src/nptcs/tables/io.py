@@ -1,0 +1,89 @@
+"""Read and write tables: checked against their contract, written whole or not at all."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any, cast
+
+import pandas as pd
+import pandera.pandas as pa
+from pandera.errors import SchemaError, SchemaErrors
+
+from nptcs.errors import InputError
+from nptcs.files import atomic_path
+
+
+def write_table(path: str | Path, table: pd.DataFrame, contract: type[pa.DataFrameModel]) -> None:
+    """Check a table against its contract and write it as CSV, at full precision.
+
+    Raises
+    ------
+    InputError
+        Naming the column and the value that break the contract.
+    """
+    checked = check(table, contract, str(path))
+    with atomic_path(path) as temporary:
+        checked.to_csv(temporary, index=False, lineterminator="\n")
+
+
+def read_table(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataFrame:
+    """Read a CSV table and check it against its contract.
+
+    Raises
+    ------
+    InputError
+        For a missing file, a missing column or a value outside the contract.
+    """
+    if not Path(path).is_file():
+        raise InputError("this table does not exist", file=path, remedy="run snakemake again")
+    text_columns = {
+        name: str
+        for name, column in contract.to_schema().columns.items()
+        if str(column.dtype).startswith(("str", "object"))
+    }
+    table = pd.read_csv(path, dtype=text_columns, keep_default_na=False, na_values=[""])
+    for name in text_columns:
+        if name in table:
+            table[name] = table[name].fillna("")
+    return check(table, contract, str(path))
+
+
+def empty_table(contract: type[pa.DataFrameModel]) -> pd.DataFrame:
+    """Return a table without rows that keeps the contract."""
+    columns = contract.to_schema().columns
+    return check(pd.DataFrame({name: [] for name in columns}), contract, contract.__name__)
+
+
+def check(table: pd.DataFrame, contract: type[pa.DataFrameModel], file: str) -> pd.DataFrame:
+    """Return the table in the form of its contract, or name what breaks it.
+
+    Raises
+    ------
+    InputError
+        With file, line (of the CSV, the header being line 1), column and value.
+    """
+    try:
+        return cast(pd.DataFrame, contract.validate(table, lazy=False))
+    except (SchemaError, SchemaErrors) as error:
+        raise _explain(error, contract, file) from None
+
+
+def _explain(
+    error: SchemaError | SchemaErrors, contract: type[pa.DataFrameModel], file: str
+) -> InputError:
+    """Turn a pandera error into ours."""
+    remedy = f"see the contract {contract.__name__}: {(contract.__doc__ or '').splitlines()[0]}"
+    cases = getattr(error, "failure_cases", None)
+    if isinstance(cases, pd.DataFrame) and len(cases) and "index" in cases:
+        first = cases.iloc[0]
+        schema = getattr(error, "schema", None)
+        index: Any = first["index"]  # empty where the whole column is at fault
+        return InputError(
+            f"the value breaks the rule {getattr(error, 'check', None)}",
+            file=file,
+            line=None if pd.isna(index) else int(index) + 2,
+            column=getattr(schema, "name", None),
+            value=first["failure_case"],
+            remedy=remedy,
+        )
+    return InputError(str(error).splitlines()[0], file=file, remedy=remedy)
