@@ -157,13 +157,13 @@ def ring_shape(shape: pd.DataFrame, rim_diameter_mm: float) -> Figure:
     Parameters
     ----------
     shape : DataFrame
-        Rows of ``lca_shape.csv`` of one design: ``region, x_mm, y_mm, x_undeformed_mm,
-        y_undeformed_mm``, in the order of the angle.
+        Rows of ``lca_shape.csv`` of one design, in the order of the angle.
     rim_diameter_mm : float
         For the rim, drawn to show the scale.
     """
-    c10 = shape["spoke_c10_mpa"].iloc[0]
-    figure, axes = panel(f"spoke C10 = {c10:g} MPa", "x [mm]", "y [mm]", (4.3, 4.4))
+    first = shape.iloc[0]
+    title = f"spoke C10 {first['spoke_c10_mpa']:g} MPa, {first['load_n']:g} N, {first['section']}"
+    figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 4.4))
     axes.plot(
         shape["x_undeformed_mm"],
         shape["y_undeformed_mm"],

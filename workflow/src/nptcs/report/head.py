@@ -5,6 +5,7 @@ from __future__ import annotations
 from nptcs.report import catalogue
 from nptcs.report.data import Results, factor_labels
 from nptcs.report.figures_impact import ranked
+from nptcs.report.figures_lca import DIFFERENCES, SECTION_NAMES
 from nptcs.report.sheets import Sheets
 from nptcs.report.units import words
 from nptcs.report.view import Block, Fact, Facts, Listing, Text, joined, sheet_view, with_error
@@ -52,7 +53,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
 
 def glance(results: Results) -> tuple[Fact, ...]:
     """Select the numbers that most readers look for first."""
-    return (*_materials(results), *_surfaces(results), *_rankings(results))
+    return (*_materials(results), *_surfaces(results), *_rankings(results), *_lca(results))
 
 
 def _materials(results: Results) -> list[Fact]:
@@ -106,6 +107,24 @@ def _rankings(results: Results) -> list[Fact]:
             )
         )
     return rows
+
+
+def _lca(results: Results) -> list[Fact]:
+    """Give the smallest and the largest difference from table 11, section by section."""
+    facts = []
+    for section, table in results.lca_validation.groupby("section", sort=False):
+        spans = [
+            f"{label} {table[column].min():+.2f} … {table[column].max():+.2f} %"
+            for column, label in DIFFERENCES.items()
+        ]
+        facts.append(
+            Fact(
+                f"LCA, {SECTION_NAMES[str(section)]}, difference from the printed table 11",
+                "; ".join(spans),
+                "lca_validation.csv",
+            )
+        )
+    return facts
 
 
 def _badge(results: Results, studies: list[str], solver: str) -> str:

@@ -47,8 +47,8 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
         sheet_view(sheets[catalogue.LCA_VALIDATION.sheet]),
         sheet_view(sheets[catalogue.LCA_AGAINST_FEM.sheet]),
         Plots(
-            "Deformed middle line of the shear band by region (figure 14 of the paper), sandwich "
-            "section. Displacements are to scale; the rim is drawn for orientation.",
+            "Deformed middle line of the shear band by region (figure 14 of the paper). "
+            "Displacements are to scale; the rim is drawn for orientation.",
             tuple(_shape_plots(results)),
         ),
     ]
@@ -88,8 +88,10 @@ def _load_plots(results: Results) -> list[Plot]:
 def _shape_plots(results: Results) -> list[Plot]:
     rim = results.config.tyre.rim_diameter_mm
     return [
-        plot(ring_shape(rows, rim), f"Deformed ring for spoke C10 of {c10:g} MPa")
-        for c10, rows in results.lca_shape.groupby("spoke_c10_mpa")
+        plot(ring_shape(rows, rim), f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa")
+        for (_, load, c10), rows in results.lca_shape.groupby(
+            ["section", "load_n", "spoke_c10_mpa"], sort=False
+        )
     ]
 
 
