@@ -1,6 +1,9 @@
 """The code hash follows imports and ignores what changes no result."""
 
+import os
 import shutil
+import subprocess
+import sys
 
 import pytest
 
@@ -20,8 +23,7 @@ def copy(tmp_path, monkeypatch):
 
 
 def forget():
-    provenance._imports.cache_clear()
-    provenance._tree.cache_clear()
+    provenance._read.cache_clear()
 
 
 def edit(file, old, new):
@@ -65,6 +67,35 @@ def test_a_file_of_ones_own_is_hashed_with_what_it_imports(copy, tmp_path):
     before = code_hash(str(own))
     edit(copy / "design.py", "max(3,", "max(4,")
     assert code_hash(str(own)) != before
+
+
+@pytest.mark.parametrize(
+    ("old", "new"),
+    [
+        ("max(3,", "max(4,"),
+        ("{number:0", "{number:1"),
+        ("rubber_c10_mpa)", "rubber_c10_mpa, )"),
+        ('remedy="give levels that differ"', 'remedy="give other levels"'),
+    ],
+)
+def test_numbers_and_texts_count_and_a_comma_does_not(copy, old, new):
+    before = code_hash("nptcs.design")
+    edit(copy / "design.py", old, new)
+    assert (code_hash("nptcs.design") == before) == (new == "rubber_c10_mpa, )")
+
+
+def test_the_hash_is_the_same_in_every_process():
+    code = "from nptcs.provenance import code_hash; print(code_hash('nptcs.campaign.runner'))"
+    hashes = set()
+    for seed in ("1", "2", "3"):  # another order of every set of texts
+        environment = {
+            **os.environ,
+            "PYTHONHASHSEED": seed,
+            "PYTHONPATH": os.pathsep.join(sys.path),
+        }
+        run = [sys.executable, "-c", code]
+        hashes.add(subprocess.run(run, env=environment, capture_output=True, check=True).stdout)
+    assert len(hashes) == 1
 
 
 def test_an_unknown_module_is_an_error():

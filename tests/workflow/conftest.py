@@ -39,9 +39,9 @@ class Project:
             "PYTHONPATH": str(self.folder / "workflow" / "src"),
             "OPENBLAS_NUM_THREADS": "1",
         }
-        command = [sys.executable, "-m", "snakemake", "-j2", "--configfile", config]
+        command = [sys.executable, "-m", "snakemake", "-j2", *arguments, "--configfile", config]
         return subprocess.run(
-            [*command, *arguments],
+            command,
             cwd=self.folder,
             env=environment,
             capture_output=True,
@@ -51,14 +51,10 @@ class Project:
 
     def planned(self, **options) -> dict[str, int]:
         """Return how many jobs of each rule a run would do now."""
-        run = self.snakemake("-n", "--quiet", "progress", **options)
+        run = self.snakemake("-n", **options)
         assert run.returncode == 0, run.stderr
-        text = run.stdout + run.stderr
-        return {
-            match[1]: int(match[2])
-            for match in re.finditer(r"^([a-z_0-9]+)\s+(\d+)$", text, re.MULTILINE)
-            if match[1] != "total"
-        }
+        jobs = re.findall(r"^(?:local)?rule (\w+):$", run.stdout + run.stderr, re.MULTILINE)
+        return {name: jobs.count(name) for name in jobs}
 
     def edit(self, name: str, old: str, new: str) -> None:
         text = self.path(name).read_text(encoding="utf-8")

@@ -149,7 +149,7 @@ def test_an_edited_solver_solves_its_cases_again(project):
     run = project.snakemake()
     assert run.returncode == 0, run.stderr[-3000:]
     assert len(re.findall(r"rubber/published \d/6 \S+ ok \([\d.]+ s", run.stderr)) == 6
-    assert "rubber/lca" not in run.stderr
+    assert "rubber/lca 1/6" not in run.stderr
     assert {r["solver_version"] for r in project.rows("cases.csv")} >= {"2"}
 
 
@@ -255,8 +255,7 @@ def test_a_misspelt_key_stops_everything_before_it_starts(project):
 
 
 def test_a_surface_that_the_design_cannot_carry_is_a_problem_not_a_crash(project):
-    project.edit("config/small.yaml", "spoke_c10_mpa^2]", "spoke_c10_mpa^2, shear_band_c10_mpa^2]")
-    project.edit("config/small.yaml", "spoke_c10_mpa*", "spoke_c10_mpa*")
+    project.edit("config/small.yaml", "spoke_c10_mpa^2]", "shear_band_c10_mpa^2]")
     run = project.snakemake()
     assert run.returncode != 0
     (published, lca) = [row for row in project.rows("problems.csv") if row["stage"] == "surface"]

@@ -13,7 +13,7 @@ rule calibrate_ply:
         job={
             "specimens": [plain(s) for s in SPECIMENS if not s.test.is_rubber],
             "settings": plain(CONFIG.calibration),
-            "code": code_hash("nptcs.calibrate.ply"),
+            "code": code_of("calibrate_ply"),
         },
     script:
         "../scripts/calibrate_ply.py"
@@ -24,7 +24,7 @@ def calibrate_rubber_job(wildcards):
         "rubber": wildcards.rubber,
         "specimens": [plain(s) for s in specimens_of_material(wildcards.rubber)],
         "settings": plain(CONFIG.calibration),
-        "code": code_hash("nptcs.calibrate"),
+        "code": code_of("calibrate_rubber"),
     }
 
 
@@ -59,6 +59,6 @@ rule material_card:
     log:
         "results/logs/material_card.log",
     params:
-        job={"code": code_hash("nptcs.materials")},
+        job={"code": code_of("material_card")},
     script:
         "../scripts/material_card.py"

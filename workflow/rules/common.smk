@@ -49,6 +49,16 @@ def plain(section):
     return section.model_dump(mode="json")
 
 
+def code_of(script, *modules):
+    """Hash of a rule's script, of all that it imports from the package, and of further modules.
+
+    Snakemake goes by the script's time stamp, which a checkout renews, and not by its imports.
+    """
+    return code_hash(
+        str(Path(workflow.basedir) / f"workflow/scripts/{script}.py"), *modules
+    )
+
+
 def specimens_of_series(series):
     return [specimen for specimen in SPECIMENS if specimen.series == series]
 

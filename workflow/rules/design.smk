@@ -12,7 +12,7 @@ def rubber_cards(wildcards):
 def design_job(wildcards):
     return {
         "study": plain(CONFIG.study(wildcards.study)),
-        "code": code_hash("nptcs.design"),
+        "code": code_of("design"),
     }
 
 

@@ -27,7 +27,7 @@ def ingest_job(wildcards):
         "formats": CONFIG.lab_data.formats,
         "profiles": PROFILES,
         "settings": plain(CONFIG.ingest),
-        "code": code_hash("nptcs.ingest"),
+        "code": code_of("ingest"),
     }
 
 
@@ -55,6 +55,6 @@ rule account:
     log:
         "results/logs/account.log",
     params:
-        job={"code": code_hash("nptcs.ingest.folder")},
+        job={"code": code_of("account")},
     script:
         "../scripts/account.py"

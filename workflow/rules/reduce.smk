@@ -5,7 +5,7 @@ def reduce_job(wildcards):
     return {
         "specimens": [plain(s) for s in specimens_of_series(wildcards.series)],
         "settings": plain(CONFIG.reduction),
-        "code": code_hash("nptcs.reduce"),
+        "code": code_of("reduce"),
     }
 
 
@@ -36,7 +36,7 @@ rule statistics:
         job={
             "specimens": [plain(specimen) for specimen in SPECIMENS],
             "settings": plain(CONFIG.reduction),
-            "code": code_hash("nptcs.reduce"),
+            "code": code_of("statistics"),
         },
     script:
         "../scripts/statistics.py"

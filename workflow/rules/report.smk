@@ -52,7 +52,7 @@ rule problems:
             "sheet_errors": [
                 [error.specimen or SHEET.name, str(error)] for error in SHEET_ERRORS
             ],
-            "code": code_hash("nptcs.tables.problems"),
+            "code": code_of("problems"),
         },
     script:
         "../scripts/problems.py"
@@ -95,7 +95,7 @@ rule report:
                     Path(str(package_files("nptcs.report") / "templates")).iterdir()
                 )
             },
-            "code": code_hash("nptcs.report.html", "nptcs.report.workbook"),
+            "code": code_of("report"),
         },
     script:
         "../scripts/report.py"
@@ -115,7 +115,7 @@ rule verdict:
     params:
         job={
             "specimens": [plain(specimen) for specimen in SPECIMENS],
-            "code": code_hash("nptcs.report.verdict"),
+            "code": code_of("verdict"),
         },
     script:
         "../scripts/verdict.py"

@@ -21,7 +21,7 @@ def solve_job(wildcards):
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": CONFIG.campaign.batches,
-        "code": code_hash("nptcs.campaign.jobs", module_of(wildcards.solver, options)),
+        "code": code_of("solve", module_of(wildcards.solver, options)),
     }
 
 
@@ -50,6 +50,6 @@ rule cases:
     log:
         "results/logs/cases.log",
     params:
-        job={"code": code_hash("nptcs.tables.cases")},
+        job={"code": code_of("cases")},
     script:
         "../scripts/cases.py"

@@ -7,9 +7,7 @@ def surface_job(wildcards):
         "study": study.model_dump(
             mode="json", include={"name", "factors", "solvers", "terms"}
         ),
-        "code": code_hash(
-            "nptcs.surface.quality", "nptcs.surface.stored", "nptcs.tables.surface"
-        ),
+        "code": code_of("surface"),
     }
 
 
@@ -54,7 +52,7 @@ rule sensitivity:
         job={
             "studies": STUDIES,
             "rules": list(CONFIG.sensitivity.rules),
-            "code": code_hash("nptcs.sensitivity"),
+            "code": code_of("sensitivity"),
         },
     script:
         "../scripts/sensitivity.py"

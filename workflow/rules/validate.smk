@@ -17,7 +17,7 @@ rule lca_validation:
         job={
             "settings": plain(CONFIG.lca_validation),
             "tyre": plain(CONFIG.tyre),
-            "code": code_hash("nptcs.lca.validation"),
+            "code": code_of("lca_validation"),
         },
     script:
         "../scripts/lca_validation.py"

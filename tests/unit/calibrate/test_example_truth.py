@@ -33,13 +33,9 @@ class Example(NamedTuple):
         """Reduce every curve."""
         tables = []
         for specimen in self.specimens:
-            curve, record = (
-                self.ingested[specimen.specimen].curve,
-                self.ingested[specimen.specimen].record,
-            )
-            tables.append(
-                reduce_specimen(curve, specimen, settings, record.strain_source, record.flags)
-            )
+            done = self.ingested[specimen.specimen]
+            source, flags = done.record.strain_source, done.record.flags
+            tables.append(reduce_specimen(done.curve, specimen, settings, source, flags))
         return pd.concat(tables, ignore_index=True)
 
 

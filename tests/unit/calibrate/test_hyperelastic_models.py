@@ -140,6 +140,16 @@ def test_residual_and_largest_error_are_what_they_say() -> None:
     assert "too few specimens" in fit.covariance_rule
 
 
+def test_relative_errors_are_not_evaluated_where_the_stress_is_nearly_nothing() -> None:
+    exact = data(NEO_HOOKEAN, [1.0], high=0.15, n=30)
+    stress = exact.stress.copy()
+    stress[0] *= 2.0  # 0.5 % strain: 8 % of the largest stress
+    stress[-1] *= 1.02
+    noisy = Observation("X", exact.mode, exact.stretch, stress, exact.weight)
+    assert fit_model(NEO_HOOKEAN, [noisy], 0.1).largest_error_percent < 3
+    assert fit_model(NEO_HOOKEAN, [noisy], 0.01).largest_error_percent > 40
+
+
 def test_regression_covariance_is_the_scatter_seen_over_repetitions() -> None:
     rng = np.random.default_rng(2)
     exact = data(MOONEY_RIVLIN, [0.9, 0.25], high=1.0, n=50)
@@ -205,6 +215,18 @@ def test_instability_begins_where_the_hessian_of_the_energy_loses_definiteness()
         return float(np.linalg.eigvalsh(np.array([[d11, d12], [d12, d22]]))[0])
 
     assert lowest(onset - 0.02) > 0 > lowest(onset + 0.02)
+
+
+def test_equibiaxial_compression_is_uniaxial_tension_by_another_name() -> None:
+    # λ in equibiaxial compression is the state λ⁻² in uniaxial tension
+    constants = np.array([0.2676, -0.0018])
+    found = instabilities(MOONEY_RIVLIN, constants, 6.0)
+    assert [text.split(" from ")[0] for text in found] == ["equibiaxial compression"]
+    compressed = 1 + float(found[0].split()[-1])
+    further = instabilities(MOONEY_RIVLIN, constants, 14.0)
+    (uniaxial,) = [text for text in further if text.startswith("uniaxial tension")]
+    # onsets are found on 400 steps a path
+    assert 1 + float(uniaxial.split()[-1]) == pytest.approx(compressed**-2, rel=0.03)
 
 
 def read_treloar(name: str) -> tuple[Any, Any]:

@@ -179,6 +179,28 @@ def test_one_specimen_has_no_error_and_the_card_says_so(
     assert "g12_mpa: one specimen, no standard error" in card.checks
 
 
+def test_crosshead_strain_is_said_in_the_card(properties: pd.DataFrame, sheet: list[Any]) -> None:
+    said = (properties["specimen"] == "S-3").map({True: "crosshead strain: x", False: ""})
+    card = calibrate_ply(properties.assign(flags=said), sheet, SETTINGS)
+    assert "warning: g12_mpa rests on crosshead strain: S-3" in card.checks
+    assert not any("e1_mpa rests" in check for check in card.checks)
+
+
+def test_measured_nu21_is_compared_with_reciprocity(
+    properties: pd.DataFrame, sheet: list[Any]
+) -> None:
+    across = {"property": "poisson_ratio", "test": "tension", "orientation_deg": 90.0}
+    # nu12 E2/E1 = 0.02454
+    good = rows(names("T90"), [0.024, 0.025, 0.0245, 0.0243, 0.0249], **across)
+    wrong = rows(names("T90"), [0.040, 0.041, 0.0405, 0.0403, 0.0409], **across)
+    for table, words in ((good, ": agrees"), (wrong, "warning: does not agree")):
+        card = calibrate_ply(pd.concat([properties, table]), sheet, SETTINGS)
+        (check,) = [c for c in card.checks if c.startswith("reciprocity")]
+        assert words in check
+    (check,) = [c for c in calibrate_ply(properties, sheet, SETTINGS).checks if "nu21" in c]
+    assert "nu21 was not measured" in check
+
+
 def test_two_composites_need_a_name(
     properties: pd.DataFrame, sheet: list[Any], make_ply: Make
 ) -> None:

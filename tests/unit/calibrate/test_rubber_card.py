@@ -89,6 +89,13 @@ def test_left_out_missing_and_single_specimens(make_rubber: Make, make_curve: Ma
     assert "too few specimens" in card.constants["c10_mpa"].rule
 
 
+def test_crosshead_strain_is_said_in_the_card(make_rubber: Make, make_curve: Make) -> None:
+    curves = {"R-1": make_curve(STRAIN, neo_hookean(1.18, STRAIN))}
+    sources = {"R-1": "crosshead"}
+    card = calibrate_rubber("rubber_75A", curves, [make_rubber()], SETTINGS, sources)
+    assert "warning: R-1: crosshead strain" in card.checks
+
+
 def test_weights_decide_how_much_a_specimen_with_more_points_counts(
     make_rubber: Make, make_curve: Make
 ) -> None:
@@ -117,6 +124,11 @@ def test_errors_name_the_specimen_or_the_key(make_rubber: Make, make_curve: Make
     short = {"R-1": make_curve([0.0, 0.2, 0.4], [0.0, 1.0, 2.0])}
     with pytest.raises(InputError, match=r"specimen R-1.*1 points in the strain range 0 to 0.15"):
         calibrate_rubber("rubber_75A", short, sheet, SETTINGS)
+    late = {"R-1": make_curve([0.0, 0.05, 0.1, 0.15, 0.3], [0.0, 0.0, 0.0, 0.0, 2.0])}
+    with pytest.raises(InputError, match="no tensile stress in the strain range 0 to 0.15"):
+        calibrate_rubber("rubber_75A", late, sheet, SETTINGS)
+    with pytest.raises(ValueError, match="begins at zero strain"):
+        RubberSettings(strain_range=(-0.1, 0.15))
     wrong = CalibrationSettings(rubber=RubberSettings(only_specimen="R-7"))
     with pytest.raises(InputError, match="only_specimen"):
         calibrate_rubber("rubber_75A", short, sheet, wrong)

@@ -29,6 +29,7 @@ def job(kind, other=1.0, **changes):
         "tyre": TyreGeometry().model_dump(),
         "ply": None,
         "options": {"timeout_s": 2.0},
+        "without_effect": ("timeout_s",),
         "tables": {},
     }
     return CaseJob(**{**values, **changes})

@@ -1,6 +1,6 @@
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.reduction import ChordMethod
@@ -10,6 +10,7 @@ METHODS: tuple[ChordMethod, ...] = ("nearest_points", "interpolated", "least_squ
 
 
 @pytest.mark.parametrize("method", METHODS)
+@settings(deadline=None)
 @given(
     slope=st.floats(1.0, 2e5),
     intercept=st.floats(-100.0, 100.0),

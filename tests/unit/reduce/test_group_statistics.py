@@ -4,7 +4,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.reduction import ReductionSettings, StatisticsSettings
@@ -139,6 +139,15 @@ def test_ranges_that_differ_inside_a_group_are_said(make_specimen: Make) -> None
     assert " | " in row["range"]
 
 
+def test_crosshead_strain_is_said_wherever_the_modulus_shows(make_specimen: Make) -> None:
+    table = properties([1.0, 2.0, 3.0])
+    table.loc[1, "flags"] = "crosshead strain: modulus and strains hold machine and grips"
+    table.loc[2, "flags"] = "failure after 20 min"
+    notes = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]["notes"]
+    assert "crosshead strain: T-2" in notes
+    assert "flagged: T-2, T-3" in notes
+
+
 def test_rubber_groups_have_no_orientation_and_report_the_median(make_specimen: Make) -> None:
     table = properties(
         [1.0, 2.0, 6.0], "rubber_tension", "R", orientation_deg=np.nan, material="rubber_75A"
@@ -242,6 +251,7 @@ def test_mnr_flags_5_of_100_clean_samples() -> None:
     assert share == pytest.approx(0.05, abs=3 * np.sqrt(0.05 * 0.95 / 20000))
 
 
+@settings(deadline=None)
 @given(
     values=st.lists(st.floats(1.0, 1e6), min_size=1, max_size=12),
     factor=st.floats(1e-3, 1e3),

@@ -1,14 +1,19 @@
+import subprocess
+import sys
 from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 import pandas as pd
 import pytest
 
+import nptcs
 from nptcs.config.reduction import AstmD3039, Iso527, ReductionSettings
 from nptcs.errors import InputError
 from nptcs.reduce import reduce_specimen
-from nptcs.tables.properties import PropertiesTable, read_properties
+from nptcs.tables.io import read_table, write_table
+from nptcs.tables.properties import PropertiesTable
 
 Make = Callable[..., Any]
 SETTINGS = ReductionSettings()
@@ -103,6 +108,15 @@ def test_deviations_from_the_standard_go_with_every_value(
         "toe not corrected",
     ):
         assert table["flags"].str.contains(words).all(), words
+
+
+def test_crosshead_strain_is_said_once(make_specimen: Make, make_curve: Make) -> None:
+    strain = np.linspace(0, 0.012, 241)
+    told = ["crosshead strain: modulus and strains hold machine and grips"]
+    table = reduce_specimen(
+        make_curve(strain, 1e5 * strain), make_specimen(), SETTINGS, "crosshead", told
+    )
+    assert (table["flags"].str.count("crosshead strain") == 1).all()
 
 
 def test_compression_is_positive_and_uses_both_faces(
@@ -231,8 +245,10 @@ def test_property_table_survives_a_csv_round_trip(
 ) -> None:
     strain = np.linspace(0, 0.012, 241)
     table = reduce_specimen(make_curve(strain, 1e5 * strain), make_specimen("001"), SETTINGS)
-    table.to_csv(tmp_path / "specimens.csv", index=False)
-    pd.testing.assert_frame_equal(read_properties(tmp_path / "specimens.csv"), table)
+    pd.testing.assert_frame_equal(PropertiesTable.validate(table), table)
+    file = tmp_path / "specimens.csv"
+    write_table(file, table, PropertiesTable)
+    pd.testing.assert_frame_equal(read_table(file, PropertiesTable), table)
     assert list(PropertiesTable.to_schema().columns)[:10] == [
         *("specimen", "test", "material", "property", "value"),
         *("unit", "rule", "range", "points", "flags"),
@@ -244,3 +260,19 @@ def test_an_interval_that_runs_backwards_is_refused() -> None:
         ValueError, match=r"chord_range\n.*runs from low to high, got 0.003 to 0.001"
     ):
         AstmD3039(chord_range=(0.003, 0.001))
+
+
+def test_reduction_of_a_specimen_imports_neither_scipy_nor_matplotlib() -> None:
+    program = (
+        "import sys, nptcs.reduce; "
+        "print([m for m in ('scipy', 'matplotlib', 'sklearn') if m in sys.modules])"
+    )
+    source = Path(nptcs.__file__).parents[1]
+    done = subprocess.run(
+        [sys.executable, "-c", program],
+        env={"PYTHONPATH": str(source)},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    assert done.stdout.strip() == "[]"

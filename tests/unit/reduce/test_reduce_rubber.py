@@ -2,10 +2,12 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
 
 from nptcs.config.reduction import AstmD412, ReductionSettings
 from nptcs.reduce import reduce_specimen
+from nptcs.tables.properties import PropertiesTable
 
 Make = Callable[..., Any]
 
@@ -18,6 +20,7 @@ def test_stress_at_elongation_strength_and_energy(
     stress = 2 * 1.18 * (stretch - stretch**-2)
     curve = make_curve(strain, stress, time_s=np.linspace(0, 12.5, 2501))
     table = reduce_specimen(curve, make_specimen("R-1", "rubber_tension"), ReductionSettings())
+    pd.testing.assert_frame_equal(PropertiesTable.validate(table), table)
     assert value_of(table, "stress_at_100_percent") == pytest.approx(2 * 1.18 * (2 - 0.25))
     assert np.isnan(value_of(table, "stress_at_300_percent"))
     assert "reaches 250 %" in flags_of(table, "stress_at_300_percent")

@@ -1,16 +1,18 @@
 """What code a result rests on, as a hash: Snakemake sees scripts, but not the package.
 
-The hash covers a module and all modules of this package that it imports, directly or not, also
-inside functions. It is taken of the syntax tree without docstrings, so that a changed comment,
-docstring or line break reruns nothing.
+The hash covers a script or module and all modules of this package that it imports, directly or
+not, also inside functions. It is taken of the compiled code without docstrings and line numbers,
+so that a changed comment, docstring or line break reruns nothing.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
+from collections.abc import Iterator
 from functools import cache
 from pathlib import Path
+from types import CodeType
 
 PACKAGE = "nptcs"
 _ROOT = Path(__file__).parent
@@ -31,7 +33,7 @@ def code_hash(*modules: str) -> str:
     """
     digest = hashlib.sha256()
     for file in sorted(_closure(modules)):
-        digest.update(_tree(file).encode())
+        digest.update(_read(file)[1])
     return digest.hexdigest()[:16]
 
 
@@ -58,7 +60,7 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
         if file is None or file in found:
             continue
         found.add(file)
-        waiting += [_file(name) for name in _imports(file)]
+        waiting += [_file(name) for name in _read(file)[0]]
     return found
 
 
@@ -77,29 +79,37 @@ def _file(module: str) -> Path | None:
 
 
 @cache
-def _imports(file: Path) -> tuple[str, ...]:
-    """Name all modules that a file may import, wherever the statement stands."""
-    names: list[str] = []
-    for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
-        if isinstance(node, ast.Import):
-            names += [alias.name for alias in node.names]
-        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
-            names.append(node.module)
-            names += [f"{node.module}.{alias.name}" for alias in node.names]
-    return tuple(names)
-
-
-@cache
-def _tree(file: Path) -> str:
-    """Write a file's syntax tree without docstrings and positions."""
+def _read(file: Path) -> tuple[tuple[str, ...], bytes]:
+    """Return the modules that a file may import, and a digest of its compiled code."""
     tree = ast.parse(file.read_text(encoding="utf-8"))
-    for node in ast.walk(tree):
-        body = getattr(node, "body", None)
-        if not isinstance(body, list):
-            continue
-        node.body = [  # type: ignore[attr-defined]
-            part
-            for part in body
-            if not (isinstance(part, ast.Expr) and isinstance(part.value, ast.Constant))
-        ]
-    return ast.dump(tree)
+    code = compile(tree, "", "exec", dont_inherit=True, optimize=2)
+    return tuple(_imports(tree)), hashlib.sha256(repr(_parts(code)).encode()).digest()
+
+
+def _imports(tree: ast.Module) -> Iterator[str]:
+    """Yield all names that may be imported modules, wherever the statement stands."""
+    statements: list[ast.AST] = [tree]
+    while statements:
+        node = statements.pop()
+        if isinstance(node, ast.Import):
+            yield from (alias.name for alias in node.names)
+        elif isinstance(node, ast.ImportFrom) and node.module and not node.level:
+            yield node.module
+            yield from (f"{node.module}.{alias.name}" for alias in node.names)
+        for blocks in ("body", "orelse", "finalbody", "handlers", "cases"):
+            block = getattr(node, blocks, [])
+            statements += block if isinstance(block, list) else []
+
+
+def _parts(constant: object) -> object:
+    """Take from compiled code all that decides what it does, in a form that prints the same."""
+    if isinstance(constant, CodeType):
+        names = constant.co_names, constant.co_varnames, constant.co_freevars, constant.co_cellvars
+        counts = constant.co_argcount, constant.co_posonlyargcount, constant.co_kwonlyargcount
+        constants = [_parts(part) for part in constant.co_consts]
+        return constant.co_name, constant.co_flags, counts, names, constant.co_code, constants
+    if isinstance(constant, frozenset):
+        return sorted(repr(part) for part in constant)
+    if isinstance(constant, tuple):
+        return [_parts(part) for part in constant]
+    return constant

@@ -124,7 +124,7 @@ def observe(
     Raises
     ------
     InputError
-        If fewer than three points lie in the range.
+        If fewer than three points lie in the range, or none has a tensile stress.
     """
     low, high = strain_range
     strain, stress = finite_pair(loading_branch(curve, specimen), "strain_axial", "stress_mpa")
@@ -135,6 +135,14 @@ def observe(
             "widen calibration.rubber.strain_range or leave the specimen out",
             specimen=specimen.specimen,
             column="strain_axial",
+        )
+    if not stress[inside].max() > 0:
+        raise InputError(
+            f"no tensile stress in the strain range {low:g} to {high:g}",
+            "check the curve's strain origin, or leave the specimen out",
+            specimen=specimen.specimen,
+            column="stress_mpa",
+            value=float(stress[inside].max()),
         )
     words = []
     if strain.max() < high:

@@ -12,6 +12,7 @@ from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, PlyAssumptions, Source
 from nptcs.errors import InputError
 from nptcs.materials import PLY_CONSTANTS, PlyCard, Quantity
+from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.tables.specimens import Specimen
 
 MEASURED = ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")
@@ -74,6 +75,7 @@ def calibrate_ply(
             *check_ply(values, material, settings.ply.isotropy_tolerance_percent),
             check_reciprocity(constants, nu21),
             *_few_specimens(samples),
+            *_crosshead(samples, sources, table),
         ),
     )
 
@@ -152,6 +154,18 @@ def assumed_quantities(
                 value=assumption, unit=UNITS[name], origin="assumed", rule="assumed value"
             )
     return quantities
+
+
+def _crosshead(
+    samples: dict[str, pd.Series], sources: dict[str, Source], table: pd.DataFrame
+) -> list[str]:
+    words = []
+    for name, source in sources.items():
+        rows = rows_of(table, source)
+        found = with_crosshead_strain(rows[rows["specimen"].isin(samples[name].index)])
+        if found:
+            words.append(f"warning: {name} rests on {CROSSHEAD}: {', '.join(found)}")
+    return words
 
 
 def _few_specimens(samples: dict[str, pd.Series]) -> list[str]:

@@ -14,6 +14,7 @@ from nptcs.calibrate.observations import observations
 from nptcs.calibrate.toe import toe_words
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.materials import Covariance, Quantity, RubberCard
+from nptcs.reduce.deviations import CROSSHEAD
 from nptcs.tables.specimens import Specimen
 
 
@@ -22,6 +23,7 @@ def calibrate_rubber(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
+    strain_sources: Mapping[str, str] | None = None,
 ) -> RubberCard:
     """Fit the card's model to the included specimens of a rubber.
 
@@ -35,6 +37,9 @@ def calibrate_rubber(
         The sheet; specimens with include = no do not enter.
     settings : CalibrationSettings
         Model, strain range and weights; neo-Hookean within 15 % by default, as in the study.
+    strain_sources : mapping of str to str, optional
+        Where each specimen's strain came from, as the ingest records say; the card says which
+        specimens have crosshead strain.
 
     Returns
     -------
@@ -54,6 +59,10 @@ def calibrate_rubber(
     unstable = instabilities(model, fit.constants, rubber.strain_range[1])
     used = tuple(o.specimen for o in data)
     origins = {s.specimen: s.origin for s in specimens}
+    sources = strain_sources or {}
+    crosshead = [
+        f"warning: {name}: {CROSSHEAD}" for name in used if sources.get(name) == "crosshead"
+    ]
     low, high = rubber.strain_range
     rule = (
         f"{model.name}, least squares on nominal stress, strain {low:g} to {high:g}, "
@@ -78,6 +87,7 @@ def calibrate_rubber(
             *model.remarks(fit.constants),
             *_stability_words(unstable, high),
             *toe_words(data),
+            *crosshead,
             *remarks,
         ),
     )

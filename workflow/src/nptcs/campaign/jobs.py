@@ -61,7 +61,8 @@ def make_jobs(
             load_n=study.load_n,
             tyre=tyre.model_dump(),
             ply=dict(ply) if solver.needs_ply and ply is not None else None,
-            options=checked.model_dump(),
+            options=checked.model_dump(mode="json"),
+            without_effect=tuple(sorted(checked.without_effect)),
             tables=tables,
         )
         for row in design.to_dict("records")

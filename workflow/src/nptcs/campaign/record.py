@@ -35,13 +35,15 @@ class CaseJob(BaseModel):
     tyre: dict[str, Any]
     ply: dict[str, float] | None
     options: dict[str, Any]
+    without_effect: tuple[str, ...] = Field(description="Options that are no part of the key")
     tables: dict[str, list[dict[str, Any]]]
 
     @property
     def key(self) -> str:
         """The content address: the same key, the same result."""
-        content = self.model_dump(exclude={"study", "case_id", "module"})
-        content["options"] = {k: v for k, v in self.options.items() if k != "timeout_s"}
+        content = self.model_dump(exclude={"study", "case_id", "module", "without_effect"})
+        for name in self.without_effect:
+            content["options"].pop(name, None)
         return sha256_of_text(json.dumps(content, sort_keys=True))
 
     @property

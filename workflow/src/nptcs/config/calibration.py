@@ -2,14 +2,23 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import AfterValidator, Field
 
 from nptcs.config.base import Strict
 from nptcs.config.reduction import Interval
 
 ModelName = Literal["neo_hookean", "mooney_rivlin", "yeoh", "ogden"]
+
+
+def _from_zero(interval: tuple[float, float]) -> tuple[float, float]:
+    if interval[0] < 0:
+        raise ValueError(f"begins at zero strain or above it, got {interval[0]:g}")
+    return interval
+
+
+StrainRange = Annotated[Interval, AfterValidator(_from_zero)]
 
 
 class Source(Strict):
@@ -67,8 +76,8 @@ class RubberSettings(Strict):
         ("neo_hookean", "mooney_rivlin", "yeoh", "ogden"),
         description="Models of the comparison table",
     )
-    strain_range: Interval = Field((0.0, 0.15), description="Nominal strain range of the fit")
-    comparison_range: Interval | None = Field(
+    strain_range: StrainRange = Field((0.0, 0.15), description="Nominal strain range of the fit")
+    comparison_range: StrainRange | None = Field(
         None, description="Strain range of the comparison table; null: strain_range"
     )
     weights: Literal["specimens", "points", "relative"] = Field(

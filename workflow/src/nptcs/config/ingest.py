@@ -14,6 +14,12 @@ class MissingValues(Strict):
     dead_values: tuple[float, ...] = Field(
         (-1000000.0,), description="Values that a data logger writes for a dead channel"
     )
+    spike_share: float = Field(
+        0.2,
+        gt=0,
+        description="A single reading that leaves both neighbours by more than this share of "
+        "the channel's range is emptied and flagged",
+    )
     largest_share: float = Field(
         0.5, gt=0, le=1, description="A strain channel that lacks more than this share is dead"
     )
@@ -100,7 +106,10 @@ class Pairing(Strict):
         "largest force, stop the specimen",
     )
     force_tolerance: float = Field(
-        0.02, gt=0, lt=1, description="Largest difference of a shared force, share of the maximum"
+        0.05,
+        gt=0,
+        lt=1,
+        description="Largest difference of the peaks of a force that both files hold",
     )
 
 

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nptcs.config.ingest import EndOfTest, ExtensometerRemoval, ForceZero, MissingValues
-from nptcs.ingest.signals import STRAIN_CHANNELS, Array, Signals
+from nptcs.ingest.signals import STRAIN_CHANNELS, Array, Signals, largest
 
 STRAINS = ("strain_axial", "strain_transverse", "strain_axial_back")
 
@@ -31,6 +32,39 @@ def mark_dead(signals: Signals, settings: MissingValues) -> None:
 def _is_dead(readings: Array, largest_share: float) -> bool:
     empty = np.isnan(readings)
     return bool(empty.mean() > largest_share or np.ptp(readings[~empty]) == 0)
+
+
+def empty_spikes(signals: Signals, settings: MissingValues) -> None:
+    """Empty single readings far from both neighbours: a bit lost, a digit lost.
+
+    A reading counts if it leaves both neighbours, to one side, by more than ``spike_share`` of
+    the channel's range (1st to 99th percentile) and 20 usual steps; failure leaves but one.
+    """
+    if not settings.enabled:
+        signals.skipped("spikes")
+        return
+    found = {}
+    for name in ("force", "stress", *STRAIN_CHANNELS):
+        if name in signals.values:
+            rows = _spikes(signals.values[name], settings.spike_share)
+            for row in rows:
+                found[f"{name}_reading_{row + 1}"] = float(signals.values[name][row])
+            signals.values[name][rows] = np.nan
+    signals.note("spikes", f"{len(found)} readings emptied", **found)
+    if found:
+        signals.flags.append(f"{len(found)} wild readings emptied: {', '.join(list(found)[:3])}")
+
+
+def _spikes(readings: Array, share: float) -> NDArray[np.intp]:
+    kept = np.flatnonzero(~np.isnan(readings))
+    if len(kept) < 10:
+        return kept[:0]
+    values = readings[kept]
+    step = np.diff(values)
+    low, high = np.percentile(values, [1, 99])
+    limit = max(share * float(high - low), 20 * float(np.median(np.abs(step))))
+    leaves = np.minimum(np.abs(step[:-1]), np.abs(step[1:])) > limit
+    return kept[1:-1][leaves & (np.sign(step[:-1]) != np.sign(step[1:]))]
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:
@@ -86,16 +120,22 @@ def cut_end(signals: Signals, settings: EndOfTest) -> None:
     signals.note("end of test", text, rows=dropped, peak_force_n=float(force[peak]))
 
 
-def empty_after_removal(signals: Signals, settings: ExtensometerRemoval, rubber: bool) -> None:
+def empty_after_removal(
+    signals: Signals, settings: ExtensometerRemoval, rubber: bool, source: str
+) -> None:
     """Empty the strains from where an extensometer was taken off, slipped or stood still."""
     if not settings.enabled:
         signals.skipped("extensometer")
         return
-    strain = np.abs(signals.values["strain_axial"])
-    force = np.abs(signals.values["force"])
+    if source == "crosshead":
+        signals.note("extensometer", "strain from the crosshead, nothing to take off")
+        return
+    sign = np.sign(largest(signals.values["force"]))
+    strain = sign * signals.values["strain_axial"]
+    force = sign * signals.values["force"]
     smallest = settings.smallest_jump_rubber if rubber else settings.smallest_jump
     jump = _first_jump(strain, force, settings.jump_factor, smallest)
-    stuck = _first_stuck(strain, force, settings.stuck_force_share)
+    stuck = _first_stuck(strain[:jump], force[:jump], settings.stuck_force_share)
     first = min((row for row in (jump, stuck) if row is not None), default=None)
     if first is None:
         signals.note("extensometer", "no removal or slip found")
@@ -127,7 +167,11 @@ def _first_jump(strain: Array, force: Array, jump_factor: float, smallest: float
 
 
 def _first_stuck(strain: Array, force: Array, share: float) -> int | None:
-    """First reading of a climb of the force by `share` of its peak without strain."""
+    """First reading from which the force climbs by `share` of its peak and more, without strain.
+
+    Standing still counts to the end of the climb only: a start that lags is a toe, and a leap
+    is found by `_first_jump`.
+    """
     rising = np.maximum.accumulate(force)
     levels = np.arange(share, 1.0, share) * rising[-1]
     rows = np.unique(np.searchsorted(rising, levels))
@@ -135,5 +179,6 @@ def _first_stuck(strain: Array, force: Array, share: float) -> int | None:
     if len(rows) < 6:
         return None
     gains = np.diff(strain[rows])
-    still = gains < 0.02 * np.median(gains)
-    return int(rows[int(np.argmax(still))]) + 1 if still.any() else None
+    moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
+    last = int(moving[-1]) + 1 if len(moving) else 0
+    return int(rows[last]) + 1 if last < len(gains) else None

@@ -174,6 +174,9 @@ def _stated_axis(specimen: Specimen, columns: Mapping[str, str]) -> str | None:
 def orient(signals: Signals, specimen: Specimen, path: Path) -> None:
     """Make tension positive and compression negative, whatever the machine's habit.
 
+    The force's sign is that of its largest reading; the strain's that of its slope over the
+    force, which an offset does not turn.
+
     Raises
     ------
     InputError
@@ -182,15 +185,15 @@ def orient(signals: Signals, specimen: Specimen, path: Path) -> None:
     values = signals.values
     wanted = -1.0 if specimen.test is TestType.COMPRESSION else 1.0
     force = np.sign(largest(values["force"]))
-    rows = np.arange(len(signals)) <= int(np.nanargmax(np.abs(values["force"])))
-    strain = np.sign(largest(values["strain_axial"][rows]))
+    slope = _slope(signals, "strain_axial")
+    strain = force * np.sign(slope)
     if wanted > 0 and strain < 0:
         raise InputError(
-            f"axial strain is negative in a {specimen.test} test",
+            f"axial strain falls while a {specimen.test} test loads",
             "check test, strain_axis and the files of this specimen in the sheet",
             path,
             specimen=specimen.specimen,
-            value=largest(values["strain_axial"][rows]),
+            value=f"{1e6 * slope:.3g} µε/N",
         )
     turned = []
     if force != wanted:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import io
 import warnings
 import zipfile
 import zlib
@@ -43,7 +44,7 @@ def read_workbook(
     with warnings.catch_warnings(record=True) as caught:
         warnings.simplefilter("always")
         try:
-            sheets = _xlsx(path) if raw.startswith(ZIP) else _xls(raw)
+            sheets = _xlsx(raw) if raw.startswith(ZIP) else _xls(raw)
         except _DAMAGE as error:
             raise InputError(
                 f"workbook cannot be read: {type(error).__name__}: {error}",
@@ -55,10 +56,10 @@ def read_workbook(
     return sources, notes
 
 
-def _xlsx(path: Path) -> list[tuple[str, list[tuple[object, ...]]]]:
+def _xlsx(raw: bytes) -> list[tuple[str, list[tuple[object, ...]]]]:
     from openpyxl import load_workbook
 
-    book = load_workbook(path, read_only=True, data_only=True)
+    book = load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
     try:
         return [(sheet.title, list(sheet.iter_rows(values_only=True))) for sheet in book.worksheets]
     finally:

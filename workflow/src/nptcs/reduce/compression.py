@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.config.reduction import AstmD6641
-from nptcs.reduce.rows import Property, finite_pair, missing, strain_range
+from nptcs.reduce.rows import Property, finite_pair, missing, strain_range, value_at_peak
 from nptcs.reduce.tension import modulus, poisson_ratio, strength, ultimate_strain
 
 
@@ -61,17 +61,22 @@ def bending_rows(branch: pd.DataFrame, rules: AstmD6641) -> list[Property]:
     mean = (front + back) / 2
     middle = sum(rules.chord_range) / 2
     after = int(np.argmax(mean >= middle))
-    if not mean[after] >= middle:
-        rows = [missing(names[0], "%", rule, f"the curve ends before strain {middle:g}")]
+    last_front, last_back = (
+        value_at_peak(branch, column) for column in ("strain_axial", "strain_axial_back")
+    )
+    rows = []
+    if mean[after] >= middle:
+        at_middle = f"{rule} at strain {middle:g}"
+        rows.append(_bending(names[0], float(front[after]), float(back[after]), at_middle, rules))
     else:
-        rows = [_bending(names[0], front, back, after, f"{rule} at strain {middle:g}", rules)]
-    return [*rows, _bending(names[1], front, back, -1, f"{rule} at failure", rules)]
+        rows.append(missing(names[0], "%", rule, f"the curve ends before strain {middle:g}"))
+    return [*rows, _bending(names[1], last_front, last_back, f"{rule} at failure", rules)]
 
 
-def _bending(
-    name: str, front: np.ndarray, back: np.ndarray, at: int, rule: str, rules: AstmD6641
-) -> Property:
-    value = float(100.0 * (front[at] - back[at]) / (front[at] + back[at]))
+def _bending(name: str, front: float, back: float, rule: str, rules: AstmD6641) -> Property:
+    if not front + back > 0:
+        return missing(name, "%", rule, "no compressive strain recorded there")
+    value = 100.0 * (front - back) / (front + back)
     limit = rules.bending_limit_percent
     flags = (f"bending {value:.3g} % beyond {limit:g} %",) if abs(value) > limit else ()
     return Property(name, value, "%", rule, points=1, flags=flags)

@@ -12,7 +12,13 @@ from nptcs.reduce.chord import fit_line
 from nptcs.reduce.rows import NAN, Property, finite_pair, missing
 from nptcs.tables.specimens import Specimen
 
-CROSSHEAD = "crosshead"
+CROSSHEAD = "crosshead strain"
+
+
+def with_crosshead_strain(properties: pd.DataFrame) -> list[str]:
+    """Ids of the specimens in a property table whose strain is crosshead travel."""
+    said = properties["flags"].str.contains(CROSSHEAD, regex=False)
+    return list(dict.fromkeys(properties.loc[said, "specimen"]))
 
 
 def deviations(
@@ -42,14 +48,14 @@ def deviations(
 
 
 def _source(strain_source: str) -> Iterator[str]:
-    if strain_source == CROSSHEAD:
-        yield "crosshead strain: the compliance of machine and grips is in it"
+    if strain_source == "crosshead":
+        yield f"{CROSSHEAD}: the compliance of machine and grips is in it"
     elif strain_source in ("", "unspecified"):
         yield "source of the strain not stated"
 
 
 def _size(specimen: Specimen, rules: Rules) -> Iterator[str]:
-    key = 0 if specimen.orientation_deg is None else round(specimen.orientation_deg)
+    key = 0 if specimen.orientation_deg is None else round(abs(specimen.orientation_deg))
     sizes = (
         ("width", specimen.width_mm, rules.expected_width_mm.get(key)),
         ("thickness", specimen.thickness_mm, rules.expected_thickness_mm.get(key)),

@@ -11,7 +11,6 @@ from numpy.typing import NDArray
 
 from nptcs.errors import InputError
 from nptcs.reduce.chord import Chord
-from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 
 Array = NDArray[np.float64]
@@ -69,11 +68,16 @@ def from_chord(name: str, chord: Chord, unit: str, rule: str, nominal: str) -> P
 
 
 def to_table(properties: Iterable[Property], specimen: Specimen) -> pd.DataFrame:
-    """Return the validated property table of one specimen."""
+    """Return the property table of one specimen, in the columns of `PropertiesTable`.
+
+    It is checked where it crosses a file boundary (`nptcs.tables.io.write_table`),
+    not for each specimen: the check costs more than the reduction.
+    """
+    angle = specimen.orientation_deg
     rows = [
         {
             "specimen": specimen.specimen,
-            "test": specimen.test,
+            "test": specimen.test.value,
             "material": specimen.material,
             "property": p.name,
             "value": p.value,
@@ -82,7 +86,7 @@ def to_table(properties: Iterable[Property], specimen: Specimen) -> pd.DataFrame
             "range": p.range,
             "points": p.points,
             "flags": "; ".join(p.flags),
-            "orientation_deg": specimen.orientation_deg,
+            "orientation_deg": NAN if angle is None else angle,
             "r_squared": p.r_squared,
             "standard_error": p.standard_error,
             "origin": specimen.origin,
@@ -91,7 +95,7 @@ def to_table(properties: Iterable[Property], specimen: Specimen) -> pd.DataFrame
         }
         for p in properties
     ]
-    return PropertiesTable.validate(pd.DataFrame(rows))
+    return pd.DataFrame(rows)
 
 
 def loading_branch(curve: pd.DataFrame, specimen: Specimen) -> pd.DataFrame:

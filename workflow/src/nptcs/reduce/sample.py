@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,7 @@ NAN = float("nan")
 NOT_NORMAL = 0.05
 
 
+@cache
 def mnr_critical(n: int, significance: float = 0.05) -> float:
     """Critical value of the maximum normed residual of `n` specimens.
 
@@ -27,6 +29,7 @@ def mnr_critical(n: int, significance: float = 0.05) -> float:
     return float((n - 1) / np.sqrt(n) * np.sqrt(t**2 / (n - 2 + t**2)))
 
 
+@cache
 def b_basis_factor(n: int, degrees_of_freedom: int | None = None) -> float:
     """One-sided tolerance factor k_B of a normal B-basis value x̄ - k_B s.
 

@@ -8,7 +8,7 @@ import pandas as pd
 
 from nptcs.config.reduction import ReductionSettings
 from nptcs.reduce.compression import reduce_compression
-from nptcs.reduce.deviations import deviations, speed_properties
+from nptcs.reduce.deviations import CROSSHEAD, deviations, speed_properties
 from nptcs.reduce.rows import Property, loading_branch, to_table
 from nptcs.reduce.rubber import reduce_rubber
 from nptcs.reduce.shear import reduce_shear
@@ -52,7 +52,12 @@ def reduce_specimen(
     """
     branch = loading_branch(curve, specimen)
     rules = settings.rules(specimen.test)
-    remarks = [*deviations(branch, specimen, rules, strain_source), *flags]
+    told = list(flags)
+    found = deviations(branch, specimen, rules, strain_source)
+    # the ingest record says it in its own words
+    if any(flag.startswith(CROSSHEAD) for flag in told):
+        found = tuple(flag for flag in found if not flag.startswith(CROSSHEAD))
+    remarks = [*found, *told]
     rows = [*_reduce(branch, specimen, settings), *speed_properties(branch, rules.title)]
     return to_table((row.flagged(remarks) for row in rows), specimen)
 

@@ -8,6 +8,7 @@ import pandas as pd
 
 from nptcs.config.reduction import ReductionSettings
 from nptcs.errors import InputError
+from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.reduce.pooling import pooled_rows
 from nptcs.reduce.rows import TEST_CONDITIONS
 from nptcs.reduce.sample import describe
@@ -104,4 +105,10 @@ def _number_notes(
         notes.append(f"n = {len(measured)}, {title} asks for {asked}")
     if len(set(measured["range"])) > 1:
         notes.append("ranges differ between specimens")
+    crosshead = with_crosshead_strain(measured)
+    if crosshead:
+        notes.append(f"{CROSSHEAD}: {', '.join(crosshead)}")
+    flagged = list(measured.loc[measured["flags"] != "", "specimen"])
+    if flagged:
+        notes.append("flagged: " + ", ".join(flagged))
     return notes

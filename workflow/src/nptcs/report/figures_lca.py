@@ -33,7 +33,7 @@ def load_displacement(table: pd.DataFrame) -> Figure:
         Rows of ``lca_validation.csv`` of one section.
     """
     name = SECTION_NAMES[table["section"].iloc[0]]
-    figure, axes = panel(f"LCA, {name}", "vertical load [N]", "displacement [mm]")
+    figure, axes = panel(f"Our LCA, {name}", "vertical load [N]", "displacement [mm]")
     for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
         colour, marker = COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)]
         rows = rows.sort_values("load_n")
@@ -68,7 +68,7 @@ def differences(table: pd.DataFrame, limit: float) -> Figure:
         Largest difference on the axis, in percent, the same for all sections.
     """
     name = SECTION_NAMES[table["section"].iloc[0]]
-    figure, axes = panel(f"LCA, {name}", "spoke C10 [MPa]", "computed − printed [%]")
+    figure, axes = panel(f"Our LCA, {name}", "spoke C10 [MPa]", "computed − printed [%]")
     series = {label: table[column].to_numpy() for column, label in DIFFERENCES.items()}
     _grouped_bars(axes, [f"{c10:g}" for c10 in table["spoke_c10_mpa"]], series)
     axes.axhline(0, color="black", linewidth=0.8)
@@ -93,13 +93,42 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
     groups = {section: rows for section, rows in table.groupby("section", sort=False)}
     first = next(iter(groups.values()))
     series = {
-        "FEM, printed": first["published_fem_stiffness_n_per_mm"].to_numpy(),
-        "LCA, printed": first["published_stiffness_n_per_mm"].to_numpy(),
+        "FEM, paper": first["published_fem_stiffness_n_per_mm"].to_numpy(),
+        "LCA, paper": first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
-        series[f"LCA, {SECTION_NAMES[str(section)]}"] = rows["stiffness_n_per_mm"].to_numpy()
+        series[f"LCA, ours, {SECTION_NAMES[str(section)]}"] = rows["stiffness_n_per_mm"].to_numpy()
     _grouped_bars(axes, [f"{c10:g}" for c10 in first["spoke_c10_mpa"]], series)
     figure.legend(loc="outside lower left", ncols=2)
+    return figure
+
+
+@styled
+def fem_differences(table: pd.DataFrame, limit: float) -> Figure:
+    """Draw the difference of the stiffness from table 7's FE values, a line for each band rubber.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Rows of ``lca_against_fem.csv`` of one section.
+    limit : float
+        Largest difference on the axis, in percent, the same for all sections.
+    """
+    name = SECTION_NAMES[table["section"].iloc[0]]
+    figure, axes = panel(f"Our LCA, {name}", "spoke C10 [MPa]", "LCA − FEM, stiffness [%]")
+    for number, (c10, rows) in enumerate(table.groupby("shear_band_c10_mpa")):
+        axes.plot(
+            rows["spoke_c10_mpa"],
+            rows["fem_difference_percent"],
+            color=COLOURS[number % len(COLOURS)],
+            marker=MARKERS[number % len(MARKERS)],
+            label=f"{c10:g}",
+        )
+    axes.axhline(0, color="black", linewidth=0.8)
+    axes.set_ylim(-limit, limit)
+    figure.legend(
+        title="shear band C10 [MPa]", title_fontsize=8, ncols=5, loc="outside lower center"
+    )
     return figure
 
 
@@ -128,13 +157,13 @@ def ring_shape(shape: pd.DataFrame, rim_diameter_mm: float) -> Figure:
     Parameters
     ----------
     shape : DataFrame
-        Rows of ``lca_shape.csv`` of one design: ``region, x_mm, y_mm, x_undeformed_mm,
-        y_undeformed_mm``, in the order of the angle.
+        Rows of ``lca_shape.csv`` of one design, in the order of the angle.
     rim_diameter_mm : float
         For the rim, drawn to show the scale.
     """
-    c10 = shape["spoke_c10_mpa"].iloc[0]
-    figure, axes = panel(f"spoke C10 = {c10:g} MPa", "x [mm]", "y [mm]", (4.3, 4.4))
+    first = shape.iloc[0]
+    title = f"spoke C10 {first['spoke_c10_mpa']:g} MPa, {first['load_n']:g} N, {first['section']}"
+    figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 4.4))
     axes.plot(
         shape["x_undeformed_mm"],
         shape["y_undeformed_mm"],

@@ -52,6 +52,8 @@ def stress_strain(
     used = 0
     for specimen, curve in curves.items():
         drawn = thinned(curve)
+        if drawn.empty:
+            continue
         out = specimen in left_out
         colour = GREY if out else COLOURS[used % len(COLOURS)]
         dash = "--" if out or used >= len(COLOURS) else "-"
@@ -69,7 +71,7 @@ def stress_strain(
             label=label,
         )
         used += not out
-    if len(curves) <= 8:
+    if 0 < len(axes.get_lines()) <= 8:
         axes.legend(loc="best", fontsize=7)
     mark_synthetic(figure, synthetic)
     return figure

@@ -74,7 +74,7 @@ def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLa
     levels = [
         f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
     ]
-    return ", ".join([solver, *levels])
+    return f"{solver}, at {', '.join(levels)}" if levels else f"solver {solver}"
 
 
 @styled
@@ -135,35 +135,45 @@ def contours(
 def slices(
     surface: Surface,
     cases: pd.DataFrame,
-    pair: tuple[str, str],
+    varied: Sequence[str],
     labels: Mapping[str, FactorLabel],
     synthetic: bool = False,
 ) -> Figure:
-    """Draw the stiffness over the first factor, a line for each level of the second one.
+    """Draw the stiffness over one factor, a line for each level of a second one if there is one.
 
     Lines are the surface, marks are the cases; the other factors are at their middle levels.
+
+    Parameters
+    ----------
+    surface, cases, labels, synthetic
+        As in `contours`.
+    varied : sequence of str
+        The factor on the x axis, then the one whose levels make the lines.
     """
-    shown, held = at_middle(surface, cases, pair)
+    shown, held = at_middle(surface, cases, varied)
     title = _title(cases["solver"].iloc[0], held, labels)
-    figure, axes = panel(title, str(labels[pair[0]]), STIFFNESS_LABEL)
+    figure, axes = panel(title, str(labels[varied[0]]), STIFFNESS_LABEL)
     factors = list(surface.polynomial.factors)
-    axis = factors.index(pair[0])
+    axis = factors.index(varied[0])
     x = np.linspace(surface.lower[axis], surface.upper[axis], GRID)
-    for number, (level, at_level) in enumerate(shown.groupby(pair[1])):
-        columns = {**held, pair[1]: level}
+    levels = sorted(set(shown[varied[1]])) if len(varied) > 1 else [None]
+    for number, level in enumerate(levels):
+        at_level = shown if level is None else shown[shown[varied[1]] == level]
+        fixed = held if level is None else {**held, varied[1]: level}
         points = np.column_stack(
-            [x if name == pair[0] else np.full(GRID, columns[name]) for name in factors]
+            [x if name == varied[0] else np.full(GRID, fixed[name]) for name in factors]
         )
         colour = COLOURS[number % len(COLOURS)]
         axes.plot(x, surface.predict(points), color=colour)
         axes.plot(
-            at_level[pair[0]],
+            at_level[varied[0]],
             at_level[STIFFNESS],
             linestyle="none",
             color=colour,
             marker=MARKERS[number % len(MARKERS)],
-            label=f"{level:.4g}",
+            label="cases" if level is None else f"{level:.4g}",
         )
-    figure.legend(title=str(labels[pair[1]]), title_fontsize=8, ncols=5, loc="outside lower center")
+    legend_title = str(labels[varied[1]]) if len(varied) > 1 else None
+    figure.legend(title=legend_title, title_fontsize=8, ncols=5, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

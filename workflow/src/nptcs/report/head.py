@@ -2,25 +2,16 @@
 
 from __future__ import annotations
 
-import pandas as pd
-
 from nptcs.report import catalogue
 from nptcs.report.data import Results, factor_labels
 from nptcs.report.figures_impact import ranked
+from nptcs.report.figures_lca import DIFFERENCES, SECTION_NAMES
 from nptcs.report.sheets import Sheets
 from nptcs.report.units import words
-from nptcs.report.view import Block, Listing, Text, joined, sheet_view, table_view, with_error
+from nptcs.report.view import Block, Fact, Facts, Listing, Text, joined, sheet_view, with_error
 
 WARNING = "warning: "
 """How a check of a material card begins that a reader of any result must see."""
-
-GLANCE = catalogue.Entry(
-    "at_a_glance",
-    "At a glance",
-    "the tables named in the last column",
-    "report",
-    "a selection, nothing is computed here",
-)
 
 
 def head_blocks(results: Results, sheets: Sheets) -> tuple[Block, ...]:
@@ -31,7 +22,7 @@ def head_blocks(results: Results, sheets: Sheets) -> tuple[Block, ...]:
         blocks.append(sheet_view(sheets[catalogue.PROBLEMS.sheet]))
     if remarks := _remarks(results):
         blocks.append(Listing("Worth knowing", remarks, "warn"))
-    blocks.append(table_view(glance_table(results), GLANCE))
+    blocks.append(Facts("At a glance", glance(results)))
     return tuple(blocks)
 
 
@@ -60,13 +51,12 @@ def _remarks(results: Results) -> tuple[str, ...]:
     return tuple(remarks)
 
 
-def glance_table(results: Results) -> pd.DataFrame:
+def glance(results: Results) -> tuple[Fact, ...]:
     """Select the numbers that most readers look for first."""
-    rows = [*_materials(results), *_surfaces(results), *_rankings(results)]
-    return pd.DataFrame(rows, columns=["what", "result", "found_in"])
+    return (*_materials(results), *_surfaces(results), *_rankings(results), *_lca(results))
 
 
-def _materials(results: Results) -> list[tuple[str, str, str]]:
+def _materials(results: Results) -> list[Fact]:
     rows = []
     for card in results.cards:
         constants = []
@@ -76,7 +66,7 @@ def _materials(results: Results) -> list[tuple[str, str, str]]:
                 constants.append(f"{words(name.removesuffix('_mpa'))} = {text}")
         badge = " (SYNTHETIC data)" if card.synthetic else ""
         rows.append(
-            (
+            Fact(
                 f"Measured constants of {card.name}{badge}, ± standard error",
                 "; ".join(constants),
                 "material_card.json",
@@ -85,10 +75,11 @@ def _materials(results: Results) -> list[tuple[str, str, str]]:
     return rows
 
 
-def _surfaces(results: Results) -> list[tuple[str, str, str]]:
+def _surfaces(results: Results) -> list[Fact]:
     return [
-        (
-            f"Response surface of {row.study}, solver {row.solver}",
+        Fact(
+            f"Response surface of {row.study}, solver {row.solver}"
+            + _badge(results, [str(row.study)], str(row.solver)),
             f"R² = {row.r_squared:.5f}, leave-one-out R² = {row.leave_one_out_r_squared:.5f}, "
             f"largest residual {row.largest_residual:.3g} N/mm, {row.points} cases",
             "surface_quality.csv",
@@ -97,7 +88,7 @@ def _surfaces(results: Results) -> list[tuple[str, str, str]]:
     ]
 
 
-def _rankings(results: Results) -> list[tuple[str, str, str]]:
+def _rankings(results: Results) -> list[Fact]:
     rule = results.config.sensitivity.rules[0]
     labels = {
         (study.name, name): label.label
@@ -108,6 +99,36 @@ def _rankings(results: Results) -> list[tuple[str, str, str]]:
     for solver, table in results.impact.groupby("solver", sort=True):
         order = [f"{labels[key]} ({key[0]})" for key in ranked(table, rule)]
         rows.append(
-            (f"Ranking by impact, solver {solver}, {words(rule)}", " > ".join(order), "impact.csv")
+            Fact(
+                f"Ranking by impact, solver {solver}, {words(rule)}"
+                + _badge(results, sorted(set(table["study"])), str(solver)),
+                " > ".join(order),
+                "impact.csv",
+            )
         )
     return rows
+
+
+def _lca(results: Results) -> list[Fact]:
+    """Give the smallest and the largest difference from table 11, section by section."""
+    facts = []
+    for section, table in results.lca_validation.groupby("section", sort=False):
+        spans = [
+            f"{label} {table[column].min():+.2f} … {table[column].max():+.2f} %"
+            for column, label in DIFFERENCES.items()
+        ]
+        facts.append(
+            Fact(
+                f"LCA, {SECTION_NAMES[str(section)]}, difference from the printed table 11",
+                "; ".join(spans),
+                "lca_validation.csv",
+            )
+        )
+    return facts
+
+
+def _badge(results: Results, studies: list[str], solver: str) -> str:
+    """Say so where a row rests on synthetic specimens."""
+    config = results.config
+    synthetic = any(results.study_is_synthetic(config.study(name), solver) for name in studies)
+    return " (SYNTHETIC data)" if synthetic else ""

@@ -11,6 +11,7 @@ from nptcs.report.data import Results
 from nptcs.report.figures_lca import (
     DIFFERENCES,
     differences,
+    fem_differences,
     load_displacement,
     ring_shape,
     stiffness_bars,
@@ -39,11 +40,15 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
             "values exist at table 11's load only.",
             (_stiffness_plot(results), *_load_plots(results)),
         ),
+        Plots(
+            "Difference of the stiffness from the FE values of table 7, on the same scale.",
+            tuple(_fem_plots(results)),
+        ),
         sheet_view(sheets[catalogue.LCA_VALIDATION.sheet]),
         sheet_view(sheets[catalogue.LCA_AGAINST_FEM.sheet]),
         Plots(
-            "Deformed middle line of the shear band by region (figure 14 of the paper), sandwich "
-            "section. Displacements are to scale; the rim is drawn for orientation.",
+            "Deformed middle line of the shear band by region (figure 14 of the paper). "
+            "Displacements are to scale; the rim is drawn for orientation.",
             tuple(_shape_plots(results)),
         ),
     ]
@@ -56,6 +61,15 @@ def _difference_plots(results: Results) -> list[Plot]:
     limit = math.ceil(largest + 0.5)
     return [
         plot(differences(rows, limit), f"Differences from table 11 in percent, section {section}")
+        for section, rows in table.groupby("section", sort=False)
+    ]
+
+
+def _fem_plots(results: Results) -> list[Plot]:
+    table = results.lca_against_fem
+    limit = math.ceil(float(table["fem_difference_percent"].abs().max()) + 0.5)
+    return [
+        plot(fem_differences(rows, limit), f"Differences from table 7, section {section}")
         for section, rows in table.groupby("section", sort=False)
     ]
 
@@ -74,8 +88,10 @@ def _load_plots(results: Results) -> list[Plot]:
 def _shape_plots(results: Results) -> list[Plot]:
     rim = results.config.tyre.rim_diameter_mm
     return [
-        plot(ring_shape(rows, rim), f"Deformed ring for spoke C10 of {c10:g} MPa")
-        for c10, rows in results.lca_shape.groupby("spoke_c10_mpa")
+        plot(ring_shape(rows, rim), f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa")
+        for (_, load, c10), rows in results.lca_shape.groupby(
+            ["section", "load_n", "spoke_c10_mpa"], sort=False
+        )
     ]
 
 

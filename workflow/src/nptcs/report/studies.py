@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
@@ -158,14 +158,17 @@ def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
         (cases["study"] == study.name) & (cases["solver"] == solver) & (cases["status"] == "ok")
     ]
     synthetic = results.study_is_synthetic(study, solver)
+    about = f"study {study.name}, solver {solver}"
     maps, lines = [], []
     for pair in pairs(surface):
-        names = joined(labels[name].label for name in pair)
-        alt = f"Vertical stiffness over {names}, study {study.name}, solver {solver}"
+        alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
         maps.append(plot(contours(surface, solved, pair, labels, synthetic), alt, synthetic))
-        by_levels = tuple(sorted(pair, key=lambda name: -solved[name].nunique()))
-        figure = slices(surface, solved, (by_levels[0], by_levels[1]), labels, synthetic)
-        lines.append(plot(figure, f"{alt}, as lines", synthetic))
+    drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
+    for varied in drawn:
+        # the factor with more levels is drawn along the axis
+        by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
+        alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
+        lines.append(plot(slices(surface, solved, by_levels, labels, synthetic), alt, synthetic))
     return maps + lines
 
 

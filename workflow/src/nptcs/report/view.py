@@ -18,7 +18,7 @@ from nptcs.report.sheets import Sheet
 from nptcs.report.style import to_svg
 from nptcs.report.units import Heading, heading
 
-DIGITS = 6
+DIGITS = 5
 """Significant digits of numbers in the report; the CSV files and the workbook have all."""
 
 LONG = 60
@@ -93,6 +93,11 @@ class Plots:
         """True if any of them shows synthetic data."""
         return any(plot.synthetic for plot in self.plots)
 
+    @property
+    def css(self) -> str:
+        """Two panels a row where three would leave one alone."""
+        return "panels two" if len(self.plots) in (2, 4) else "panels"
+
 
 @dataclass(frozen=True)
 class Text:
@@ -112,6 +117,23 @@ class Listing:
 
 
 @dataclass(frozen=True)
+class Fact:
+    """One result in words: what, the result, the table that holds it."""
+
+    what: str
+    result: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Results in words, set so that a phone shows them whole."""
+
+    title: str
+    facts: tuple[Fact, ...]
+
+
+@dataclass(frozen=True)
 class Folded:
     """Long text that opens on demand, such as the configuration."""
 
@@ -119,7 +141,7 @@ class Folded:
     text: str
 
 
-Block = TableView | Plots | Text | Listing | Folded
+Block = TableView | Plots | Text | Listing | Facts | Folded
 
 
 @dataclass(frozen=True)
@@ -133,12 +155,13 @@ class Section:
 
 
 def number_text(value: float, digits: int = DIGITS) -> str:
-    """Write a number to some significant digits; whole numbers in full, no value as a dash."""
+    """Write a number to some significant digits; digits before the point are never dropped."""
     if not math.isfinite(value):
         return "–" if math.isnan(value) else str(value)
     if float(value).is_integer() and abs(value) < 1e15:
         return str(int(value))
-    return f"{value:.{digits}g}"
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < 1e9 else text
 
 
 def table_view(

@@ -7,6 +7,7 @@ import math
 import re
 import zipfile
 from collections.abc import Sequence
+from textwrap import wrap
 from typing import Any
 
 import numpy as np
@@ -30,7 +31,9 @@ FILLS = {
     "warn": PatternFill("solid", start_color="FFF2C4"),
     "out": PatternFill("solid", start_color="E7E7E7"),
 }
+FONT = "Calibri"
 WIDEST = 60
+LINE_HEIGHT = 15.0
 LONGEST_TEXT = 32767
 """Characters that a cell can hold."""
 SCIENTIFIC = "0.0000000000E+00"
@@ -42,8 +45,8 @@ FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 def build_workbook(results: Results) -> bytes:
     """Lay all results out as one XLSX file.
 
-    Numbers are stored as they were computed and shown in the general format, coefficients in
-    scientific notation. The same results give the same bytes.
+    Numbers are stored to 16 significant digits and shown in the general format, coefficients
+    in scientific notation. The same results give the same bytes.
 
     Parameters
     ----------
@@ -92,7 +95,7 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
     lines.append("Rows: red failed, yellow flagged, grey left out or assumed. Units: in brackets.")
     for row, text in enumerate(filter(None, lines), start=1):
         _write(about.cell(row, 1), text)
-        about.cell(row, 1).font = Font(bold=row <= 3, size=14 if row == 1 else 11)
+        about.cell(row, 1).font = Font(name=FONT, bold=row <= 3, size=14 if row == 1 else 11)
         if text == line and not sound:
             about.cell(row, 1).fill = FILLS["bad"]
     top = about.max_row + 2
@@ -113,20 +116,21 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
             ],
         )
         about.cell(row, 1).hyperlink = f"#'{entry.sheet[:31]}'!A1"
-        about.cell(row, 1).font = Font(color="0B4F7A", underline="single")
+        about.cell(row, 1).font = Font(name=FONT, color="0B4F7A", underline="single")
     _finish(about, top, freeze=False)
 
 
 def _write_table(worksheet: Worksheet, sheet: Sheet) -> None:
     """Write one table: header in the first row, a row a record."""
     names = [str(name) for name in sheet.table.columns]
+    coefficients = "coefficient_natural" in names
     _write_rows(worksheet, 1, [str(heading(name, sheet.entry.headings)) for name in names])
     for row, record in enumerate(sheet.table.to_dict("records"), start=2):
         fill = FILLS.get(sheet.mark({str(key): value for key, value in record.items()}))
         for column, name in enumerate(names, start=1):
             cell = worksheet.cell(row, column)
             _write(cell, record[name])
-            if name.startswith(("coefficient_", "standard_error")) and cell.data_type == "n":
+            if coefficients and cell.data_type == "n":
                 cell.number_format = SCIENTIFIC
             if fill:
                 cell.fill = fill
@@ -159,15 +163,19 @@ def _finish(
     """Style the header, freeze it, set filter and column widths, and page for print."""
     for cell in worksheet[header]:
         cell.fill = fill
-        cell.font = Font(bold=True)
+        cell.font = Font(name=FONT, bold=True)
         cell.alignment = Alignment(wrap_text=True, vertical="top")
     if freeze:
         worksheet.freeze_panes = worksheet.cell(header + 1, 2)
         worksheet.auto_filter.ref = worksheet.dimensions
+    lines = 1
     for column in range(1, worksheet.max_column + 1):
         cells = [worksheet.cell(row, column) for row in range(header, worksheet.max_row + 1)]
         width = max(_width(cell) for cell in cells)
-        worksheet.column_dimensions[get_column_letter(column)].width = min(WIDEST, width + 2)
+        width = min(WIDEST, width + 2)
+        worksheet.column_dimensions[get_column_letter(column)].width = width
+        lines = max(lines, len(wrap(str(cells[0].value or ""), width - 1)))
+    worksheet.row_dimensions[header].height = LINE_HEIGHT * lines
     if fill is SYNTHETIC:
         worksheet.sheet_properties.tabColor = "FFD699"
         worksheet.oddHeader.center.text = "SYNTHETIC DATA"

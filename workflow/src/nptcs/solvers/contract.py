@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, ClassVar
 
 from pydantic import BaseModel, ConfigDict, Field
 
@@ -29,6 +29,9 @@ class Status(StrEnum):
 
 class SolverOptions(Strict):
     """Base of a solver's own section ``solvers: NAME:`` in the configuration."""
+
+    without_effect: ClassVar[frozenset[str]] = frozenset({"timeout_s"})
+    """Options that cannot change a result; they are no part of the key of a solved case."""
 
     timeout_s: float = Field(
         600.0, gt=0, description="Wall time after which a case is stopped and recorded as timeout"

@@ -17,6 +17,8 @@ from nptcs.errors import InputError
 from nptcs.solvers.contract import Solver, SolverOptions
 
 MODULES = {
+    "fe_spoke": "nptcs.solvers.fe_spoke",
+    "fe_tyre": "nptcs.solvers.fe_tyre",
     "lca": "nptcs.solvers.lca",
     "published": "nptcs.solvers.published",
 }

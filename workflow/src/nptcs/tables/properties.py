@@ -2,9 +2,6 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
-import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
@@ -43,25 +40,3 @@ class PropertiesTable(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
-
-
-NUMBERS = (
-    "value",
-    "points",
-    "orientation_deg",
-    "r_squared",
-    "standard_error",
-    "range_low",
-    "range_high",
-)
-
-
-def read_properties(path: str | Path) -> pd.DataFrame:
-    """Read and check a property table written as CSV (ids such as ``001`` stay text)."""
-    table = pd.read_csv(
-        path,
-        dtype={name: str for name in PropertiesTable.to_schema().columns if name not in NUMBERS},
-        keep_default_na=False,
-        na_values={name: [""] for name in NUMBERS},
-    )
-    return PropertiesTable.validate(table)

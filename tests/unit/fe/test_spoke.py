@@ -1,0 +1,141 @@
+import numpy as np
+import pytest
+
+from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.fe.matrices import BandedPattern
+from nptcs.fe.spoke import SpokeDesign, SpokeError, SpokeModel
+from nptcs.fe.spoke_mesh import build_period
+from nptcs.fe.spoke_pull import fit_through_origin, pull
+
+COARSE = SpokeMesh(rows=(1, 1, 2, 1, 1, 1))
+
+
+def design(ply, **change):
+    values = {
+        "geometry": SpokeGeometry(),
+        "mesh": COARSE,
+        "spacing_mm": 15.0,
+        "plate_width_mm": 5.0,
+        "thickness_mm": 1.8,
+        "angle_deg": 45.0,
+        "c10_mpa": 1.0,
+        "ply": ply,
+        "width_mm": 215.0,
+    }
+    return SpokeDesign(**{**values, **change})
+
+
+@pytest.fixture(scope="module")
+def model():
+    from conftest import PLY
+
+    return SpokeModel(design(dict(PLY)))
+
+
+def test_the_mesh_fills_the_section(ply):
+    geometry = SpokeGeometry()
+    mesh = build_period(geometry, COARSE, 15.0, 5.0)
+    model = SpokeModel(design(ply))
+    volume = sum(block.weight.sum() for block in model.rubbers)
+    heights, thickness = geometry.section()
+    area = 2.0 * np.trapezoid(thickness, heights) / np.cos(np.radians(geometry.leg_angle_deg))
+    plates = heights[5] - heights[1]
+    plate = 2.0 * plates * geometry.plate_layer_mm / np.cos(np.radians(geometry.leg_angle_deg))
+    assert volume == pytest.approx(15.0 * area - 5.0 * plate)
+    assert mesh.positions[mesh.top, 2] == pytest.approx(geometry.height_mm)
+
+
+def test_plates_that_touch_are_refused():
+    with pytest.raises(ValueError, match="leaves no rubber"):
+        build_period(SpokeGeometry(), COARSE, 5.0, 5.0)
+
+
+def test_a_section_out_of_order_is_refused():
+    with pytest.raises(ValueError, match="must grow in this order"):
+        SpokeGeometry(plate_foot_gap_mm=9.0, foot_taper_mm=7.0)
+
+
+def test_forces_and_condensed_tangents_are_derivatives_of_the_energy(model):
+    state = model.move(model.rest(), np.array([-6.0, 2.0, 0.05]))
+    for axis, step in enumerate((2e-3, 2e-3, 2e-5)):
+        shift = step * np.eye(3)[axis]
+        ahead = model.move(state, state.motion + shift)
+        behind = model.move(state, state.motion - shift)
+        slope = (ahead.energy - behind.energy) / (2.0 * step)
+        assert slope == pytest.approx(state.force[axis], rel=1e-4)
+        curve = (ahead.force - behind.force) / (2.0 * step)
+        scale = np.sqrt(np.abs(np.diag(state.tangent)) * abs(state.tangent[axis, axis]))
+        assert np.abs(curve - state.tangent[axis]).max() < 1e-3 * scale.max()
+
+
+def test_the_way_to_a_state_does_not_matter(model):
+    target = np.array([-5.0, 1.0, -0.03])
+    straight = model.move(model.rest(), target)
+    around = model.move(model.move(model.rest(), np.array([2.0, -1.0, 0.0])), target)
+    assert around.energy == pytest.approx(straight.energy, rel=1e-6)
+    assert around.force == pytest.approx(straight.force, rel=1e-4, abs=1e-3)
+
+
+def test_stiffness_scales_with_all_moduli(ply, model):
+    harder = {name: v * (3.0 if name.endswith("mpa") else 1.0) for name, v in ply.items()}
+    triple = SpokeModel(design(harder, c10_mpa=3.0)).rest().tangent
+    assert triple == pytest.approx(3.0 * model.rest().tangent, rel=1e-6, abs=1e-6)
+
+
+def test_more_and_thicker_plates_along_the_leg_stiffen(ply, model):
+    base = model.rest().tangent[0, 0]
+    assert SpokeModel(design(ply, spacing_mm=10.0)).rest().tangent[0, 0] > 1.02 * base
+    assert SpokeModel(design(ply, angle_deg=0.0)).rest().tangent[0, 0] > 1.01 * base
+    assert SpokeModel(design(ply, thickness_mm=2.4)).rest().tangent[0, 0] > 1.005 * base
+    assert SpokeModel(design(ply, angle_deg=90.0)).rest().tangent[0, 0] < 0.995 * base
+
+
+def test_pulling_follows_the_tangent_and_energy_balances(model):
+    displacement, force = pull(model, 1.0, 8)
+    assert force[1] / displacement[1] == pytest.approx(model.rest().tangent[0, 0], rel=0.02)
+    work = float(np.trapezoid(force, displacement))
+    assert model.move(model.rest(), np.array([1.0, 0.0, 0.0])).energy == pytest.approx(
+        work, rel=5e-3
+    )
+
+
+def test_mesh_converges(ply):
+    """Three meshes: the error falls, and the campaign's mesh is within 2 % of the finest."""
+    stiffness = []
+    for mesh in (
+        COARSE,
+        SpokeMesh(rows=(2, 2, 4, 2, 2, 2)),
+        SpokeMesh(rows=(3, 3, 6, 3, 3, 3), columns=2),
+    ):
+        model = SpokeModel(design(ply, mesh=mesh))
+        stiffness.append(model.rest().tangent[0, 0])
+    assert abs(stiffness[1] / stiffness[2] - 1.0) < abs(stiffness[0] / stiffness[2] - 1.0)
+    assert stiffness[0] == pytest.approx(stiffness[2], rel=0.02)
+
+
+def test_an_impossible_motion_is_reported_with_the_last_state(model):
+    with pytest.raises(SpokeError, match="no equilibrium beyond"):
+        model.move(model.rest(), np.array([-120.0, 0.0, 0.0]))
+
+
+def test_regression_through_the_origin_and_both_r_squares():
+    displacement = np.array([0.0, 1.0, 2.0, 3.0])
+    fit = fit_through_origin(displacement, 4.0 * displacement)
+    assert (fit.slope, fit.r2_uncentred, fit.r2_centred) == pytest.approx((4.0, 1.0, 1.0))
+    bent = fit_through_origin(displacement, np.array([0.0, 4.0, 7.0, 9.0]))
+    assert bent.slope == pytest.approx((4.0 + 14.0 + 27.0) / 14.0)
+    assert bent.r2_centred < bent.r2_uncentred < 1.0
+
+
+def test_banded_assembly_equals_the_dense_one():
+    rng = np.random.default_rng(0)
+    dofs = np.array([[0, 1, 2], [2, 3, -1]])
+    blocks = rng.normal(size=(2, 3, 3))
+    dense = np.zeros((4, 4))
+    dense[:3, :3] += blocks[0]
+    dense[np.ix_([2, 3], [2, 3])] += blocks[1][:2, :2]
+    dense += 5.0 * np.eye(4)
+    pattern = BandedPattern([dofs, np.arange(4)[:, None]], 4, symmetric=False)
+    band = pattern.assemble([blocks, 5.0 * np.ones((4, 1, 1))])
+    rhs = rng.normal(size=4)
+    assert pattern.solve(band, rhs) == pytest.approx(np.linalg.solve(dense, rhs))

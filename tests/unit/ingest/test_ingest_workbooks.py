@@ -1,0 +1,88 @@
+"""Workbooks: native numbers, several sheets, texts for numbers, damage."""
+
+from __future__ import annotations
+
+from datetime import datetime
+from pathlib import Path
+
+import openpyxl
+import pytest
+
+from nptcs.errors import InputError
+
+HERE = Path(__file__).parent
+ROWS = [(0.1 * n, 1.5 * n, 0.0125 * n) for n in range(1, 9)]
+NAMES = ["Time", "Standard force", "Strain"]
+UNITS = ["s", "kN", "%"]
+
+
+def workbook(tmp_path, sheets):
+    book = openpyxl.Workbook()
+    book.remove(book.active)
+    for title, rows in sheets.items():
+        sheet = book.create_sheet(title)
+        for row in rows:
+            sheet.append(row)
+    path = tmp_path / "made.xlsx"
+    book.save(path)
+    return path.read_bytes()
+
+
+def test_sheet_of_values_is_found_among_parameters_and_results(read, tmp_path):
+    content = workbook(
+        tmp_path,
+        {
+            "Paramètres": [["Épaisseur", 1.5, "mm"]],
+            "Résultats": [[None, "Fmax"], [None, "N"], ["A-1", 9645.8]],
+            "Valeurs A-1": [["A-1"] * 3, NAMES, UNITS, *ROWS],
+        },
+    )
+    table = read(content, name="test.xlsx")
+    assert table.profile.name == "testxpert-workbook"
+    assert table.values["force"] == pytest.approx([1000 * row[1] for row in ROWS])
+    assert table.values["strain"] == pytest.approx([row[2] / 100 for row in ROWS])
+
+
+def test_two_sheets_of_values_need_a_part_or_the_specimens_name(read, tmp_path):
+    double = [(row[0], 2 * row[1], row[2]) for row in ROWS]
+    content = workbook(tmp_path, {"A-1": [NAMES, UNITS, *ROWS], "A-2": [NAMES, UNITS, *double]})
+    with pytest.raises(InputError, match="'A-1', 'A-2'"):
+        read(content, name="test.xlsx")
+    for options in ({"part": "A-2"}, {"specimen": "A-2"}):
+        assert read(content, name="test.xlsx", **options).values["force"][0] == pytest.approx(3000)
+
+
+@pytest.mark.parametrize("cell", ["1,5", "n. b.", datetime(2024, 5, 29)])  # noqa: DTZ001
+def test_a_cell_that_is_no_number_is_named(read, tmp_path, cell):
+    rows = [list(row) for row in ROWS]
+    rows[4][1] = cell
+    with pytest.raises(InputError, match="not a number") as caught:
+        read(workbook(tmp_path, {"A": [NAMES, UNITS, *rows]}), name="test.xlsx")
+    assert (caught.value.line, caught.value.column) == (7, "Standard force")
+
+
+def test_the_content_counts_not_the_suffix(read, tmp_path):
+    content = workbook(tmp_path, {"A": [NAMES, UNITS, *ROWS]})
+    assert read(content, name="test.csv").values["force"][0] == pytest.approx(1500)
+    text = "\n".join(["time_s\tforce_kN\tstrain_%", *("\t".join(map(str, row)) for row in ROWS)])
+    assert read(text, name="test.xls").values["force"][0] == pytest.approx(1500)
+
+
+def test_old_workbook(read):
+    table = read((HERE / "data" / "zwick.xls").read_bytes(), name="test.xls")
+    assert table.profile.name == "testxpert-workbook"
+    assert table.values["force"] == pytest.approx([1000 * row[1] for row in ROWS])
+
+
+@pytest.mark.parametrize("keep", [60, 0.5, 0.9])
+def test_damaged_workbook_is_refused(read, tmp_path, keep):
+    content = workbook(tmp_path, {"A": [NAMES, UNITS, *ROWS]})
+    cut = content[: keep if isinstance(keep, int) else int(keep * len(content))]
+    with pytest.raises(InputError, match="workbook cannot be read"):
+        read(cut, name="test.xlsx")
+
+
+def test_damaged_old_workbook_is_refused(read):
+    content = (HERE / "data" / "zwick.xls").read_bytes()
+    with pytest.raises(InputError, match="workbook cannot be read"):
+        read(content[:1500], name="test.xls")

@@ -1,0 +1,124 @@
+"""What the figures show, read from their axes."""
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from nptcs.report.data import factor_labels
+from nptcs.report.figures_impact import impact_bars, ranked
+from nptcs.report.figures_lca import ring_shape
+from nptcs.report.figures_materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
+from nptcs.report.figures_surface import STIFFNESS, contours, middle_level, slices
+from nptcs.report.style import to_svg
+
+
+@pytest.fixture
+def plate(results, config):
+    study = config.study("plate")
+    cases = results.cases[results.cases["study"] == "plate"]
+    return results.surfaces["plate"]["published"], cases, factor_labels(study)
+
+
+def lines(figure):
+    return {line.get_label(): line for line in figure.axes[0].get_lines()}
+
+
+def test_an_svg_has_no_date_and_is_the_same_in_each_run(results):
+    figures = [stress_strain("cfrp", results.curves, ["T0-2"], True) for _ in range(2)]
+    first, second = (to_svg(figure) for figure in figures)
+    assert first == second
+    assert "<dc:date>" not in first
+
+
+def test_specimens_left_out_are_dashed_and_say_so(results):
+    figure = stress_strain("cfrp", results.curves, ["T0-2"])
+    drawn = lines(figure)
+    assert drawn["T0-2 (left out)"].get_linestyle() == "--"
+    assert drawn["T0-1"].get_linestyle() == "-"
+    assert figure.axes[0].get_ylabel() == "nominal stress [MPa]"
+    np.testing.assert_allclose(drawn["T0-1"].get_xdata().max(), 1.0)  # percent
+
+
+def test_only_synthetic_curves_are_marked(results):
+    marked, plain = (stress_strain("cfrp", results.curves, [], flag) for flag in (True, False))
+    assert [text.get_text() for text in marked.axes[0].texts] == ["SYNTHETIC DATA"]
+    assert not plain.axes[0].texts
+
+
+def test_thinning_keeps_the_ends_and_the_peak():
+    strain = np.linspace(0, 1, 5001)
+    stress = np.where(np.arange(5001) == 3333, 9.0, strain)
+    curve = thinned(pd.DataFrame({"strain_axial": strain, "stress_mpa": stress}))
+    assert len(curve) <= DRAWN_POINTS + 1
+    assert curve["stress_mpa"].max() == 9.0
+    assert (curve["strain_axial"].iloc[0], curve["strain_axial"].iloc[-1]) == (0, 1)
+
+
+def test_a_curve_without_strain_is_no_line():
+    nothing = pd.DataFrame({"strain_axial": [np.nan], "stress_mpa": [5.0]})
+    assert not stress_strain("cfrp", {"T0-1": nothing}, []).axes[0].get_lines()
+
+
+def test_the_model_is_full_in_its_range_and_dotted_beyond(results):
+    figure = hyperelastic_fit(
+        "rubber",
+        {"R75-1": results.curves["R75-1"]},
+        lambda stretch: stretch - 1,
+        "model",
+        (0, 0.15),
+    )
+    _, inside, beyond = figure.axes[0].get_lines()
+    assert (inside.get_linestyle(), beyond.get_linestyle()) == ("-", ":")
+    np.testing.assert_allclose([inside.get_xdata()[-1], beyond.get_xdata()[-1]], [15, 30])
+
+
+def test_contours_show_the_cases_at_the_middle_level(plate):
+    surface, cases, labels = plate
+    figure = contours(surface, cases, ("spacing_mm", "thickness_mm"), labels)
+    points = figure.axes[0].collections[-1].get_offsets()
+    assert len(points) == 9
+    assert figure.axes[0].get_title(loc="left") == "published, at fibre angle A 45 deg"
+    assert figure.axes[0].get_xlabel() == "plate spacing S [mm]"
+    shown = figure.axes[0].collections[-1].get_array()
+    expected = cases[cases["angle_deg"] == 45][STIFFNESS]
+    np.testing.assert_allclose(np.sort(shown), np.sort(expected))
+
+
+def test_slices_are_the_surface(plate):
+    surface, cases, labels = plate
+    figure = slices(surface, cases, ("angle_deg", "spacing_mm"), labels)
+    curve, marks = figure.axes[0].get_lines()[:2]
+    x = curve.get_xdata()
+    points = np.column_stack([np.full_like(x, 10), np.full_like(x, 1.8), x])
+    np.testing.assert_allclose(curve.get_ydata(), surface.predict(points))
+    at_level = cases[(cases["spacing_mm"] == 10) & (cases["thickness_mm"] == 1.8)]
+    np.testing.assert_array_equal(marks.get_ydata(), at_level[STIFFNESS])
+
+
+@pytest.mark.parametrize(("levels", "middle"), [([1, 3, 2], 2), ([4, 1], 1), ([5, 5, 5], 5)])
+def test_middle_level(levels, middle):
+    assert middle_level(levels) == middle
+
+
+def test_impact_bars_are_the_table(results, config):
+    rules = config.sensitivity.rules
+    keys = ranked(results.impact, rules[0])
+    figure = impact_bars(results.impact, dict(zip(keys, "abcde", strict=True)), rules)
+    axes = figure.axes[0]
+    assert [label.get_text() for label in axes.get_yticklabels()] == list("abcde")
+    table = results.impact.set_index(["rule", "study", "factor"])["impact"]
+    for rule, bars in zip(rules, axes.containers, strict=True):
+        widths = [bar.get_width() for bar in bars]
+        np.testing.assert_allclose(widths, [table[(rule, *key)] for key in keys])
+    printed = axes.get_lines()[0].get_xdata()
+    np.testing.assert_allclose(printed, [319.83, 54.93, 38.60, 21.91, 15.97])
+
+
+def test_the_ring_stands_on_the_ground(results):
+    shape = results.lca_shape
+    figure = ring_shape(shape, 431.8)
+    drawn = lines(figure)
+    lowest = np.nanmin(drawn["contact"].get_ydata())
+    assert lowest == pytest.approx(shape["y_mm"].min())
+    assert np.nanmin(drawn["tension"].get_ydata()) > lowest
+    assert figure.axes[0].get_aspect() == 1

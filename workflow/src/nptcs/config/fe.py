@@ -1,0 +1,174 @@
+"""Options of the finite element route: spoke geometry, meshes, table and contact."""
+
+from __future__ import annotations
+
+from math import cos, radians, tan
+from typing import Self
+
+from pydantic import Field, model_validator
+
+from nptcs.config.base import Strict
+
+
+class SpokeGeometry(Strict):
+    """The '<' spoke's section, symmetric about its mid-height; lengths along the radius.
+
+    The paper only draws it (figure 6e): the defaults are calibrated by ``nptcs fe-calibrate`` on
+    table 10 and five cases of table 5.
+    """
+
+    leg_angle_deg: float = Field(28.06, gt=0, lt=60, description="Leg's angle from the radius")
+    height_mm: float = Field(84.1, gt=0, description="From the rim to the band")
+    leg_thickness_mm: float = Field(4.35, gt=0, description="Normal to the leg")
+    block_thickness_mm: float = Field(
+        11.98, gt=0, description="Rubber block at mid-height, normal to the leg"
+    )
+    block_half_length_mm: float = Field(8.79, gt=0, description="Half the block's height")
+    block_ramp_mm: float = Field(5.27, gt=0, description="Height of the ramp from leg to block")
+    foot_thickness_mm: float = Field(
+        7.66, gt=0, description="At the rim and the band, normal to the leg"
+    )
+    foot_taper_mm: float = Field(7.0, gt=0, description="Height of the taper from foot to leg")
+    plate_foot_gap_mm: float = Field(3.49, gt=0, description="Plate's end above the rim")
+    plate_mid_gap_mm: float = Field(4.14, gt=0, description="Plate's end short of mid-height")
+    plate_layer_mm: float = Field(
+        1.0,
+        gt=0,
+        description="Thickness of the mesh layer that carries the plate; its stiffness is that of "
+        "the true plies, as with a shell embedded in the rubber",
+    )
+
+    @model_validator(mode="after")
+    def _breaks_in_order(self) -> Self:
+        half = self.height_mm / 2.0
+        breaks = {
+            "plate_foot_gap_mm": self.plate_foot_gap_mm,
+            "foot_taper_mm": self.foot_taper_mm,
+            "start of the block's ramp": half - self.block_half_length_mm - self.block_ramp_mm,
+            "start of the block": half - self.block_half_length_mm,
+            "plate's upper end": half - self.plate_mid_gap_mm,
+            "mid-height": half,
+        }
+        heights = list(breaks.values())
+        if any(b - a < 1e-3 for a, b in zip(heights[:-1], heights[1:], strict=True)):
+            raise ValueError(f"heights along a leg must grow in this order, got {breaks}")
+        thinnest = min(self.leg_thickness_mm, self.block_thickness_mm, self.foot_thickness_mm)
+        if self.plate_layer_mm >= thinnest:
+            raise ValueError("plate_layer_mm must be thinner than leg, block and foot")
+        return self
+
+    def section(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """Return the heights of the lower leg's breaks and its thickness there, mm."""
+        half = self.height_mm / 2.0
+        gap, taper = self.plate_foot_gap_mm, self.foot_taper_mm
+        shrink = (self.foot_thickness_mm - self.leg_thickness_mm) * gap / taper
+        at_gap = self.foot_thickness_mm - shrink
+        heights = (
+            0.0,
+            gap,
+            taper,
+            half - self.block_half_length_mm - self.block_ramp_mm,
+            half - self.block_half_length_mm,
+            half - self.plate_mid_gap_mm,
+            half,
+        )
+        leg, block = self.leg_thickness_mm, self.block_thickness_mm
+        return heights, (self.foot_thickness_mm, at_gap, leg, leg, block, block, block)
+
+    def foot_width_mm(self) -> float:
+        """Width of the foot along the circumference."""
+        return self.foot_thickness_mm / cos(radians(self.leg_angle_deg))
+
+    def apex_mm(self) -> float:
+        """Circumferential distance of the apex from the feet."""
+        return self.height_mm / 2.0 * tan(radians(self.leg_angle_deg))
+
+
+class SpokeMesh(Strict):
+    """Numbers of quadratic elements of the spoke's mesh."""
+
+    rows: tuple[int, int, int, int, int, int] = Field(
+        (1, 1, 3, 1, 1, 1),
+        description="Along a leg: foot to plate, taper, leg, ramp, block with plate, block",
+    )
+    columns: int = Field(1, ge=1, description="Across the rubber on each side of the plate")
+    plate_columns: int = Field(1, ge=1, description="Across the width of the plate")
+    gap_columns: int = Field(1, ge=1, description="Across the rubber between two plates")
+    bulk_to_shear_ratio: float = Field(
+        2000.0,
+        ge=100,
+        le=1e6,
+        description="κ/2C10 of the rubber; the paper's D1 = 0 is its limit",
+    )
+
+    @model_validator(mode="after")
+    def _positive(self) -> Self:
+        if min(self.rows) < 1:
+            raise ValueError(f"rows must all be 1 or more, got {self.rows}")
+        return self
+
+
+class SpokeTableOptions(Strict):
+    """Range and sampling of the spoke's energy table."""
+
+    u_r_mm: tuple[float, float] = Field(
+        (-40.0, 8.0), description="Radial displacement of the band, outward positive"
+    )
+    u_theta_mm: tuple[float, float] = Field(
+        (-12.0, 12.0), description="Circumferential displacement of the band"
+    )
+    phi_rad: tuple[float, float] = Field((-0.12, 0.12), description="Rotation of the band")
+    samples: tuple[int, int, int] = Field(
+        (9, 3, 3), description="Numbers of states computed along u_r, u_θ and φ"
+    )
+    degrees: tuple[int, int] = Field(
+        (12, 5), description="Polynomial degree in u_r, and total degree in u_θ and φ"
+    )
+
+    @model_validator(mode="after")
+    def _ranges_hold_rest(self) -> Self:
+        for name in ("u_r_mm", "u_theta_mm", "phi_rad"):
+            low, high = getattr(self, name)
+            if not low < 0.0 < high:
+                raise ValueError(f"{name} must run from a negative to a positive number")
+        if min(self.samples) < 3:
+            raise ValueError(f"samples must be 3 or more in each direction, got {self.samples}")
+        return self
+
+
+class TyreMesh(Strict):
+    """Mesh of the band and tread; quadratic quadrilaterals."""
+
+    foot_elements: int = Field(1, ge=1, description="Along the circumference under a spoke's foot")
+    gap_elements: int = Field(3, ge=1, description="Along the circumference between two feet")
+    band_rows: int = Field(1, ge=1, description="Across the shear band")
+    tread_rows: int = Field(1, ge=1, description="Across the tread outside the band")
+    first_spoke_deg: float = Field(
+        0.0, description="Angle of a spoke's feet from the middle of the contact"
+    )
+
+
+class GroundContact(Strict):
+    """Contact of the tread with the rigid plane: a smoothed penalty and Coulomb friction."""
+
+    friction: float = Field(0.3, ge=0, lt=2, description="Coefficient of friction, section 3.2")
+    penalty_mpa_per_mm: float = Field(50.0, gt=0, description="Pressure per mm of penetration")
+    smoothing_mm: float = Field(
+        0.1, gt=0, description="Penetration below which the pressure grows quadratically"
+    )
+    tangential_mpa_per_mm: float = Field(
+        10.0, gt=0, description="Shear traction per mm of elastic slip"
+    )
+
+
+class FeModel(Strict):
+    """Everything of the finite element route that does not vary from case to case."""
+
+    geometry: SpokeGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
+    spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
+    table: SpokeTableOptions = Field(
+        default_factory=SpokeTableOptions, description="Energy table of the spoke"
+    )
+    tyre_mesh: TyreMesh = Field(default_factory=TyreMesh, description="Mesh of band and tread")
+    contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
+    load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")

@@ -1,0 +1,281 @@
+"""Blocks of like elements: energy, forces and tangents of all of them at once.
+
+Total Lagrangian, in terms of the deformation gradient F and the first Piola–Kirchhoff stress P.
+Bodies of two dimensions are in plane strain (F33 = 1). The element tangent is
+
+    K_aibj = Σ_points ∂N_a/∂X_J  A_iJjL  ∂N_b/∂X_L dV,    A = ∂P/∂F,
+
+one product of a constant matrix of gradients with a moduli-weighted one for each element.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+# Voigt order of strains and stresses: 11, 22, 33, 12, 23, 13, with engineering shear strains
+VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
+_I = np.array([0, 1, 2, 0, 1, 0])
+_J = np.array([0, 1, 2, 1, 2, 2])
+
+
+@dataclass
+class Response:
+    """What a block returns for one state: energy (N mm), forces (N) and tangents (N/mm)."""
+
+    energy: float
+    force: Array
+    tangent: Array
+
+
+def deformation_gradient(gradient: Array, displacement: Array, frame: Array | None) -> Array:
+    """F = Q + Σ u_a ⊗ ∂N_a/∂X, array (elements, points, 3, 3).
+
+    Parameters
+    ----------
+    gradient : array (elements, points, nodes, directions)
+    displacement : array (elements, nodes, dim)
+    frame : array (elements, points, 3, 3) or None
+        Q: axes of the local frame in which `gradient` is given, as columns; none for the identity.
+    """
+    elements, points, nodes, directions = gradient.shape
+    dim = displacement.shape[2]
+    flat = gradient.transpose(0, 1, 3, 2).reshape(elements, -1, nodes)
+    part = np.matmul(flat, displacement).reshape(elements, points, directions, dim)
+    if frame is None:
+        whole = np.zeros((elements, points, 3, 3))
+        whole[..., [0, 1, 2], [0, 1, 2]] = 1.0
+    else:
+        whole = frame.copy()
+    whole[..., :dim, :directions] += part.swapaxes(2, 3)
+    return whole
+
+
+def _by_node(gradient: Array) -> Array:
+    """Gradients as (elements, nodes, points × directions): the constant factor of all products."""
+    elements, _, nodes, _ = gradient.shape
+    return np.ascontiguousarray(gradient.transpose(0, 2, 1, 3).reshape(elements, nodes, -1))
+
+
+def _internal_force(left: Array, stress: Array) -> Array:
+    """f_ai = Σ ∂N_a/∂X_J P_iJ: array (elements, nodes × dim); P carries the weights."""
+    right = stress.swapaxes(2, 3).reshape(len(left), left.shape[2], -1)
+    return np.matmul(left, right).reshape(len(left), -1)
+
+
+def _tangent(left: Array, columns: Array, moduli: Array) -> Array:
+    """K_aibj for moduli (elements, points, J, i, j, L) that carry the weights.
+
+    `columns` are the gradients as (elements, points, directions, nodes).
+    """
+    elements, points, directions, nodes = columns.shape
+    dim = moduli.shape[3]
+    spread = np.matmul(moduli.reshape(elements, points, -1, directions), columns)
+    spread = spread.reshape(elements, points * directions, dim * dim * nodes)
+    product = np.matmul(left, spread).reshape(elements, nodes, dim, dim, nodes)
+    return product.swapaxes(3, 4).reshape(elements, nodes * dim, nodes * dim)
+
+
+def green_strain(deformation: Array) -> Array:
+    """Green–Lagrange strain in Voigt order, array (…, 6)."""
+    right = np.matmul(deformation.swapaxes(-1, -2), deformation)
+    strain: Array = 0.5 * right[..., _I, _J]
+    strain[..., :3] -= 0.5
+    strain[..., 3:] *= 2.0
+    return strain
+
+
+@dataclass
+class LinearBlock:
+    """Saint-Venant–Kirchhoff material: S = C E in the local frame of each point.
+
+    Parameters
+    ----------
+    nodes : array (elements, nodes)
+    gradient : array (elements, points, nodes, directions)
+        Derivatives with respect to the local frame's coordinates.
+    weight : array (elements, points)
+        Volume of each point, mm³.
+    stiffness : array (points, 6, 6)
+        MPa, Voigt order; rows of zeros for components that carry nothing.
+    frame : array (elements, points, 3, 3) or None
+        Local axes as columns.
+    """
+
+    nodes: Index
+    gradient: Array
+    weight: Array
+    stiffness: Array
+    frame: Array | None = None
+
+    def __post_init__(self) -> None:
+        self._left = _by_node(self.gradient)
+        self._columns = np.ascontiguousarray(self.gradient.swapaxes(2, 3))
+        directions = self.gradient.shape[3]
+        material = self.stiffness[:, VOIGT[:, :, None, None], VOIGT[None, None]]
+        self._material = material[:, :, :directions, :, :directions]
+
+    def strain(self, displacement: Array) -> Array:
+        """Green–Lagrange strain (elements, points, 6) in the local frame."""
+        return green_strain(
+            deformation_gradient(self.gradient, displacement[self.nodes], self.frame)
+        )
+
+    def respond(self, displacement: Array) -> Response:
+        """Energy, forces and tangents for nodal displacements (nodes, dim)."""
+        dim, directions = displacement.shape[1], self.gradient.shape[3]
+        deformation = deformation_gradient(self.gradient, displacement[self.nodes], self.frame)
+        strain = green_strain(deformation)
+        stress = np.matmul(self.stiffness, strain[..., None])[..., 0] * self.weight[..., None]
+        energy = 0.5 * float(np.sum(stress * strain))
+        full = stress[..., VOIGT]
+        piola = np.matmul(deformation, full)[..., :dim, :directions]
+        # A_iJjL = F_iM C_MJNL F_jN + δ_ij S_JL, kept in the order J, i, j, L
+        rows = deformation[..., :dim, :]
+        half = np.einsum("egiM,gMJNL->egiJNL", rows, self._material)
+        moduli = np.einsum("egiJNL,egjN->egJijL", half, rows, optimize=True)
+        moduli *= self.weight[..., None, None, None, None]
+        for i in range(dim):
+            moduli[:, :, :, i, i, :] += full[..., :directions, :directions]
+        tangent = _tangent(self._left, self._columns, moduli)
+        return Response(energy, _internal_force(self._left, piola), tangent)
+
+
+@dataclass
+class RubberBlock:
+    """Nearly incompressible neo-Hookean rubber, displacement and discontinuous pressure.
+
+    Energy: ∫ C10 (Ī1 - 3) + p (J - 1) - p²/(2κ). The pressure lives in each element and is
+    eliminated there (static condensation), so that only displacements reach the solver. Equation 1
+    of the paper with 2/D1 = κ; its D1 = 0 is approached by a large κ.
+
+    Parameters
+    ----------
+    nodes : array (elements, nodes)
+    gradient : array (elements, points, nodes, directions)
+    weight : array (elements, points)
+        Volume of each point, mm³.
+    pressure_shape : array (points, modes)
+        Pressure basis at the points.
+    c10_mpa : float
+    bulk_mpa : float
+        κ.
+    """
+
+    nodes: Index
+    gradient: Array
+    weight: Array
+    pressure_shape: Array
+    c10_mpa: float
+    bulk_mpa: float
+    pressure: Array = field(init=False)
+
+    def __post_init__(self) -> None:
+        self.pressure = np.zeros((len(self.nodes), self.pressure_shape.shape[1]))
+        shape = self.pressure_shape
+        self._mass = np.einsum("gm,gk,eg->emk", shape, shape, self.weight)
+        self._inverse_mass = self.bulk_mpa * np.linalg.inv(self._mass)
+        self._left = _by_node(self.gradient)
+        self._columns = np.ascontiguousarray(self.gradient.swapaxes(2, 3))
+
+    def respond(self, displacement: Array) -> Response:
+        """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
+        dim, directions = displacement.shape[1], self.gradient.shape[3]
+        elements, points = self.weight.shape
+        deformation = deformation_gradient(self.gradient, displacement[self.nodes], None)
+        volume = np.linalg.det(deformation)
+        if not np.all(volume > 0.0):
+            raise FloatingPointError("an element of rubber has turned inside out")
+        pressure = self.pressure @ self.pressure_shape.T
+        law = neo_hookean(self.c10_mpa, deformation, volume, pressure)
+        piola = (law.stress * self.weight[..., None, None])[..., :dim, :directions]
+        moduli = law.moduli[:, :, :directions, :dim, :dim, :directions]
+        moduli = moduli * self.weight[..., None, None, None, None]
+        tangent = _tangent(self._left, self._columns, moduli)
+        force = _internal_force(self._left, piola)
+        cofactor = (law.cofactor * self.weight[..., None, None])[..., :dim, :directions]
+        spread = self.pressure_shape[:, None, None, :] * cofactor.swapaxes(2, 3)[..., None]
+        coupling = np.matmul(self._left, spread.reshape(elements, points * directions, -1))
+        self._coupling = coupling.reshape(elements, force.shape[1], -1)
+        mismatch = (self.weight * (volume - 1.0)) @ self.pressure_shape
+        own = np.einsum("emk,ek->em", self._mass, self.pressure) / self.bulk_mpa
+        self._mismatch = mismatch - own
+        energy = float(np.sum(self.weight * law.energy))
+        energy += float(np.sum(self.pressure * (mismatch - 0.5 * own)))
+        lift = np.matmul(self._coupling, self._inverse_mass)
+        tangent += np.matmul(lift, self._coupling.swapaxes(1, 2))
+        force += np.einsum("enm,em->en", lift, self._mismatch)
+        return Response(energy, force, tangent)
+
+    def update_pressure(self, step: Array) -> None:
+        """Follow a displacement step (nodes, dim) from the last state: dp = κ M⁻¹ (r_p + Gᵀ du)."""
+        local = step[self.nodes].reshape(len(self.nodes), -1)
+        rhs = self._mismatch + np.einsum("enm,en->em", self._coupling, local)
+        self.pressure = self.pressure + np.einsum("emk,ek->em", self._inverse_mass, rhs)
+
+
+@dataclass(frozen=True)
+class NeoHooke:
+    """The neo-Hookean law at a set of points.
+
+    Parameters
+    ----------
+    stress : array (…, 3, 3)
+        First Piola–Kirchhoff stress P_iJ, MPa.
+    moduli : array (…, J, i, j, L)
+        ∂P_iJ/∂F_jL, MPa.
+    cofactor : array (…, 3, 3)
+        J F⁻ᵀ.
+    energy : array (…)
+        C10 (Ī1 - 3), N mm per mm³.
+    """
+
+    stress: Array
+    moduli: Array
+    cofactor: Array
+    energy: Array
+
+
+def neo_hookean(c10_mpa: float, deformation: Array, volume: Array, pressure: Array) -> NeoHooke:
+    """Stress and moduli of C10 (Ī1 - 3) + p (J - 1).
+
+    With G = F⁻ᵀ and a = 2 C10 J^(-2/3):
+
+        P = a (F - I1/3 G) + p J G
+        ∂P_iJ/∂F_jL = a [δ_ij δ_JL - 2/3 (F_iJ G_jL + G_iJ F_jL) + 2/9 I1 G_iJ G_jL]
+                      + p J G_iJ G_jL + (a I1/3 - p J) G_iL G_jJ
+
+    Parameters
+    ----------
+    c10_mpa : float
+    deformation : array (…, 3, 3)
+        F.
+    volume : array (…)
+        J = det F.
+    pressure : array (…)
+        p, MPa (positive in tension).
+    """
+    inverse = np.linalg.inv(deformation).swapaxes(-1, -2)
+    trace = np.sum(deformation**2, axis=(-1, -2))
+    scale = 2.0 * c10_mpa * volume ** (-2.0 / 3.0)
+    third = scale * trace / 3.0
+    pull = pressure * volume
+    stress = scale[..., None, None] * deformation + (pull - third)[..., None, None] * inverse
+    # Σ: G (2/9 a I1 + pJ) G - 2/3 a (F G + G F) = G_iJ X_jL + Y_iJ G_jL
+    second = (2.0 / 3.0 * scale)[..., None, None] * deformation
+    first = (2.0 / 3.0 * third + pull)[..., None, None] * inverse - second
+    columns, other = inverse.swapaxes(-1, -2), second.swapaxes(-1, -2)
+    moduli = columns[..., :, :, None, None] * first[..., None, None, :, :]
+    moduli -= other[..., :, :, None, None] * inverse[..., None, None, :, :]
+    swap = (third - pull)[..., None, None] * inverse
+    moduli += columns[..., :, None, :, None] * swap[..., None, :, None, :]
+    for i in range(3):
+        for j in range(3):
+            moduli[..., j, i, i, j] += scale
+    energy = c10_mpa * (volume ** (-2.0 / 3.0) * trace - 3.0)
+    return NeoHooke(stress, moduli, volume[..., None, None] * inverse, energy)

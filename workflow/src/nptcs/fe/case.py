@@ -1,0 +1,65 @@
+"""One case of the study: its spoke's table and its loaded tyre."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+
+from nptcs.config.fe import FeModel
+from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.spoke import SpokeDesign, SpokeModel
+from nptcs.fe.spoke_table import SpokeTable, fit, sample
+from nptcs.fe.tyre import TyreModel, TyreState
+
+
+def spoke_design(
+    model: FeModel, tyre: TyreGeometry, ply: Mapping[str, float], values: Mapping[str, float]
+) -> SpokeDesign:
+    """Collect what the spoke of a case depends on.
+
+    Parameters
+    ----------
+    model : FeModel
+    tyre : TyreGeometry
+    ply : mapping
+        The nine ply constants.
+    values : mapping
+        ``spacing_mm``, ``thickness_mm``, ``angle_deg``, ``spoke_c10_mpa``.
+    """
+    return SpokeDesign(
+        geometry=model.geometry,
+        mesh=model.spoke_mesh,
+        spacing_mm=values["spacing_mm"],
+        plate_width_mm=tyre.plate_width_mm,
+        thickness_mm=values["thickness_mm"],
+        angle_deg=values["angle_deg"],
+        c10_mpa=values["spoke_c10_mpa"],
+        ply=dict(ply),
+        width_mm=tyre.tread_width_mm,
+    )
+
+
+def spoke_table(model: FeModel, design: SpokeDesign) -> SpokeTable:
+    """Compute the energy table of one spoke."""
+    return fit(sample(SpokeModel(design), model.table), model.table)
+
+
+def tyre_model(
+    model: FeModel, tyre: TyreGeometry, table: SpokeTable, band_c10_mpa: float
+) -> TyreModel:
+    """Assemble the tyre of one case."""
+    return TyreModel(
+        tyre,
+        table,
+        model.geometry.foot_width_mm(),
+        band_c10_mpa,
+        model.spoke_mesh.bulk_to_shear_ratio,
+        model.tyre_mesh,
+        model.contact,
+    )
+
+
+def loaded_tyre(assembled: TyreModel, model: FeModel, load_n: float) -> TyreState:
+    """Load a tyre in equal steps."""
+    return assembled.load(np.linspace(0.0, load_n, model.load_steps + 1)[1:].tolist())

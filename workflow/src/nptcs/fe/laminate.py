@@ -1,0 +1,55 @@
+"""Classical lamination theory of the plates: plies [+A/-A] of equal thickness."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+def reduced_stiffness(ply: Mapping[str, float]) -> Array:
+    """Plane-stress stiffness Q (3, 3) of a ply in its fibre axes, MPa."""
+    e1, e2, nu12, g12 = ply["e1_mpa"], ply["e2_mpa"], ply["nu12"], ply["g12_mpa"]
+    scale = 1.0 / (1.0 - nu12**2 * e2 / e1)
+    return np.array(
+        [
+            [scale * e1, scale * nu12 * e2, 0.0],
+            [scale * nu12 * e2, scale * e2, 0.0],
+            [0.0, 0.0, g12],
+        ]
+    )
+
+
+def rotated_stiffness(ply: Mapping[str, float], angle_deg: float) -> Array:
+    """Plane-stress stiffness Q̄ (3, 3) with the fibres at an angle from the plate's axis, MPa."""
+    c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
+    # strains of the plate's axes to those of the fibre, engineering shear
+    turn = np.array(
+        [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]]
+    )
+    return turn.T @ reduced_stiffness(ply) @ turn
+
+
+def transverse_shear(ply: Mapping[str, float], angle_deg: float) -> Array:
+    """Transverse shear stiffness (2, 2) of components 13 and 23 in the plate's axes, MPa."""
+    c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
+    turn = np.array([[c, s], [-s, c]])
+    return turn.T @ np.diag([ply["g13_mpa"], ply["g23_mpa"]]) @ turn
+
+
+def abd(ply: Mapping[str, float], angle_deg: float, thickness_mm: float) -> Array:
+    """Laminate stiffness [[A, B], [B, D]] (6, 6) of [+A/-A]; the ply +A lies at z < 0.
+
+    A in N/mm, B in N, D in N mm; strains and curvatures in the order 11, 22, 12.
+    """
+    edges = np.array([-0.5, 0.0, 0.5]) * thickness_mm
+    plies = [rotated_stiffness(ply, angle) for angle in (angle_deg, -angle_deg)]
+    membrane, coupling, bending = np.zeros((3, 3)), np.zeros((3, 3)), np.zeros((3, 3))
+    for bottom, top, stiffness in zip(edges[:-1], edges[1:], plies, strict=True):
+        membrane += stiffness * (top - bottom)
+        coupling += stiffness * (top**2 - bottom**2) / 2.0
+        bending += stiffness * (top**3 - bottom**3) / 3.0
+    return np.block([[membrane, coupling], [coupling, bending]])

@@ -1,0 +1,263 @@
+"""The spoke: its response to the band's motion (u_r, u_θ, φ), the rim being clamped."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
+from nptcs.fe.matrices import BandedCholesky, BandedPattern, element_dofs
+from nptcs.fe.spoke_blocks import plate_blocks, rubber_block
+from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
+
+Array = NDArray[np.float64]
+
+MAX_ITERATIONS = 14
+SMALLEST_CUT = 1.0 / 64.0
+
+
+class SpokeError(RuntimeError):
+    """The spoke's equilibrium was not found, with the last state that was."""
+
+
+@dataclass(frozen=True)
+class SpokeDesign:
+    """What makes one spoke differ from another; two equal designs share their results."""
+
+    geometry: SpokeGeometry
+    mesh: SpokeMesh
+    spacing_mm: float
+    plate_width_mm: float
+    thickness_mm: float
+    angle_deg: float
+    c10_mpa: float
+    ply: Mapping[str, float]
+    width_mm: float
+
+    @property
+    def periods(self) -> float:
+        """Plates across the tyre: the factor from one period to the whole spoke."""
+        return self.width_mm / self.spacing_mm
+
+
+@dataclass
+class SpokeState:
+    """An equilibrium of the whole spoke.
+
+    Parameters
+    ----------
+    motion : array (3,)
+        u_r mm, u_θ mm, φ rad of the foot on the band.
+    displacement : array (nodes, 3)
+        Nodal displacements of the period, mm.
+    energy : float
+        N mm.
+    force : array (3,)
+        ∂E/∂(u_r, u_θ, φ): N, N, N mm.
+    tangent : array (3, 3)
+        Second derivatives, by static condensation.
+    sensitivity : array (free unknowns, 3)
+        Derivatives of the inner displacements with respect to the motion.
+    pressures : list of arrays
+        Pressures of the rubber's blocks.
+    """
+
+    motion: Array
+    displacement: Array
+    energy: float
+    force: Array
+    tangent: Array
+    sensitivity: Array
+    pressures: list[Array]
+
+
+class SpokeModel:
+    """Finite elements of one period, solved for given motions of the band.
+
+    Newton's method on displacements with the pressures condensed; a motion is approached in
+    steps that are halved when an iteration fails.
+    """
+
+    def __init__(self, design: SpokeDesign) -> None:
+        self.design = design
+        self.mesh = build_period(
+            design.geometry, design.mesh, design.spacing_mm, design.plate_width_mm
+        )
+        bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
+        self.rubbers = [
+            rubber_block(self.mesh.rubber, RUBBER_ORDERS, design.c10_mpa, bulk),
+            rubber_block(self.mesh.layer, LAYER_ORDERS, design.c10_mpa, bulk),
+        ]
+        self.plates = plate_blocks(
+            self.mesh.plate,
+            self.mesh.plate_axes,
+            design.geometry.plate_layer_mm,
+            design.ply,
+            design.angle_deg,
+            design.thickness_mm,
+        )
+        self._dofs = [element_dofs(block.nodes, 3) for block in self.blocks]
+        row = 3 * self.mesh.nodes_per_row
+        self._count = 3 * len(self.mesh.positions)
+        self._free = slice(row, self._count - row)
+        numbers = np.arange(self._count) - row
+        numbers[:row] = -1
+        numbers[self._count - row :] = -1
+        self._pattern = BandedPattern([numbers[d] for d in self._dofs], self._count - 2 * row, True)
+        self._top_dofs = np.arange(self._count - row, self._count)
+        self._arm = self.mesh.positions[self.mesh.top, 0]
+        self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
+        self.scale = self.design.periods
+
+    @property
+    def blocks(self) -> list[RubberBlock | LinearBlock]:
+        """All element blocks."""
+        return [*self.rubbers, *self.plates]
+
+    def band_motion(self, motion: Array) -> Array:
+        """Displacements (top nodes, 3) of the rigid foot, mm."""
+        u_r, u_theta, phi = motion
+        moved = np.zeros((len(self._arm), 3))
+        moved[:, 0] = u_theta + self._arm * (np.cos(phi) - 1.0)
+        moved[:, 2] = u_r + self._arm * np.sin(phi)
+        return moved
+
+    def _motion_slope(self, phi: float) -> tuple[Array, Array]:
+        """∂u/∂(u_r, u_θ, φ) (top dofs, 3) and ∂²u/∂φ² (top dofs,)."""
+        slope = np.zeros((len(self._arm), 3, 3))
+        slope[:, 2, 0] = 1.0
+        slope[:, 0, 1] = 1.0
+        slope[:, 0, 2] = -self._arm * np.sin(phi)
+        slope[:, 2, 2] = self._arm * np.cos(phi)
+        curve = np.zeros((len(self._arm), 3))
+        curve[:, 0] = -self._arm * np.cos(phi)
+        curve[:, 2] = -self._arm * np.sin(phi)
+        return slope.reshape(-1, 3), curve.ravel()
+
+    def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
+        responses = [block.respond(displacement) for block in self.blocks]
+        force = np.zeros(self._count)
+        for dofs, response in zip(self._dofs, responses, strict=True):
+            force += np.bincount(dofs.ravel(), response.force.ravel(), minlength=self._count)
+        return responses, force
+
+    def rest(self) -> SpokeState:
+        """Return the unloaded spoke."""
+        return self._equilibrium(np.zeros(3), np.zeros_like(self.mesh.positions), None)
+
+    def move(self, state: SpokeState, motion: Array) -> SpokeState:
+        """Go from an equilibrium to another motion of the band.
+
+        Raises
+        ------
+        SpokeError
+            If steps of 1/64 of the way still fail; the message gives the last motion reached.
+        """
+        done, step = 0.0, 1.0
+        start = state.motion
+        while done < 1.0:
+            target = start + min(done + step, 1.0) * (motion - start)
+            try:
+                state = self._equilibrium(target, self._linear_guess(state, target), state)
+            except (FloatingPointError, np.linalg.LinAlgError) as error:
+                step /= 2.0
+                if step < SMALLEST_CUT:
+                    raise SpokeError(
+                        f"no equilibrium beyond u_r, u_θ, φ = {np.round(state.motion, 4)}: {error}"
+                    ) from error
+                continue
+            done = min(done + step, 1.0)
+        return state
+
+    def follow(self, history: Sequence[SpokeState], motion: Array) -> SpokeState:
+        """Continue a row of equilibria that differ in u_r only.
+
+        The guess extrapolates the cubic through the last two states and their derivatives; where
+        it does not converge, `move` goes on from the last state.
+        """
+        if len(history) < 2:
+            return self.move(history[-1], motion)
+        try:
+            return self._equilibrium(motion, self._cubic_guess(history, motion), history[-1])
+        except (FloatingPointError, np.linalg.LinAlgError):
+            return self.move(history[-1], motion)
+
+    def _linear_guess(self, state: SpokeState, motion: Array) -> Array:
+        guess = state.displacement.copy()
+        guess.reshape(-1)[self._free] += state.sensitivity @ (motion - state.motion)
+        guess[self.mesh.top] = self.band_motion(motion)
+        return guess
+
+    def _cubic_guess(self, history: Sequence[SpokeState], motion: Array) -> Array:
+        before, last = history[-2:]
+        length = last.motion[0] - before.motion[0]
+        t = (motion[0] - before.motion[0]) / length
+        values = (1.0 - t) ** 2 * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t)
+        slopes = length * t * (1.0 - t) ** 2, length * t * t * (t - 1.0)
+        guess = values[0] * before.displacement + values[1] * last.displacement
+        inner = guess.reshape(-1)[self._free]
+        inner += slopes[0] * before.sensitivity[:, 0] + slopes[1] * last.sensitivity[:, 0]
+        guess[self.mesh.top] = self.band_motion(motion)
+        return guess
+
+    def _equilibrium(
+        self, motion: Array, displacement: Array, near: SpokeState | None
+    ) -> SpokeState:
+        """Newton's method at a fixed motion of the band, from the pressures of a state near by."""
+        for i, block in enumerate(self.rubbers):
+            block.pressure = np.zeros_like(block.pressure) if near is None else near.pressures[i]
+        for _ in range(MAX_ITERATIONS):
+            responses, force = self._respond(displacement)
+            factor = BandedCholesky(self._pattern.assemble([r.tangent for r in responses]))
+            free = force[self._free]
+            step = np.zeros_like(displacement)
+            step.reshape(-1)[self._free] = -factor.solve(free)
+            work = -float(step.reshape(-1)[self._free] @ free)
+            energy = sum(response.energy for response in responses)
+            if not np.isfinite(work):
+                raise FloatingPointError("the iteration has left the range of numbers")
+            if work < 1e-9 * max(abs(energy), 1e-6):
+                return self._condense(motion, displacement, responses, force, factor, energy)
+            largest = float(np.abs(step).max())
+            if largest > 30.0:
+                raise FloatingPointError(f"an iteration moves a node by {largest:.0f} mm")
+            displacement = displacement + step
+            for block in self.rubbers:
+                block.update_pressure(step)
+        raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
+
+    def _condense(
+        self,
+        motion: Array,
+        displacement: Array,
+        responses: list[Response],
+        force: Array,
+        factor: BandedCholesky,
+        energy: float,
+    ) -> SpokeState:
+        """Condense onto the band: force and tangent of the three motions."""
+        slope, curve = self._motion_slope(float(motion[2]))
+        whole = np.zeros((self._count, 3))
+        whole[self._top_dofs] = slope
+        product = np.zeros((self._count, 3))
+        for dofs, edge, response in zip(self._dofs, self._edge, responses, strict=True):
+            if len(edge):
+                local = np.matmul(response.tangent[edge], whole[dofs[edge]])
+                np.add.at(product, dofs[edge], local)
+        sensitivity = -factor.solve(product[self._free])
+        reaction = force[self._top_dofs]
+        tangent = slope.T @ product[self._top_dofs] + product[self._free].T @ sensitivity
+        tangent[2, 2] += reaction @ curve
+        return SpokeState(
+            motion=np.array(motion, dtype=float),
+            displacement=displacement,
+            energy=self.scale * energy,
+            force=self.scale * (slope.T @ reaction),
+            tangent=self.scale * 0.5 * (tangent + tangent.T),
+            sensitivity=sensitivity,
+            pressures=[block.pressure.copy() for block in self.rubbers],
+        )

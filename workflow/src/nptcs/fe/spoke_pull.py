@@ -1,0 +1,88 @@
+"""The single spoke pulled and pressed, section 4.3.1 of the paper (figure 13, table 10)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.fe.spoke import SpokeModel
+
+Array = NDArray[np.float64]
+
+TENSION_MM = 4.0
+COMPRESSION_MM = 20.0
+
+
+@dataclass(frozen=True)
+class OriginFit:
+    """Straight line through the origin.
+
+    Parameters
+    ----------
+    slope : float
+        N/mm.
+    r2_uncentred : float
+        1 - Σ(f - k d)² / Σ f²: what software prints for a line without intercept.
+    r2_centred : float
+        1 - Σ(f - k d)² / Σ (f - mean f)².
+    """
+
+    slope: float
+    r2_uncentred: float
+    r2_centred: float
+
+
+def fit_through_origin(displacement_mm: Array, force_n: Array) -> OriginFit:
+    """Regress force on displacement through the origin: k = Σ f d / Σ d²."""
+    slope = float(displacement_mm @ force_n / (displacement_mm @ displacement_mm))
+    misfit = float(np.sum((force_n - slope * displacement_mm) ** 2))
+    total = float(force_n @ force_n)
+    spread = float(np.sum((force_n - force_n.mean()) ** 2))
+    return OriginFit(slope, 1.0 - misfit / total, 1.0 - misfit / spread)
+
+
+def pull(model: SpokeModel, end_mm: float, steps: int) -> tuple[Array, Array]:
+    """Force (N) on the band against its radial displacement (mm), the band held from turning.
+
+    Parameters
+    ----------
+    model : SpokeModel
+    end_mm : float
+        Last u_r, positive in tension.
+    steps : int
+
+    Returns
+    -------
+    displacement_mm, force_n : arrays (steps + 1,)
+        Both in the direction of the motion, the unloaded spoke first.
+    """
+    places = np.linspace(0.0, end_mm, steps + 1)
+    history = [model.rest()]
+    for u_r in places[1:]:
+        history.append(model.follow(history, np.array([u_r, 0.0, 0.0])))
+    forces = np.array([state.force[0] for state in history])
+    sign = np.sign(end_mm)
+    return sign * places, sign * forces
+
+
+@dataclass(frozen=True)
+class SpokeStiffness:
+    """Tension and compression of one spoke: figure 13's curves and table 10's lines."""
+
+    tension: tuple[Array, Array]
+    compression: tuple[Array, Array]
+    tension_fit: OriginFit
+    compression_fit: OriginFit
+
+
+def spoke_stiffness(
+    model: SpokeModel, tension_steps: int = 8, compression_steps: int = 10
+) -> SpokeStiffness:
+    """Pull a spoke by 4 mm, press it by 20 mm, and fit lines through the origin."""
+    tension = pull(model, TENSION_MM, tension_steps)
+    compression = pull(model, -COMPRESSION_MM, compression_steps)
+    return SpokeStiffness(
+        tension, compression, fit_through_origin(*tension), fit_through_origin(*compression)
+    )

@@ -1,0 +1,59 @@
+"""Solver ``fe_spoke``: one spoke pulled by 4 mm and pressed by 20 mm (section 4.3.1)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nptcs.config.fe import FeModel
+from nptcs.fe.case import spoke_design
+from nptcs.fe.spoke import SpokeError, SpokeModel
+from nptcs.fe.spoke_pull import spoke_stiffness
+from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
+
+
+class FeSpokeOptions(SolverOptions, FeModel):
+    """Options of ``fe_spoke``: the finite element model of the spoke."""
+
+
+def solve(inputs: CaseInputs) -> SolverResult:
+    """Return the spoke's curve and its stiffness through the origin in tension and compression.
+
+    Raises
+    ------
+    InputError
+        If a value of the case is missing or has no meaning.
+    """
+    options: FeSpokeOptions = inputs.options
+    values = checked_values(inputs, SPOKE_FACTORS)
+    design = spoke_design(options, inputs.tyre, ply_constants(inputs), values)
+    try:
+        result = spoke_stiffness(SpokeModel(design), 16, 40)
+    except SpokeError as error:
+        return SolverResult(status=Status.DIVERGED, message=str(error))
+    (pulled, pull_force), (pressed, press_force) = result.tension, result.compression
+    displacement = np.concatenate([-pressed[:0:-1], pulled])
+    force = np.concatenate([-press_force[:0:-1], pull_force])
+    return SolverResult(
+        status=Status.OK,
+        extra={
+            "tension_stiffness_n_per_mm": result.tension_fit.slope,
+            "tension_r2_uncentred": result.tension_fit.r2_uncentred,
+            "tension_r2_centred": result.tension_fit.r2_centred,
+            "compression_stiffness_n_per_mm": result.compression_fit.slope,
+            "compression_r2_uncentred": result.compression_fit.r2_uncentred,
+            "compression_r2_centred": result.compression_fit.r2_centred,
+        },
+        curve={"displacement_mm": displacement.tolist(), "force_n": force.tolist()},
+    )
+
+
+SOLVER = Solver(
+    name="fe_spoke",
+    version="1",
+    solve=solve,
+    factors=SPOKE_FACTORS,
+    required=SPOKE_FACTORS,
+    options=FeSpokeOptions,
+    needs_ply=True,
+)

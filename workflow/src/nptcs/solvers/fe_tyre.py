@@ -1,0 +1,85 @@
+"""Solver ``fe_tyre``: the tyre on 60 spoke super-elements, pressed on a rigid plane."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+from pydantic import Field
+
+from nptcs.config.fe import FeModel
+from nptcs.fe.cache import shared_table
+from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
+from nptcs.fe.spoke import SpokeError
+from nptcs.fe.tyre import LoadPath, TyreError, TyreModel, TyreState
+from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
+
+
+class FeTyreOptions(SolverOptions, FeModel):
+    """Options of ``fe_tyre``: the finite element model and where spokes are kept."""
+
+    spoke_cache: Path | None = Field(
+        None,
+        description="Folder in which cases share the tables of equal spokes; results do not "
+        "depend on it",
+    )
+
+
+def solve(inputs: CaseInputs) -> SolverResult:
+    """Return the load–displacement curve and the secant stiffness at the load of the case.
+
+    Raises
+    ------
+    InputError
+        If a value of the case is missing or has no meaning.
+    """
+    options: FeTyreOptions = inputs.options
+    values = checked_values(inputs, TYRE_FACTORS)
+    design = spoke_design(options, inputs.tyre, ply_constants(inputs), values)
+    try:
+        table = shared_table(options, design, options.spoke_cache)
+        tyre = tyre_model(options, inputs.tyre, table, values["shear_band_c10_mpa"])
+        state = loaded_tyre(tyre, options, inputs.load_n)
+    except SpokeError as error:
+        return SolverResult(status=Status.DIVERGED, message=f"spoke: {error}")
+    except TyreError as error:
+        return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.path))
+    return SolverResult(
+        status=Status.OK,
+        vertical_stiffness_n_per_mm=inputs.load_n / state.rise_mm,
+        displacement_mm=state.rise_mm,
+        extra={"table_force_residual_n": table.force_residual_n, **_summary(tyre, state)},
+        curve=_curve(state.path),
+    )
+
+
+def _curve(path: LoadPath) -> dict[str, list[float]]:
+    return {"displacement_mm": path.rise_mm, "force_n": path.force_n}
+
+
+def _summary(tyre: TyreModel, state: TyreState) -> dict[str, float]:
+    """Contact patch, spokes' motions and energies at the load."""
+    place, pressure = tyre.ground.pressure_profile(state.displacement, state.rise_mm)
+    touching = place[pressure > 0.0]
+    energy = tyre.energy(state)
+    return {
+        "contact_length_mm": float(np.ptp(touching)),
+        "largest_pressure_mpa": float(pressure.max()),
+        "smallest_u_r_mm": float(state.motion[:, 0].min()),
+        "largest_u_r_mm": float(state.motion[:, 0].max()),
+        "spoke_energy_n_mm": energy["spokes"],
+        "band_energy_n_mm": energy["rubber"] + energy["wires"],
+        "iterations": float(state.path.iterations),
+    }
+
+
+SOLVER = Solver(
+    name="fe_tyre",
+    version="1",
+    solve=solve,
+    factors=TYRE_FACTORS,
+    required=TYRE_FACTORS,
+    options=FeTyreOptions,
+    needs_ply=True,
+)
