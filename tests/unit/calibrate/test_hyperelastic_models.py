@@ -217,6 +217,18 @@ def test_instability_begins_where_the_hessian_of_the_energy_loses_definiteness()
     assert lowest(onset - 0.02) > 0 > lowest(onset + 0.02)
 
 
+def test_equibiaxial_compression_is_uniaxial_tension_by_another_name() -> None:
+    # λ in equibiaxial compression is the state λ⁻² in uniaxial tension
+    constants = np.array([0.2676, -0.0018])
+    found = instabilities(MOONEY_RIVLIN, constants, 6.0)
+    assert [text.split(" from ")[0] for text in found] == ["equibiaxial compression"]
+    compressed = 1 + float(found[0].split()[-1])
+    further = instabilities(MOONEY_RIVLIN, constants, 14.0)
+    (uniaxial,) = [text for text in further if text.startswith("uniaxial tension")]
+    # onsets are found on 400 steps a path
+    assert 1 + float(uniaxial.split()[-1]) == pytest.approx(compressed**-2, rel=0.03)
+
+
 def read_treloar(name: str) -> tuple[Any, Any]:
     file = LABDATA / "rubber-treloar" / name / "stress_stretch.txt"
     if not file.exists():

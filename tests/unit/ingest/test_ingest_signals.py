@@ -20,6 +20,7 @@ from nptcs.ingest.conditioning import (
     cut_end,
     drop_empty_rows,
     empty_after_removal,
+    empty_spikes,
     mark_dead,
     zero_force,
 )
@@ -134,6 +135,25 @@ def test_dead_values_and_dead_channels_go():
     assert np.isnan(signals.values["strain"][7])
     assert "strain_transverse" not in signals.values
     assert signals.steps[-1].numbers["emptied"] == 1
+
+
+@pytest.mark.parametrize("wild", [51234.0, -400.0])
+def test_a_wild_reading_is_emptied_and_said(wild):
+    force = FORCE.copy()
+    force[40] = wild
+    signals = Signals({"force": force, "strain": 1e-5 * FORCE.copy()})
+    empty_spikes(signals, MissingValues())
+    assert np.flatnonzero(np.isnan(signals.values["force"])).tolist() == [40]
+    assert signals.steps[-1].numbers == {"force_reading_41": wild}
+    assert any("wild" in flag for flag in signals.flags)
+
+
+def test_failure_and_noise_are_no_spikes():
+    noise = np.random.default_rng(1).standard_normal(101)
+    force = np.concatenate([FORCE + noise, [5.0, 4.0, 6.0]])
+    signals = Signals({"force": force})
+    empty_spikes(signals, MissingValues())
+    assert not np.isnan(signals.values["force"]).any()
 
 
 def test_frames_without_strain_go_but_strength_stays():
@@ -278,13 +298,14 @@ def test_steps_that_are_off_change_nothing_and_say_so():
     signals = conditioned(1e-5 * FORCE)
     before = signals.values["strain_axial"].copy()
     mark_dead(signals, off.missing_values)
+    empty_spikes(signals, off.missing_values)
     drop_empty_rows(signals, off.missing_values)
     zero_force(signals, off.force_zero)
     cut_end(signals, off.end_of_test)
     empty_after_removal(signals, off.extensometer, rubber=False, source="")
     correct_origin(signals, off.strain_origin, rubber=False)
     assert (signals.values["strain_axial"] == before).all()
-    assert [step.on for step in signals.steps] == [False] * 6
+    assert [step.on for step in signals.steps] == [False] * 7
 
 
 @pytest.mark.parametrize(

@@ -125,6 +125,7 @@ def test_steps_can_be_switched(tmp_path, coupon, profiles):
     off = ingest(coupon(), tmp_path, profiles, IngestSettings.as_recorded()).record.steps
     assert {step.name for step in off if not step.on} == {
         "dead channels",
+        "spikes",
         "empty rows",
         "force zero",
         "end of test",

@@ -14,6 +14,12 @@ class MissingValues(Strict):
     dead_values: tuple[float, ...] = Field(
         (-1000000.0,), description="Values that a data logger writes for a dead channel"
     )
+    spike_share: float = Field(
+        0.2,
+        gt=0,
+        description="A single reading that leaves both neighbours by more than this share of "
+        "the channel's range is emptied and flagged",
+    )
     largest_share: float = Field(
         0.5, gt=0, le=1, description="A strain channel that lacks more than this share is dead"
     )

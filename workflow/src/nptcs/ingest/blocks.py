@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from itertools import groupby
 from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.ingest.sources import SheetSource, Source, TextSource
 from nptcs.ingest.table import SMALLEST_BLOCK, Block, describe_columns
 
+DATA = ("data", "odd data")
 _ROWS_ABOVE = 3
 
 
@@ -70,31 +72,41 @@ def _runs(source: Source) -> list[Block]:
     """Consecutive rows of data; what may interrupt a table is decided here."""
     runs: list[Block] = []
     gap: list[int] = []
-    kinds = source.kinds
-    for row, kind in enumerate(kinds):
-        if kind not in ("data", "odd data"):
-            gap.append(row)
+    kinds, widths = source.kinds, source.widths
+    for is_data, group in groupby(range(len(kinds)), lambda row: kinds[row] in DATA):
+        rows = list(group)
+        if not is_data:
+            gap = rows
             continue
-        width = len(source.cells(row))
+        width = max(widths[row] for row in rows)
         last = runs[-1] if runs else None
-        if last is not None and _continues(source, last, gap, width):
+        if last is not None and _continues(source, last, gap, widths[rows[0]]):
             _note_gap(source, last, gap)
-            last.rows_of_data.append(row)
-            last.last = row + 1
+            last.rows_of_data += rows
+            last.last = rows[-1] + 1
             last.width = max(last.width, width)
         else:
-            runs.append(Block(row, row + 1, width, rows_of_data=[row]))
+            _note_end(source, runs, gap)
+            runs.append(Block(rows[0], rows[-1] + 1, width, rows_of_data=rows))
         gap = []
+    _note_end(source, runs, gap)
     return runs
+
+
+def _note_end(source: Source, runs: list[Block], gap: list[int]) -> None:
+    """Say where a table ends if something that is not blank follows."""
+    row = next((row for row in gap if source.kinds[row] != "empty"), None)
+    if runs and row is not None:
+        text = " ".join(cell for cell in source.cells(row) if cell)
+        runs[-1].notes.append(f"the table ends above line {row + 1}: {text[:60]!r}")
 
 
 def _continues(source: Source, block: Block, gap: list[int], width: int) -> bool:
     """Tell whether the table goes on after the rows of `gap`."""
     kinds = [source.kinds[row] for row in gap]
-    odd = [kind for kind in kinds if kind in ("names", "other")]
-    if not odd:
-        return True
-    return len(odd) == 1 and odd[0] == "other" and abs(width - block.width) <= 1
+    if "names" in kinds:
+        return False
+    return "other" not in kinds or abs(width - block.width) <= 1
 
 
 def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
@@ -109,7 +121,8 @@ def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
 
 def _trim(source: Source, block: Block, path: Path) -> None:
     """Refuse rows that lack cells in the middle; drop a last line that was cut off."""
-    lengths = [len(source.cells(row)) for row in block.rows_of_data]
+    widths = source.widths
+    lengths = [widths[row] for row in block.rows_of_data]
     if len(lengths) > 1 and lengths[-1] < lengths[-2]:
         row = block.rows_of_data.pop()
         lengths.pop()
@@ -129,7 +142,7 @@ def _rows_above(source: Source, block: Block) -> list[tuple[int, list[str]]]:
     found: list[tuple[int, list[str]]] = []
     for row in range(block.first - 1, max(block.first - 8, -1), -1):
         kind = source.kinds[row]
-        if kind in ("data", "odd data") or len(found) == _ROWS_ABOVE:
+        if kind in DATA or len(found) == _ROWS_ABOVE:
             break
         if kind == "empty":
             if len(found) >= 1 and not isinstance(source, SheetSource):

@@ -154,7 +154,23 @@ def choose_test(
         )
     if not serving:
         raise _nothing(tests, role, path, profile)
+    _refuse_continuation(serving[0], tests, path)
     return serving[0]
+
+
+def _refuse_continuation(chosen: Test, tests: Sequence[Test], path: Path) -> None:
+    """Stop if a table like the chosen one follows under something that is no header."""
+    block = chosen.block
+    for test in tests:
+        other = test.block
+        same = test.source is chosen.source and other.width == block.width
+        if same and other.first >= block.last:
+            raise InputError(
+                f"the table seems to go on in line {other.first + 1}, under other names",
+                f"correct the file, or name '{chosen.label}' as force_part or strain_part",
+                path,
+                block.last + 1,
+            )
 
 
 def _is_part(label: str, part: str) -> bool:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nptcs.config.ingest import EndOfTest, ExtensometerRemoval, ForceZero, MissingValues
 from nptcs.ingest.signals import STRAIN_CHANNELS, Array, Signals, largest
@@ -31,6 +32,39 @@ def mark_dead(signals: Signals, settings: MissingValues) -> None:
 def _is_dead(readings: Array, largest_share: float) -> bool:
     empty = np.isnan(readings)
     return bool(empty.mean() > largest_share or np.ptp(readings[~empty]) == 0)
+
+
+def empty_spikes(signals: Signals, settings: MissingValues) -> None:
+    """Empty single readings far from both neighbours: a bit lost, a digit lost.
+
+    A reading counts if it leaves both neighbours, to one side, by more than ``spike_share`` of
+    the channel's range (1st to 99th percentile) and 20 usual steps; failure leaves but one.
+    """
+    if not settings.enabled:
+        signals.skipped("spikes")
+        return
+    found = {}
+    for name in ("force", "stress", *STRAIN_CHANNELS):
+        if name in signals.values:
+            rows = _spikes(signals.values[name], settings.spike_share)
+            for row in rows:
+                found[f"{name}_reading_{row + 1}"] = float(signals.values[name][row])
+            signals.values[name][rows] = np.nan
+    signals.note("spikes", f"{len(found)} readings emptied", **found)
+    if found:
+        signals.flags.append(f"{len(found)} wild readings emptied: {', '.join(list(found)[:3])}")
+
+
+def _spikes(readings: Array, share: float) -> NDArray[np.intp]:
+    kept = np.flatnonzero(~np.isnan(readings))
+    if len(kept) < 10:
+        return kept[:0]
+    values = readings[kept]
+    step = np.diff(values)
+    low, high = np.percentile(values, [1, 99])
+    limit = max(share * float(high - low), 20 * float(np.median(np.abs(step))))
+    leaves = np.minimum(np.abs(step[:-1]), np.abs(step[1:])) > limit
+    return kept[1:-1][leaves & (np.sign(step[:-1]) != np.sign(step[1:]))]
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:

@@ -85,29 +85,41 @@ def _wide(raw: bytes, path: Path) -> Decoded:
 
 def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
     """Choose among `CANDIDATES` by the words that each makes readable."""
-    possible: dict[str, str] = {}
-    for encoding in CANDIDATES:
-        try:
-            possible[encoding] = raw.decode(encoding)
-        except UnicodeDecodeError:
-            continue
+    head = raw[: raw.rfind(b"\n", 0, HEAD_BYTES) + 1] or raw
     special = {word.casefold() for word in words if not word.isascii()}
-    hits = {
-        encoding: sum(word in text[:HEAD_BYTES].casefold() for word in special)
-        for encoding, text in possible.items()
-    }
-    best = max(hits, key=hits.__getitem__, default="")
-    if best and hits[best]:
-        note = f"{hits[best]} known words are readable; others: {hits}"
-        return Decoded(possible[best], best, note)
+    hits = {}
+    for encoding in CANDIDATES:
+        text = _or_none(head, encoding)
+        if text is not None:
+            folded = text.casefold()
+            hits[encoding] = sum(word in folded for word in special)
+    for encoding in sorted(hits, key=hits.__getitem__, reverse=True):
+        text = _or_none(raw, encoding) if hits[encoding] else None
+        if text is not None:
+            note = f"{hits[encoding]} known words are readable; others: {hits}"
+            return Decoded(text, encoding, note)
+    return _unknown_words(raw, head, path)
+
+
+def _or_none(raw: bytes, encoding: str) -> str | None:
+    try:
+        return raw.decode(encoding)
+    except UnicodeDecodeError:
+        return None
+
+
+def _unknown_words(raw: bytes, head: bytes, path: Path) -> Decoded:
+    """Ask charset-normalizer, out of `CANDIDATES`; numbers are ASCII in all of them."""
     from charset_normalizer import from_bytes
 
-    guess = from_bytes(raw[:HEAD_BYTES], cp_isolation=list(CANDIDATES)).best()
-    if guess is not None and guess.encoding in possible:
+    guess = from_bytes(head, cp_isolation=list(CANDIDATES)).best()
+    text = _or_none(raw, guess.encoding) if guess is not None else None
+    if guess is not None and text is not None:
         note = f"charset-normalizer, out of {', '.join(CANDIDATES)}"
-        return Decoded(possible[guess.encoding], guess.encoding, note)
-    if "cp1252" in possible:
-        return Decoded(possible["cp1252"], "cp1252", "no known word, Western Europe taken")
+        return Decoded(text, guess.encoding, note)
+    text = _or_none(raw, "cp1252")
+    if text is not None:
+        return Decoded(text, "cp1252", "no known word, Western Europe taken")
     text = raw.decode("utf-8", errors="replace")
     if text.count("\ufffd") > 0.05 * len(text):
         raise InputError("is not text in a known encoding", "state it in a profile", path)

@@ -21,7 +21,7 @@ MISSING = frozenset(
 )
 SMALLEST_TABLE = 3
 """Rows of numbers that a dialect must read before it is believed."""
-_HEAD = 250
+_HEAD = 120
 SEPARATOR_NAMES = {"\t": "tab", "spaces": "spaces"}
 
 
@@ -74,16 +74,31 @@ def _number(decimal: str, thousands: str) -> re.Pattern[str]:
     return re.compile(rf"[+-]?(?:{plain}|{grouped})", re.ASCII)
 
 
-def candidates(profile: FormatProfile) -> list[Dialect]:
-    """Dialects to try, those that the profile does not exclude."""
-    delimiters = [DELIMITERS[profile.delimiter]] if profile.delimiter else list(DELIMITERS.values())
+def candidates(profile: FormatProfile, lines: Sequence[str]) -> list[Dialect]:
+    """Dialects to try: those that the profile allows and whose marks occur in the lines."""
+    delimiters = (
+        [DELIMITERS[profile.delimiter]] if profile.delimiter else _delimiters_in(_sample(lines))
+    )
     if profile.decimal:
         return [Dialect(delimiter, profile.decimal, profile.thousands) for delimiter in delimiters]
+    point, comma = (any(mark in line for line in lines) for mark in ".,")
     found = [Dialect(delimiter, ".") for delimiter in delimiters]
-    found += [Dialect(delimiter, ",") for delimiter in delimiters if delimiter != ","]
-    found += [Dialect(delimiter, ".", ",") for delimiter in delimiters]
-    found += [Dialect(delimiter, ",", ".") for delimiter in delimiters]
+    if comma:
+        found += [Dialect(delimiter, ",") for delimiter in delimiters]
+        found += [Dialect(delimiter, ".", ",") for delimiter in delimiters]
+    if point:
+        found += [Dialect(delimiter, ",", ".") for delimiter in delimiters]
     return found
+
+
+def _delimiters_in(lines: Sequence[str]) -> list[str]:
+    """Delimiters that occur in as many lines as make a table."""
+
+    def occurs(delimiter: str) -> bool:
+        mark = " " if delimiter == "spaces" else delimiter
+        return sum(mark in line.strip() for line in lines) >= SMALLEST_TABLE
+
+    return [delimiter for delimiter in DELIMITERS.values() if occurs(delimiter)]
 
 
 def find_dialect(lines: Sequence[str], profile: FormatProfile, path: Path) -> Dialect:
@@ -104,7 +119,7 @@ def find_dialect(lines: Sequence[str], profile: FormatProfile, path: Path) -> Di
         If no dialect reads a table, or several read different numbers.
     """
     sample = _sample(lines)
-    tied = _tied(candidates(profile), sample)
+    tied = _tied(candidates(profile, lines), sample)
     if not tied:
         raise InputError(
             "no table of numbers found",
@@ -126,13 +141,33 @@ Reading = tuple[tuple[str, ...], ...]
 
 
 def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Reading]:
-    """Dialects that read most rows with fewest cells left, and the numbers that they read."""
+    """Dialects that read most rows with fewest cells left, and the numbers that they read.
+
+    A thousands mark is believed if a number proves it (``1.234,5`` or ``1,234,567``). Without
+    such a number it cannot win, but a draw still makes the table ambiguous.
+    """
     readings = {dialect: _rows(dialect, lines) for dialect in dialects}
-    most = max(len(rows) for rows in readings.values())
+    declared = len({(dialect.decimal, dialect.thousands) for dialect in dialects}) == 1
+    proven = [dialect for dialect, rows in readings.items() if declared or _proven(dialect, rows)]
+    most = max((len(readings[dialect]) for dialect in proven), default=0)
     if most < SMALLEST_TABLE:
         return {}
     full = {dialect: rows for dialect, rows in readings.items() if len(rows) == most}
-    return {dialect: _numbers(dialect, rows) for dialect, rows in _fewest_unread(full).items()}
+    unread = {dialect: _unread(dialect, rows) for dialect, rows in full.items()}
+    least = min(unread[dialect] for dialect in proven if dialect in full)
+    return {
+        dialect: _numbers(dialect, rows)
+        for dialect, rows in full.items()
+        if unread[dialect] == least
+    }
+
+
+def _proven(dialect: Dialect, rows: list[list[str]]) -> bool:
+    if not dialect.thousands:
+        return True
+    mark, decimal = re.escape(dialect.thousands), re.escape(dialect.decimal)
+    proof = re.compile(rf"[+-]?[1-9]\d{{0,2}}{mark}\d{{3}}(?:{mark}\d{{3}}|{decimal}\d)")
+    return any(proof.match(cell) and dialect.is_number(cell) for cells in rows for cell in cells)
 
 
 def _different(tied: dict[Dialect, Reading]) -> list[Dialect]:
@@ -158,7 +193,7 @@ def _sample(lines: Sequence[str]) -> Sequence[str]:
     if len(lines) <= 2 * _HEAD:
         return lines
     middle = len(lines) // 2
-    return [*lines[:_HEAD], *lines[middle : middle + 100], *lines[-100:]]
+    return [*lines[:_HEAD], *lines[middle : middle + 60], *lines[-60:]]
 
 
 def _rows(dialect: Dialect, lines: Sequence[str]) -> list[list[str]]:
@@ -166,17 +201,13 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> list[list[str]]:
     return [cells for cells in rows if dialect.is_data(cells)]
 
 
-def _fewest_unread(readings: dict[Dialect, list[list[str]]]) -> dict[Dialect, list[list[str]]]:
-    unread = {
-        dialect: sum(
-            not dialect.is_number(cell) and cell.casefold() not in MISSING
-            for cells in rows
-            for cell in cells
-        )
-        for dialect, rows in readings.items()
-    }
-    least = min(unread.values())
-    return {dialect: rows for dialect, rows in readings.items() if unread[dialect] == least}
+def _unread(dialect: Dialect, rows: list[list[str]]) -> int:
+    """Count the cells that are neither a number nor 'no value'."""
+    return sum(
+        not dialect.is_number(cell) and cell.casefold() not in MISSING
+        for cells in rows
+        for cell in cells
+    )
 
 
 def _numbers(dialect: Dialect, rows: list[list[str]]) -> Reading:

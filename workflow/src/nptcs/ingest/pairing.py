@@ -194,8 +194,8 @@ def _require_equal_onset(
         key=lambda channel: float(np.nanmax(np.abs(strain.values[channel]))),
     )
     load = "force" if "force" in force.values else "stress"
-    ours, length = _onset(force.values["time"], force.values[load])
-    theirs, _ = _onset(strain.values["time"], strain.values[name])
+    ours, length = _onset(force, load, specimen)
+    theirs, _ = _onset(strain, name, specimen)
     if abs(ours - theirs) > settings.clock_tolerance * length:
         raise InputError(
             f"loading begins at {theirs:.2f} s here and at {ours:.2f} s in {force.path.name}",
@@ -206,16 +206,25 @@ def _require_equal_onset(
         )
 
 
-def _onset(time: Array, signal: Array) -> tuple[float, float]:
+def _onset(table: RawTable, name: str, specimen: str) -> tuple[float, float]:
     """Where the line through 5–25 % of the rise meets the level before loading; time to peak."""
-    kept = ~np.isnan(signal)
-    time, signal = time[kept], signal[kept] * np.sign(largest(signal))
-    start = float(np.median(signal[:3]))
+    kept = ~np.isnan(table.values[name])
+    time, signal = table.values["time"][kept], table.values[name][kept]
+    signal = signal * np.sign(largest(signal))
     peak = int(np.argmax(signal))
-    rise = (signal[: peak + 1] - start) / (signal[peak] - start)
+    start = float(np.median(signal[:3]))
+    rise = (signal[: peak + 1] - start) / ((signal[peak] - start) or 1.0)
     last = int(np.argmax(rise > 0.25))
     first = int(np.max(np.flatnonzero(rise[:last] < 0.05), initial=0))
-    rows = slice(first, max(last + 1, first + 2))
+    if last <= first:
+        raise InputError(
+            f"{name} does not rise from its start to its peak: no onset of loading",
+            "give time_offset_s in the sheet, or check the column",
+            table.path,
+            column=table.columns[name],
+            specimen=specimen,
+        )
+    rows = slice(first, last + 1)
     slope, level = np.polyfit(time[rows] - time[first], rise[rows], 1)
     return float(time[first] - level / slope), float(time[peak] - time[first])
 

@@ -18,6 +18,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.dialect import MISSING, Dialect, _number
 from nptcs.ingest.table import Block
 
+NOTHING = "nan"
 Kind = Literal["data", "odd data", "empty", "remark", "names", "other"]
 """``odd data``: a row of numbers that holds something else too."""
 
@@ -34,6 +35,11 @@ class Source(Protocol):
 
     def cells(self, row: int) -> list[str]:
         """Cells of a row (from 0) as text."""
+        ...
+
+    @property
+    def widths(self) -> list[int]:
+        """Number of cells of each row."""
         ...
 
     def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
@@ -80,6 +86,14 @@ class TextSource:
         mark = re.escape(self.dialect.delimiter)
         return re.compile(rf"{cell}(?:{mark}{cell})+", re.ASCII)
 
+    @cached_property
+    def _full_row(self) -> re.Pattern[str]:
+        """Every cell of a row is a bare number, in this dialect: the usual row, found fast."""
+        number = _number(self.dialect.decimal, "").pattern
+        spaces = self.dialect.delimiter == "spaces"
+        mark = r"[ \t]+" if spaces else re.escape(self.dialect.delimiter)
+        return re.compile(rf"{number}(?:{mark}{number})+", re.ASCII)
+
     @property
     def _marks_apart(self) -> bool:
         """The delimiter is neither decimal nor thousands mark, so numbers need no quotes."""
@@ -88,7 +102,8 @@ class TextSource:
     @cached_property
     def kinds(self) -> list[Kind]:
         """Kind of each row."""
-        return [self._kind(line) for line in self.lines]
+        usual = self._full_row.fullmatch if self._marks_apart else re.compile("(?!)").fullmatch
+        return ["data" if usual(line) else self._kind(line) for line in self.lines]
 
     def _kind(self, line: str) -> Kind:
         if not line.strip():
@@ -104,6 +119,17 @@ class TextSource:
         """Cells of a row as text."""
         return self.dialect.split(self.lines[row])
 
+    @cached_property
+    def widths(self) -> list[int]:
+        """Number of cells of each row."""
+        delimiter = self.dialect.delimiter
+        if delimiter == "spaces":
+            return [len(line.split()) for line in self.lines]
+        return [
+            len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
+            for line in self.lines
+        ]
+
     def header_cells(self, row: int, width: int) -> list[str]:
         """Cells of a row of names: with blanks in the names where blanks also separate."""
         line = self.lines[row].strip()
@@ -118,14 +144,12 @@ class TextSource:
 
     def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
         """Columns of a block as numbers; a cell that is none raises with its place."""
-        rows = [row for row in block.rows_of_data if self.kinds[row] == "odd data"]
-        for row in rows:
-            self._check_cells(block, row, positions)
-        lines = [self.lines[row] for row in block.rows_of_data]
-        if self._uses_thousands("\n".join(lines)):
+        lines = [self._line_for_pandas(block, row, positions) for row in block.rows_of_data]
+        text = "\n".join(lines)
+        if self._uses_thousands(text):
             return self._numbers_with_thousands(block, positions)
         frame = pd.read_csv(
-            io.StringIO("\n".join(lines)),
+            io.StringIO(text),
             sep=r"\s+" if self.dialect.delimiter == "spaces" else self.dialect.delimiter,
             decimal=self.dialect.decimal,
             header=None,
@@ -133,20 +157,26 @@ class TextSource:
             usecols=list(dict.fromkeys(positions)),
             index_col=False,
             dtype=np.float64,
-            na_values=self._missing_as_written(block, rows, positions),
+            na_values=["", NOTHING],
             keep_default_na=False,
             skipinitialspace=True,
         )
-        if len(frame) != len(lines):
-            raise InputError(
-                f"{len(lines)} rows were read as {len(frame)}",
-                "look for a quotation mark that is not closed",
-                self.path,
-                block.first + 1,
-            )
         values = frame[list(positions)].to_numpy()
         self._refuse_infinite(block, values, positions)
         return values
+
+    def _line_for_pandas(self, block: Block, row: int, positions: Sequence[int]) -> str:
+        """Return the line as it is if it is all numbers, else only the checked cells."""
+        if self.kinds[row] == "data":
+            return self.lines[row]
+        self._check_cells(block, row, positions)
+        cells = [
+            cell if position in positions and not self.is_missing(cell) else NOTHING
+            for position, cell in enumerate(self.cells(row))
+        ]
+        if self.dialect.delimiter == "spaces":
+            return " ".join(cells)
+        return self.dialect.delimiter.join(f'"{cell}"' for cell in cells)
 
     def _check_cells(self, block: Block, row: int, positions: Sequence[int]) -> None:
         cells = self.cells(row)
@@ -161,18 +191,6 @@ class TextSource:
                     block.columns[position].name or f"number {position + 1}",
                     value=cell,
                 )
-
-    def _missing_as_written(
-        self, block: Block, rows: list[int], positions: Sequence[int]
-    ) -> list[str]:
-        """Spellings of 'no value' that occur; all were checked by `_check_cells`."""
-        found = {""}
-        for row in rows:
-            cells = self.cells(row)
-            found.update(
-                cells[p] for p in positions if p < len(cells) and self.is_missing(cells[p])
-            )
-        return sorted(found)
 
     def _uses_thousands(self, text: str) -> bool:
         mark = self.dialect.thousands
@@ -230,6 +248,11 @@ class SheetSource:
     def cells(self, row: int) -> list[str]:
         """Cells of a row as text."""
         return [_text(cell) for cell in self.rows[row]]
+
+    @cached_property
+    def widths(self) -> list[int]:
+        """Number of cells of each row."""
+        return [len(row) for row in self.rows]
 
     def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
         """Columns of a block as numbers; a cell that is none raises with its place."""

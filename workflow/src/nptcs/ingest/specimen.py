@@ -16,6 +16,7 @@ from nptcs.ingest.conditioning import (
     cut_end,
     drop_empty_rows,
     empty_after_removal,
+    empty_spikes,
     mark_dead,
     zero_force,
 )
@@ -75,6 +76,8 @@ def ingest_specimen(
     load, strain = tables[0], tables[-1]
     signals = _pair(tables, specimen, settings)
     mark_dead(signals, settings.missing_values)
+    empty_spikes(signals, settings.missing_values)
+    _flag_time(signals)
     _require_force(signals, specimen, load)
     check_machine_area(signals, specimen, load, settings.plausible)
     source = resolve_strains(
@@ -91,6 +94,7 @@ def ingest_specimen(
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.area_mm2
     cut_end(signals, settings.end_of_test)
+    _require_rows(signals, specimen, strain)
     empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
     correct_origin(signals, settings.strain_origin, specimen.test.is_rubber)
     check_physics(signals, specimen, tables, settings.plausible)
@@ -147,6 +151,13 @@ def _require_force(signals: Signals, specimen: Specimen, table: RawTable) -> Non
             column=table.columns.get("force"),
             specimen=specimen.specimen,
         )
+
+
+def _flag_time(signals: Signals) -> None:
+    """Flag a time that goes back; it pairs files, but no property of one file rests on it."""
+    time = signals.values.get("time")
+    if time is not None and not (np.diff(time[~np.isnan(time)]) > 0).all():
+        signals.flags.append("time does not grow throughout")
 
 
 def _require_rows(signals: Signals, specimen: Specimen, table: RawTable) -> None:

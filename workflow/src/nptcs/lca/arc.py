@@ -22,9 +22,10 @@ STATE = ("u", "v", "phi", "n", "v_shear", "m")
 """Rows of every state vector: u_r/R, u_θ/R, Φ, N/GA, V/GA, M/(GA R)."""
 _ODD = np.array([False, True, True, False, True, False])
 """Rows that change their sign when the direction of θ does."""
-_CLOSEST_ROOTS = 1e-6
-"""Closest relative distance of two roots: moving them apart by so little changes the solution
-by its square, while a smaller distance would lose digits."""
+_CLOSEST = 1e-11
+"""Relative discriminant below which two real roots are taken as conjugate ones just as close: that
+changes the solution by as little, while real modes so close would lose digits and conjugate ones,
+being real and imaginary part, do not."""
 
 
 @dataclass(frozen=True)
@@ -56,9 +57,8 @@ class Foundation:
         """Solve the characteristic equation in r = λ² + 1: r² - a r + a + c = 0."""
         c = a * (epsilon + kappa2)
         discriminant = a * a / 4 - a - c
-        floor = _CLOSEST_ROOTS**2 * np.maximum(a * a / 4, a + c)
-        close = np.abs(discriminant) < floor
-        discriminant = np.where(close, np.copysign(floor, discriminant), discriminant)
+        floor = _CLOSEST * np.maximum(a * a / 4, a + c)
+        discriminant = np.where(np.abs(discriminant) < floor, -floor, discriminant)
         r1 = a / 2 + np.sqrt(discriminant.astype(complex))
         r = np.stack([r1, (a + c) / r1], axis=-1)
         roots = np.sqrt(np.stack([r1 - 1, (1 + c) / (r1 - 1)], axis=-1))

@@ -21,11 +21,13 @@ Target = Literal["force", "sinking", "contact_angle"]
 STEP = 1e-7
 """Relative step of θc and step of θt (radians) after which Newton's method, whose error is of the
 order of the step's square, has arrived."""
-MISFIT = 1e-11
+MISFIT = 1e-9
 """Largest relative misfit of the target, and of u(θt) to δ, in a solution."""
 LARGEST_CONTACT = np.radians(85)
 """Contact angles above are no tyre's; the flat constraint is singular at 90°."""
 NEWTON_STEPS, BRACKET_STEPS = 20, 80
+BRACKET_STEP = 1e-10
+"""Relative step after which a bracketed search, whose last steps are Newton's, has arrived."""
 
 
 @dataclass(frozen=True)
@@ -119,7 +121,7 @@ def _bracketed(
         new = np.where(rising & (new > low) & (new < high), new, (low + high) / 2)
         moved = np.abs(new - x)
         x = new
-        if np.all(moved <= 1e-14 * np.abs(x)):
+        if np.all(moved <= BRACKET_STEP * x):
             break
     return x
 

@@ -31,6 +31,8 @@ from nptcs.lca.spoke_law import SpokeLaw
 ContactSpokes = Literal["local", "paper"]
 _WIDEST, _MOST = 0.08, 600
 """Widest element (radians) and most elements on half a wheel."""
+_FEW_POINTS = 50
+"""Most inner points of a curve at which the elements are aligned with each of them."""
 SAME_ANGLE = 1e-9
 """Angles (radians) closer than this are one."""
 
@@ -159,7 +161,9 @@ def break_points(wheel: Wheel, left: Edge, right: Edge, field: CubicHermiteSplin
     if wheel.spoke_angles is not None:
         fixed.append(wheel.spoke_angles)
     elif field is not None:
-        knots = wheel.law.elongation_mm[1:-1] / wheel.section.radius_mm
+        inner = wheel.law.elongation_mm[1:-1]
+        # between the many points of a measured curve the curvature hardly jumps
+        knots = (inner if len(inner) <= _FEW_POINTS else np.zeros(1)) / wheel.section.radius_mm
         fixed += [field.solve(knot, extrapolate=False) for knot in knots]
     points = np.unique(np.concatenate(fixed))
     points = points[np.append(True, np.diff(points) > SAME_ANGLE)]
@@ -171,11 +175,11 @@ def break_points(wheel: Wheel, left: Edge, right: Edge, field: CubicHermiteSplin
         stiffest += slope.max()
     widest = max(min(_WIDEST, 1.5 / np.sqrt(stiffest)), np.pi / _MOST)
     pieces = np.ceil(np.diff(points) / widest).astype(int)
-    inner = [
+    parts = [
         np.linspace(a, b, n, endpoint=False)
         for a, b, n in zip(points[:-1], points[1:], pieces, strict=True)
     ]
-    return np.append(np.concatenate(inner), end)
+    return np.append(np.concatenate(parts), end)
 
 
 def press(
