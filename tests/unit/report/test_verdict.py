@@ -66,10 +66,11 @@ def test_a_report_of_an_earlier_run_is_set_aside(tmp_path, capsys):
     assert "report.stale.html" in capsys.readouterr().err
 
 
-def test_a_report_that_this_run_judged_stays(tmp_path):
+def test_a_report_that_this_run_judged_stays(tmp_path, capsys):
     renamed, report = run_that_failed(tmp_path, report_age=60, log_age=-5)
     assert not renamed
     assert report.exists()
+    assert "lists every problem at its top" in capsys.readouterr().err
 
 
 def test_a_report_that_this_run_built_stays(tmp_path):

@@ -29,12 +29,19 @@ def set_aside(files: Sequence[str | Path], verdict_log: str | Path, started: flo
     """
     log = Path(verdict_log)
     if log.is_file() and log.stat().st_mtime >= started:
+        print(f"{files[0]} is up to date and lists every problem at its top", file=sys.stderr)
         return []
     renamed = []
     for path in map(Path, files):
         if path.is_file() and path.stat().st_mtime < started:
-            stale = path.with_name(f"{path.stem}.stale{path.suffix}")
+            stale = stale_name(path)
             path.replace(stale)
             renamed.append(stale)
             print(f"{path} is of an earlier run; it is now {stale}", file=sys.stderr)
     return renamed
+
+
+def stale_name(path: str | Path) -> Path:
+    """Return the name of a report that is set aside."""
+    path = Path(path)
+    return path.with_name(f"{path.stem}.stale{path.suffix}")
