@@ -18,20 +18,10 @@ from pathlib import Path
 import pandas as pd
 
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.solvers.contract import CaseInputs
 from nptcs.solvers.fe_tyre import SOLVER, FeTyreOptions
 
-PLY = {
-    "e1_mpa": 128000.0,
-    "e2_mpa": 8800.0,
-    "e3_mpa": 8800.0,
-    "nu12": 0.357,
-    "nu13": 0.357,
-    "nu23": 0.35,
-    "g12_mpa": 3147.0,
-    "g13_mpa": 3147.0,
-    "g23_mpa": 2300.0,
-}
 PLATE_STUDY = {"shear_band_c10_mpa": 5.0, "spoke_c10_mpa": 1.04}
 RUBBER_STUDY = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg", "shear_band_c10_mpa", "spoke_c10_mpa")
@@ -56,7 +46,7 @@ def compute(number: int, values: dict[str, float], cache: Path) -> dict[str, obj
     start = time.process_time()
     options = FeTyreOptions(spoke_cache=cache)
     result = SOLVER.solve(
-        CaseInputs(f"case_{number:03d}", values, 5000.0, TyreGeometry(), options, ply=PLY)
+        CaseInputs(f"case_{number:03d}", values, 5000.0, TyreGeometry(), options, ply=PUBLISHED_PLY)
     )
     return {
         "number": number,

@@ -1,19 +1,15 @@
 import pytest
 
-PLY = {
-    "e1_mpa": 128000.0,
-    "e2_mpa": 8800.0,
-    "e3_mpa": 8800.0,
-    "nu12": 0.357,
-    "nu13": 0.357,
-    "nu23": 0.35,
-    "g12_mpa": 3147.0,
-    "g13_mpa": 3147.0,
-    "g23_mpa": 2300.0,
-}
+from nptcs.fe.calibration import PUBLISHED_PLY
 
 
 @pytest.fixture(scope="session")
-def ply():
+def published_ply():
     """Table 2 of the paper."""
-    return dict(PLY)
+    return dict(PUBLISHED_PLY)
+
+
+@pytest.fixture
+def ply(published_ply):
+    """Give a copy that a test may change."""
+    return dict(published_ply)

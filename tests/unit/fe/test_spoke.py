@@ -26,10 +26,8 @@ def design(ply, **change):
 
 
 @pytest.fixture(scope="module")
-def model():
-    from conftest import PLY
-
-    return SpokeModel(design(dict(PLY)))
+def model(published_ply):
+    return SpokeModel(design(published_ply))
 
 
 def test_the_mesh_fills_the_section(ply):

@@ -1,17 +1,17 @@
 import numpy as np
 import pytest
-from conftest import PLY
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.fe import FeModel, SpokeGeometry, SpokeMesh, SpokeTableOptions
 from nptcs.fe.cache import read_table, shared_table, table_key
+from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
 
 OPTIONS = SpokeTableOptions(
     u_r_mm=(-6.0, 3.0), u_theta_mm=(-2.0, 2.0), phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
-    degrees=(6, 4),
+    degrees=(6, 4), narrowing=1.0,
 )  # fmt: skip
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 
@@ -76,7 +76,7 @@ def spoke_design(**change):
         "thickness_mm": 1.8,
         "angle_deg": 45.0,
         "c10_mpa": 1.0,
-        "ply": PLY,
+        "ply": PUBLISHED_PLY,
         "width_mm": 215.0,
     }
     return SpokeDesign(**{**values, **change})
@@ -114,7 +114,7 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
 
 def test_every_part_of_the_design_is_in_the_key():
     base = table_key(spoke_design(), OPTIONS)
-    other_ply = {**PLY, "g23_mpa": 2301.0}
+    other_ply = {**PUBLISHED_PLY, "g23_mpa": 2301.0}
     changes = [
         {"angle_deg": 46.0},
         {"ply": other_ply},

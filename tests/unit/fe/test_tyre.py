@@ -24,7 +24,9 @@ def springs(k_r=20.0, k_theta=1.0, k_phi=3000.0, low=-40.0):
         exponents.append(tuple(2 * int(i == axis) for i in range(3)))
         coefficients.append(scale)
         coefficients[0] += scale
-    return SpokeTable(limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 0.0)
+    return SpokeTable(
+        limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 1.0, 0.0
+    )
 
 
 def tyre(table=None, contact=None, mesh=MESH):

@@ -112,17 +112,26 @@ class SpokeTableOptions(Strict):
     """Range and sampling of the spoke's energy table."""
 
     u_r_mm: tuple[float, float] = Field(
-        (-40.0, 8.0), description="Radial displacement of the band, outward positive"
+        (-32.0, 8.0),
+        description="Radial displacement of the band, outward positive; a spoke that loses its "
+        "stability before the lower end has a shorter table",
     )
     u_theta_mm: tuple[float, float] = Field(
-        (-12.0, 12.0), description="Circumferential displacement of the band"
+        (-11.0, 11.0), description="Circumferential displacement of the band"
     )
-    phi_rad: tuple[float, float] = Field((-0.12, 0.12), description="Rotation of the band")
+    phi_rad: tuple[float, float] = Field((-0.13, 0.13), description="Rotation of the band")
+    narrowing: float = Field(
+        0.5,
+        gt=0,
+        le=1,
+        description="Part of the ranges of u_θ and φ that is left at the lowest u_r, linear from "
+        "u_r = 0: the most compressed spokes stand on the ground and hardly turn",
+    )
     samples: tuple[int, int, int] = Field(
-        (9, 3, 3), description="Numbers of states computed along u_r, u_θ and φ"
+        (8, 3, 3), description="Numbers of states computed along u_r, u_θ and φ"
     )
     degrees: tuple[int, int] = Field(
-        (12, 5), description="Polynomial degree in u_r, and total degree in u_θ and φ"
+        (11, 5), description="Polynomial degree in u_r, and total degree in u_θ and φ"
     )
 
     @model_validator(mode="after")

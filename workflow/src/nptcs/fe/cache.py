@@ -65,6 +65,7 @@ def write_table(path: Path, table: SpokeTable) -> None:
             high=table.high,
             exponents=table.exponents,
             coefficients=table.coefficients,
+            narrowing=np.array(table.narrowing),
             force_residual_n=np.array(table.force_residual_n),
         )
 
@@ -77,5 +78,6 @@ def read_table(path: Path) -> SpokeTable:
             data["high"],
             data["exponents"],
             data["coefficients"],
+            float(data["narrowing"]),
             float(data["force_residual_n"]),
         )

@@ -191,3 +191,14 @@ def total_forces(dat_text: str) -> Array:
     if not found:
         raise ValueError("the CalculiX result holds no total force of the set NTOP")
     return np.array(found, dtype=float)
+
+
+def complaints(output: str) -> str:
+    """Return the warnings and errors in what CalculiX printed, or an empty text.
+
+    CalculiX ignores keywords that it does not know with a warning and exit code 0, so a warning
+    means that another model was solved.
+    """
+    lines = [line.strip() for line in output.splitlines()]
+    starts = [i for i, line in enumerate(lines) if re.match(r"\*(WARNING|ERROR)", line)]
+    return " | ".join(" ".join(lines[i : i + 3]) for i in starts)

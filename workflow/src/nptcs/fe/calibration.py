@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from nptcs.config.fe import FeModel
+from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
 from nptcs.fe.spoke import SpokeModel
@@ -37,6 +37,30 @@ FREE = (
     "foot_thickness_mm",
     "plate_foot_gap_mm",
     "plate_mid_gap_mm",
+)
+# table 2 of the paper
+PUBLISHED_PLY = {
+    "e1_mpa": 128000.0,
+    "e2_mpa": 8800.0,
+    "e3_mpa": 8800.0,
+    "nu12": 0.357,
+    "nu13": 0.357,
+    "nu23": 0.35,
+    "g12_mpa": 3147.0,
+    "g13_mpa": 3147.0,
+    "g23_mpa": 2300.0,
+}
+# where the calibration of the defaults began
+START = FeModel(
+    geometry=SpokeGeometry(
+        leg_angle_deg=25.5,
+        leg_thickness_mm=2.6,
+        block_thickness_mm=11.0,
+        block_half_length_mm=5.0,
+        foot_thickness_mm=7.0,
+        plate_foot_gap_mm=2.7,
+        plate_mid_gap_mm=2.5,
+    )
 )
 # K_tyre ∝ k_spoke^0.53 over the published tables
 EXPONENT = 0.53

@@ -17,7 +17,7 @@ from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
 Array = NDArray[np.float64]
 
 MAX_ITERATIONS = 14
-SMALLEST_CUT = 1.0 / 64.0
+SMALLEST_CUT = 1.0 / 16.0
 
 
 class SpokeError(RuntimeError):
@@ -155,7 +155,7 @@ class SpokeModel:
         Raises
         ------
         SpokeError
-            If steps of 1/64 of the way still fail; the message gives the last motion reached.
+            If steps of 1/16 of the way still fail; the message gives the last motion reached.
         """
         done, step = 0.0, 1.0
         start = state.motion
@@ -174,7 +174,7 @@ class SpokeModel:
         return state
 
     def follow(self, history: Sequence[SpokeState], motion: Array) -> SpokeState:
-        """Continue a row of equilibria that differ in u_r only.
+        """Continue a row of equilibria on a straight line of motions.
 
         The guess extrapolates the cubic through the last two states and their derivatives; where
         it does not converge, `move` goes on from the last state.
@@ -194,13 +194,13 @@ class SpokeModel:
 
     def _cubic_guess(self, history: Sequence[SpokeState], motion: Array) -> Array:
         before, last = history[-2:]
-        length = last.motion[0] - before.motion[0]
-        t = (motion[0] - before.motion[0]) / length
+        way = last.motion - before.motion
+        t = float((motion - before.motion) @ way / (way @ way))
         values = (1.0 - t) ** 2 * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t)
-        slopes = length * t * (1.0 - t) ** 2, length * t * t * (t - 1.0)
+        slopes = t * (1.0 - t) ** 2, t * t * (t - 1.0)
         guess = values[0] * before.displacement + values[1] * last.displacement
         inner = guess.reshape(-1)[self._free]
-        inner += slopes[0] * before.sensitivity[:, 0] + slopes[1] * last.sensitivity[:, 0]
+        inner += slopes[0] * (before.sensitivity @ way) + slopes[1] * (last.sensitivity @ way)
         guess[self.mesh.top] = self.band_motion(motion)
         return guess
 

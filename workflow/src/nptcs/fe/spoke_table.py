@@ -15,7 +15,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from nptcs.config.fe import SpokeTableOptions
-from nptcs.fe.spoke import SpokeModel, SpokeState
+from nptcs.fe.spoke import SpokeError, SpokeModel, SpokeState
 
 Array = NDArray[np.float64]
 
@@ -49,6 +49,8 @@ class SpokeTable:
         Chebyshev degree of each term in each direction.
     coefficients : array (terms,)
         N mm.
+    narrowing : float
+        Part of the ranges of u_θ and φ that is left at the lowest u_r, linear from u_r = 0.
     force_residual_n : float
         Root mean square misfit of the radial force at the sampled states.
     """
@@ -57,6 +59,7 @@ class SpokeTable:
     high: Array
     exponents: NDArray[np.int64]
     coefficients: Array
+    narrowing: float
     force_residual_n: float
 
     def evaluate(self, motion: Array) -> tuple[Array, Array, Array]:
@@ -82,12 +85,15 @@ class SpokeTable:
         return energy, force, tangent
 
     def _check(self, motion: Array) -> None:
-        outside = (motion < self.low) | (motion > self.high) | ~np.isfinite(motion)
+        part = side_part(motion[:, 0], self.low[0], self.narrowing)
+        shrink = np.stack([np.ones_like(part), part, part], axis=1)
+        low, high = self.low * shrink, self.high * shrink
+        outside = (motion < low) | (motion > high) | ~np.isfinite(motion)
         if outside.any():
             spoke, axis = np.argwhere(outside)[0]
             raise TableRangeError(
                 f"spoke {spoke}: {NAMES[axis]} = {motion[spoke, axis]:.4g} is outside the table's "
-                f"range {self.low[axis]:g} … {self.high[axis]:g}"
+                f"range {low[spoke, axis]:.4g} … {high[spoke, axis]:.4g} there"
             )
 
 
@@ -124,9 +130,25 @@ def chebyshev_nodes(low: float, high: float, count: int) -> Array:
     return 0.5 * (low + high) + 0.5 * (high - low) * unit
 
 
+def side_part(u_r: Array, lowest: float, narrowing: float) -> Array:
+    """Part of the ranges of u_θ and φ that the table covers at these u_r."""
+    part: Array = 1.0 - (1.0 - narrowing) * np.clip(u_r / lowest, 0.0, 1.0)
+    return part
+
+
 def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
-    """Compute the spoke's states on the table's grid, walking from neighbour to neighbour."""
-    states = list(_walk(model, options))
+    """Compute the spoke's states on the table's grid, walking from neighbour to neighbour.
+
+    Where a row loses its stability in compression, the samples of all rows end at its last level.
+
+    Raises
+    ------
+    SpokeError
+        If a state in tension or of the unloaded radius is not found.
+    """
+    rows = list(_rows(model, options))
+    lowest = max(min(state.motion[0] for state in row) for row in rows)
+    states = [state for row in rows for state in row if state.motion[0] >= lowest - 1e-9]
     return SpokeSamples(
         motion=np.array([state.motion for state in states]),
         energy=np.array([state.energy for state in states]),
@@ -135,8 +157,8 @@ def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
     )
 
 
-def _walk(model: SpokeModel, options: SpokeTableOptions) -> Iterator[SpokeState]:
-    """For each (u_θ, φ): from u_r = 0 along u_r to both ends, guessing from the last two."""
+def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeState]]:
+    """For each (u_θ, φ): straight rows from u_r = 0 to both ends, each state from the last two."""
     radial = chebyshev_nodes(*options.u_r_mm, options.samples[0])
     sides = [
         chebyshev_nodes(*limits, count)
@@ -147,11 +169,25 @@ def _walk(model: SpokeModel, options: SpokeTableOptions) -> Iterator[SpokeState]
     rest = model.rest()
     for u_theta, phi in product(*sides):
         start = model.move(rest, np.array([0.0, u_theta, phi]))
-        for heights in (radial[radial > 0.0], radial[radial < 0.0][::-1]):
-            history = [start]
-            for u_r in heights:
-                history.append(model.follow(history, np.array([u_r, u_theta, phi])))
-                yield history[-1]
+        states = list(_row(model, options, start, radial[radial > 0.0]))
+        try:
+            for state in _row(model, options, start, radial[radial < 0.0][::-1]):
+                states.append(state)
+        except SpokeError:
+            # the spoke buckles: `sample` ends the table at the last level that all rows reach
+            pass
+        yield states
+
+
+def _row(
+    model: SpokeModel, options: SpokeTableOptions, start: SpokeState, heights: Array
+) -> Iterator[SpokeState]:
+    history = [start]
+    parts = side_part(heights, options.u_r_mm[0], options.narrowing)
+    for u_r, part in zip(heights, parts, strict=True):
+        motion = np.array([u_r, part * start.motion[1], part * start.motion[2]])
+        history.append(model.follow(history, motion))
+        yield history[-1]
 
 
 def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
@@ -160,6 +196,8 @@ def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
     All data enter in units of energy: forces times the half range, tangents times its square.
     """
     low, high = np.array([options.u_r_mm, options.u_theta_mm, options.phi_rad]).T
+    low[0] = samples.motion[:, 0].min()
+    narrowing = float(side_part(low[:1], options.u_r_mm[0], options.narrowing)[0])
     half = 0.5 * (high - low)
     local = (samples.motion - low) / half - 1.0
     radial, side = options.degrees
@@ -184,4 +222,4 @@ def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
         )
     force = _term(lines, _order(0)) @ coefficients / half[0]
     residual = float(np.sqrt(np.mean((force - samples.force[:, 0]) ** 2)))
-    return SpokeTable(low, high, exponents, coefficients.astype(float), residual)
+    return SpokeTable(low, high, exponents, coefficients.astype(float), narrowing, residual)

@@ -1,0 +1,132 @@
+import sys
+
+import pytest
+
+from nptcs.config.fe import SpokeMesh, SpokeTableOptions, TyreMesh
+from nptcs.config.tyre import TyreGeometry
+from nptcs.errors import InputError
+from nptcs.fe.calculix import complaints
+from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.solvers import calculix, fe_spoke, fe_tyre
+from nptcs.solvers.contract import CaseInputs, Status
+
+VALUES = {
+    "spacing_mm": 15.0,
+    "thickness_mm": 1.8,
+    "angle_deg": 45.0,
+    "spoke_c10_mpa": 3.0,
+    "shear_band_c10_mpa": 5.0,
+}
+COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
+TABLE = SpokeTableOptions(
+    u_r_mm=(-12.0, 5.0), u_theta_mm=(-5.0, 5.0), phi_rad=(-0.08, 0.08), samples=(4, 3, 3),
+    degrees=(6, 4),
+)  # fmt: skip
+TYRE_OPTIONS = {"spoke_mesh": COARSE, "table": TABLE, "tyre_mesh": TyreMesh(gap_elements=1)}
+
+
+def inputs(options, values=VALUES, load_n=800.0, ply=PUBLISHED_PLY):
+    return CaseInputs("case_1", values, load_n, TyreGeometry(), options, ply=ply)
+
+
+def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path):
+    options = fe_tyre.FeTyreOptions(spoke_cache=tmp_path, load_steps=3, **TYRE_OPTIONS)
+    first = fe_tyre.solve(inputs(options))
+    assert first.status is Status.OK
+    assert first.curve["force_n"][-1] == pytest.approx(800.0)
+    assert first.curve["displacement_mm"][-1] == pytest.approx(first.displacement_mm)
+    assert first.vertical_stiffness_n_per_mm == pytest.approx(800.0 / first.displacement_mm)
+    assert 100.0 < first.vertical_stiffness_n_per_mm < 1500.0
+    assert first.extra["smallest_u_r_mm"] > -first.displacement_mm
+    files = sorted(tmp_path.iterdir())
+    again = fe_tyre.solve(inputs(options))
+    assert sorted(tmp_path.iterdir()) == files
+    assert again.vertical_stiffness_n_per_mm == first.vertical_stiffness_n_per_mm
+    soft = fe_tyre.solve(inputs(options, {**VALUES, "shear_band_c10_mpa": 4.0}))
+    assert sorted(tmp_path.iterdir()) == files
+    assert soft.vertical_stiffness_n_per_mm < first.vertical_stiffness_n_per_mm
+
+
+def test_a_tyre_that_leaves_its_table_is_diverged_with_its_last_point(tmp_path):
+    narrow = TABLE.model_copy(update={"u_r_mm": (-1.0, 5.0)})
+    options = fe_tyre.FeTyreOptions(load_steps=3, **{**TYRE_OPTIONS, "table": narrow})
+    result = fe_tyre.solve(inputs(options, load_n=5000.0))
+    assert result.status is Status.DIVERGED
+    assert "outside the table" in result.message
+    assert 0.0 < result.curve["force_n"][-1] < 5000.0
+    assert result.vertical_stiffness_n_per_mm is None
+
+
+def test_fe_spoke_gives_curve_and_lines():
+    result = fe_spoke.solve(inputs(fe_spoke.FeSpokeOptions(spoke_mesh=COARSE)))
+    assert result.status is Status.OK
+    assert len(result.curve["force_n"]) == 57
+    assert result.curve["displacement_mm"][0] == -20.0
+    extra = result.extra
+    assert extra["tension_stiffness_n_per_mm"] > extra["compression_stiffness_n_per_mm"] > 0.0
+    assert extra["tension_r2_centred"] < extra["tension_r2_uncentred"]
+
+
+@pytest.mark.parametrize(
+    ("change", "column"),
+    [({"spacing_mm": 4.0}, "spacing_mm"), ({"spoke_c10_mpa": -1.0}, "spoke_c10_mpa")],
+)
+def test_values_without_meaning_are_refused(change, column):
+    with pytest.raises(InputError) as caught:
+        fe_tyre.solve(inputs(fe_tyre.FeTyreOptions(), {**VALUES, **change}))
+    assert caught.value.column == column
+
+
+def test_missing_values_and_plies_are_refused():
+    values = {name: value for name, value in VALUES.items() if name != "angle_deg"}
+    with pytest.raises(InputError, match="angle_deg"):
+        fe_spoke.solve(inputs(fe_spoke.FeSpokeOptions(), values))
+    with pytest.raises(InputError, match="g23_mpa"):
+        fe_spoke.solve(inputs(fe_spoke.FeSpokeOptions(), ply={"e1_mpa": 1.0}))
+
+
+def fake_ccx(tmp_path, body):
+    script = tmp_path / "fake.py"
+    script.write_text(f"import sys, time, pathlib\n{body}\n")
+    return (sys.executable, str(script))
+
+
+def calculix_case(tmp_path, body, **options):
+    command = fake_ccx(tmp_path, body)
+    chosen = calculix.CalculixOptions(spoke_mesh=COARSE, command=command, **options)
+    return calculix.solve(inputs(chosen))
+
+
+def test_a_warning_of_calculix_is_fatal(tmp_path):
+    result = calculix_case(tmp_path, "print('*WARNING reading *EMBEDDED: card ignored')")
+    assert result.status is Status.ERROR
+    assert "card ignored" in result.message
+
+
+def test_calculix_that_stops_early_hangs_or_is_missing_has_a_status(tmp_path):
+    early = calculix_case(tmp_path, "sys.exit(3)")
+    assert (early.status, "code 3" in early.message) == (Status.DIVERGED, True)
+    assert calculix_case(tmp_path, "time.sleep(20)", timeout_s=0.5).status is Status.TIMEOUT
+    missing = calculix.CalculixOptions(command=("no-such-ccx",))
+    assert calculix.solve(inputs(missing)).status is Status.ERROR
+
+
+def test_calculix_results_are_scaled_to_the_whole_spoke(tmp_path):
+    body = (
+        "assert 'C3D20R' in pathlib.Path(sys.argv[1] + '.inp').read_text()\n"
+        "text = ''\n"
+        "for u in (1, 2, 3, 4, -5, -10, -15, -20):\n"
+        "    text += ' total force (fx,fy,fz) for set NTOP and time 1.\\n\\n'\n"
+        "    text += f' 0.0E+00 0.0E+00 {2.0 * u:.6E}\\n'\n"
+        "pathlib.Path(sys.argv[1] + '.dat').write_text(text)"
+    )
+    result = calculix_case(tmp_path, body)
+    assert result.status is Status.OK
+    wanted = 2.0 * 215.0 / 15.0
+    assert result.extra["tension_stiffness_n_per_mm"] == pytest.approx(wanted)
+    assert result.extra["compression_stiffness_n_per_mm"] == pytest.approx(wanted)
+
+
+def test_complaints_are_found_at_the_start_of_a_line():
+    assert complaints("all well\n no *WARNING here\n") == ""
+    assert "*ERROR" in complaints("x\n *ERROR in gen3delem\n stop\n")

@@ -1,0 +1,156 @@
+"""``nptcs fe-calibrate``: fit the spoke's section to table 10 and named cases of table 5."""
+
+from __future__ import annotations
+
+import argparse
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    import pandas
+
+    from nptcs.fe.calibration import Problem, Round
+
+# fiducial, and the corners of spacing with the softest and the stiffest plates
+CASES = (32, 49, 15, 7, 57)
+COLUMNS = {
+    "table10": (
+        "spoke_c10_mpa",
+        "tension_stiffness_n_per_mm",
+        "compression_stiffness_n_per_mm",
+    ),
+    "table5": ("case", "spacing_mm", "thickness_mm", "angle_deg", "stiffness_n_per_mm"),
+}
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "fe-calibrate",
+        help="fit the finite element spoke's section to published stiffness",
+        description="Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
+        "and 5) and to at most five named cases of table 5. Prints what each round gives against "
+        "what was asked for, and the section as JSON for solvers.fe_tyre.geometry.",
+    )
+    parser.add_argument("table10", metavar="TABLE10.csv", help="spoke stiffness")
+    parser.add_argument("table5", metavar="TABLE5.csv", help="tyre stiffness by plate")
+    parser.add_argument(
+        "--cases", type=int, nargs="+", default=CASES, help="cases of table 5, at most five"
+    )
+    parser.add_argument("--rounds", type=int, default=4, help="Gauss–Newton steps")
+    parser.add_argument("--workers", type=int, default=2, help="processes")
+    parser.add_argument(
+        "--band-c10", type=float, default=5.0, help="band's C10 in table 5, which does not say"
+    )
+    parser.add_argument(
+        "--spoke-c10", type=float, default=1.04, help="spokes' C10 in table 5, which does not say"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Calibrate and print."""
+    from nptcs.fe.calibration import calibrate
+
+    problem = build_problem(arguments)
+    model = calibrate(
+        problem, arguments.rounds, arguments.workers, lambda state: _report(problem, state)
+    )
+    print(model.geometry.model_dump_json(indent=2))
+    return 0
+
+
+def build_problem(arguments: argparse.Namespace) -> Problem:
+    """Read the targets.
+
+    Raises
+    ------
+    InputError
+        If a table lacks a column or a case, or more than five cases are named.
+    """
+    from nptcs.config.tyre import TyreGeometry
+    from nptcs.errors import InputError
+    from nptcs.fe.calibration import (
+        PUBLISHED_PLY,
+        START,
+        Problem,
+        SpokeTarget,
+        TyreTarget,
+    )
+
+    if len(arguments.cases) > 5:
+        raise InputError(
+            "more than five cases of table 5 leave too few to predict",
+            "name at most five",
+            column="--cases",
+            value=list(arguments.cases),
+        )
+    spokes = _read(arguments.table10, COLUMNS["table10"]).set_index("spoke_c10_mpa")
+    tyres = _read(arguments.table5, COLUMNS["table5"]).set_index("case")
+    missing = sorted(set(arguments.cases) - set(tyres.index)) + sorted({1, 5} - set(spokes.index))
+    if missing:
+        raise InputError("these cases or C10 are not in the tables", value=missing)
+    fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
+    k_t, k_c = (spokes[name].astype(float).to_dict() for name in COLUMNS["table10"][1:])
+    rubbers = {"shear_band_c10_mpa": arguments.band_c10, "spoke_c10_mpa": arguments.spoke_c10}
+    return Problem(
+        START,
+        TyreGeometry(),
+        PUBLISHED_PLY,
+        tuple(
+            SpokeTarget(
+                {**fiducial, "spoke_c10_mpa": float(c10)},
+                k_t[c10],
+                k_c[c10],
+            )
+            for c10 in (1, 5)
+        ),
+        tuple(
+            TyreTarget(
+                {**{name: float(tyres.loc[case, name]) for name in fiducial}, **rubbers},
+                float(tyres.loc[case, "stiffness_n_per_mm"]),
+            )
+            for case in arguments.cases
+        ),
+        5000.0,
+    )
+
+
+def _read(path: str, columns: tuple[str, ...]) -> pandas.DataFrame:
+    import pandas as pd
+
+    from nptcs.errors import InputError
+
+    try:
+        table = pd.read_csv(path)
+    except (OSError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
+        raise InputError(f"no CSV table: {error}", "name a published table", file=path) from error
+    lacking = [name for name in columns if name not in table.columns]
+    if lacking:
+        raise InputError("the table lacks columns", file=path, value=lacking)
+    return table
+
+
+def _report(problem: Problem, state: Round) -> None:
+    """Print one round: dimensions, then computed against wanted."""
+    import numpy as np
+
+    from nptcs.fe.calibration import FREE
+
+    pairs = zip(FREE, np.exp(state.free), strict=True)
+    print("section: " + ", ".join(f"{name} {value:.3f}" for name, value in pairs))
+    for target, (tension, compression) in zip(
+        problem.spokes, state.spoke_stiffness[: len(problem.spokes)], strict=True
+    ):
+        print(
+            f"  spoke C10 {target.values['spoke_c10_mpa']:g}: k_t {tension:.2f} "
+            f"(wanted {target.tension_n_per_mm:g}), k_c {compression:.2f} "
+            f"(wanted {target.compression_n_per_mm:g}) N/mm"
+        )
+    for case, stiffness in zip(problem.tyres, state.tyre_stiffness, strict=True):
+        wanted, values = case.stiffness_n_per_mm, case.values
+        print(
+            f"  tyre S {values['spacing_mm']:g} T {values['thickness_mm']:g} "
+            f"A {values['angle_deg']:g}: K {stiffness:.2f} (wanted {wanted:g}) N/mm, "
+            f"{100.0 * (stiffness / wanted - 1.0):+.2f} %",
+            flush=True,
+        )

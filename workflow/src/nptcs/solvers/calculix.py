@@ -1,0 +1,102 @@
+"""Solver ``calculix``: the spoke of ``fe_spoke`` with meshed plies, solved by the user's ccx."""
+
+from __future__ import annotations
+
+import subprocess
+import tempfile
+from pathlib import Path
+
+import numpy as np
+from pydantic import Field
+
+from nptcs.config.fe import FeModel
+from nptcs.fe.calculix import complaints, spoke_deck, total_forces, true_thickness
+from nptcs.fe.case import spoke_design
+from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM, fit_through_origin
+from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
+
+STEPS = 4
+
+
+class CalculixOptions(SolverOptions, FeModel):
+    """Options of ``calculix``: the spoke's model and the command that solves it."""
+
+    command: tuple[str, ...] = Field(
+        ("ccx",), min_length=1, description="Command; the job's name is added as its last argument"
+    )
+
+
+def solve(inputs: CaseInputs) -> SolverResult:
+    """Pull and press one spoke with CalculiX; table 10's lines through the origin.
+
+    Raises
+    ------
+    InputError
+        If a value of the case is missing or has no meaning.
+    """
+    options: CalculixOptions = inputs.options
+    values = checked_values(inputs, SPOKE_FACTORS)
+    design = spoke_design(options, inputs.tyre, ply_constants(inputs), values)
+    pulled = np.linspace(0.0, TENSION_MM, STEPS + 1)[1:]
+    pressed = np.linspace(0.0, COMPRESSION_MM, STEPS + 1)[1:]
+    deck = spoke_deck(true_thickness(design), [*pulled.tolist(), *(-pressed).tolist()])
+    with tempfile.TemporaryDirectory(prefix="nptcs-ccx-") as folder:
+        (Path(folder) / "spoke.inp").write_text(deck, encoding="ascii")
+        try:
+            run = subprocess.run(
+                [*options.command, "spoke"],
+                cwd=folder,
+                capture_output=True,
+                text=True,
+                timeout=options.timeout_s,
+                check=False,
+            )
+        except subprocess.TimeoutExpired:
+            return SolverResult(
+                status=Status.TIMEOUT, message=f"no end after {options.timeout_s:g} s"
+            )
+        except FileNotFoundError:
+            return SolverResult(
+                status=Status.ERROR, message=f"command not found: {options.command[0]}"
+            )
+        if found := complaints(run.stdout + run.stderr):
+            return SolverResult(status=Status.ERROR, message=found)
+        answer = Path(folder) / "spoke.dat"
+        force = total_forces(answer.read_text()) if answer.exists() else np.empty((0, 3))
+    if run.returncode != 0 or len(force) < 2 * STEPS:
+        return SolverResult(
+            status=Status.DIVERGED,
+            message=f"ccx ended with code {run.returncode} after {len(force)} of {2 * STEPS} steps",
+        )
+    radial = force[:, 2] * design.periods
+    return _result(pulled, radial[:STEPS], pressed, -radial[STEPS:])
+
+
+def _result(
+    pulled: np.ndarray, pull_force: np.ndarray, pressed: np.ndarray, press_force: np.ndarray
+) -> SolverResult:
+    tension = fit_through_origin(pulled, pull_force)
+    compression = fit_through_origin(pressed, press_force)
+    return SolverResult(
+        status=Status.OK,
+        extra={
+            "tension_stiffness_n_per_mm": tension.slope,
+            "compression_stiffness_n_per_mm": compression.slope,
+        },
+        curve={
+            "displacement_mm": [*(-pressed[::-1]).tolist(), 0.0, *pulled.tolist()],
+            "force_n": [*(-press_force[::-1]).tolist(), 0.0, *pull_force.tolist()],
+        },
+    )
+
+
+SOLVER = Solver(
+    name="calculix",
+    version="1",
+    solve=solve,
+    factors=SPOKE_FACTORS,
+    required=SPOKE_FACTORS,
+    options=CalculixOptions,
+    needs_ply=True,
+)
