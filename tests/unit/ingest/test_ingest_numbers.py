@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import pytest
-from hypothesis import given
+from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.errors import InputError
@@ -82,6 +82,7 @@ def test_decimal_comma_in_comma_separated_quotes(read):
     assert read("\n".join(lines)).values["force"] == pytest.approx([n + 0.25 for n in range(6)])
 
 
+@settings(max_examples=60)
 @given(
     numbers=st.lists(
         st.tuples(*[st.floats(-1e6, 1e6, allow_nan=False).map(lambda x: round(x, 5))] * 3),

@@ -44,14 +44,16 @@ def read_labels(
     found: dict[str, LabelValue] = {}
     for index, cells in enumerate(rows):
         for label, value in {
-            **_in_columns(rows, index, profile, dialect),
             **_in_row(cells, profile, dialect),
+            **_in_columns(rows, index, profile, dialect),
         }.items():
             found.setdefault(label, value)
     return found
 
 
 def _label_of(name: str, profile: FormatProfile) -> str | None:
+    """Find the label that a key stands for; ``Group : Name`` counts as ``Name``."""
+    name = name.rsplit(" : ", 1)[-1]
     for label, names in profile.labels.items():
         if any(name_matches(name, known) for known in names):
             return label

@@ -99,9 +99,7 @@ def _shift(block: Block, names: list[str], unnamed: str) -> int:
 def _groups(cells: list[str], width: int) -> list[str]:
     """Labels above the names, carried on to the right, if the row is one of labels."""
     filled = [cell for cell in cells if cell.strip()]
-    if len(cells) < 2 or not filled or any(is_unit(cell) for cell in filled):
-        return []
-    if len(cells) < width - 1 and len(filled) < 2:
+    if not filled or len(cells) < max(2, width - 1) or any(is_unit(cell) for cell in filled):
         return []
     labels, label = [], ""
     for position in range(width):
