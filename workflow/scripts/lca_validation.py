@@ -2,19 +2,25 @@
 
 from typing import Any
 
-import pandas as pd
-
 from nptcs.config.tyre import TyreGeometry
 from nptcs.console import clear_errors
 from nptcs.lca.validation import lca_against_fem, lca_validation, ring_shapes
-from nptcs.tables.io import write_table
+from nptcs.tables.io import read_table, write_table
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
+from nptcs.tables.published import LcaAgainstFemPrinted, LoadErrors, RubberCases, SpokeStiffness
+
+CONTRACTS = {
+    "spoke_stiffness": SpokeStiffness,
+    "published": LcaAgainstFemPrinted,
+    "published_loads": LoadErrors,
+    "published_fem": RubberCases,
+}
 
 
 def validate(job: dict[str, Any], source: dict[str, str], output: dict[str, str]) -> None:
     tyre = TyreGeometry.model_validate(job["tyre"])
     band_c10_mpa = job["settings"]["shear_band_c10_mpa"]
-    read = {name: pd.read_csv(path) for name, path in source.items()}
+    read = {name: read_table(source[name], contract) for name, contract in CONTRACTS.items()}
     spokes, table_11 = read["spoke_stiffness"], read["published"]
     rows = lca_validation(
         spokes, table_11, read["published_loads"], tyre, shear_band_c10_mpa=band_c10_mpa

@@ -11,10 +11,9 @@ from nptcs.sensitivity import impact
 from nptcs.surface.stored import load
 from nptcs.tables.cases import Design
 from nptcs.tables.impact import Impact, with_published
-from nptcs.tables.io import read_table, write_table
+from nptcs.tables.io import empty_table, read_table, write_table
+from nptcs.tables.published import PrintedImpact
 from nptcs.tables.surface import SurfaceQuality
-
-PRINTED = ["study", "factor", "gradient", "range", "impact"]
 
 
 def assess(
@@ -28,7 +27,7 @@ def assess(
     ]
     columns = ["solver", "study", "factor", "rule", "gradient", "range", "impact"]
     ours = pd.concat(tables) if tables else pd.DataFrame(columns=columns)
-    printed = pd.read_csv(published) if published else pd.DataFrame(columns=PRINTED)
+    printed = read_table(published, PrintedImpact) if published else empty_table(PrintedImpact)
     return with_published(ours, printed)
 
 

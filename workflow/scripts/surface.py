@@ -11,13 +11,14 @@ from nptcs.surface.fit import Surface, fit
 from nptcs.surface.quality import assess
 from nptcs.surface.stored import dump
 from nptcs.tables.cases import cases_table
-from nptcs.tables.io import write_table
+from nptcs.tables.io import read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
+from nptcs.tables.published import PrintedCoefficients
 from nptcs.tables.surface import (
     SurfaceQuality,
     SurfaceTable,
+    by_powers,
     quality_table,
-    read_published_coefficients,
     surface_table,
 )
 
@@ -27,7 +28,9 @@ def fit_surfaces(
 ) -> None:
     cases = cases_table(read_records(list(records)))
     factors = [factor["name"] for factor in study["factors"]]
-    printed = read_published_coefficients(published, factors)
+    printed = {}
+    if published is not None:
+        printed = by_powers(read_table(published, PrintedCoefficients), factors)
     surfaces: dict[str, Surface] = {}
     quality = {}
     problems = []

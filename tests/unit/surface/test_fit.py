@@ -192,6 +192,8 @@ def test_too_few_cases_and_constant_factors_are_refused():
     few = pd.DataFrame({"a": [1.0, 2.0]})
     with pytest.raises(InputError, match="2 solved cases cannot carry 2 terms"):
         fit(few, pd.Series([1.0, 2.0]), ["a"], ["1", "a"])
+    with pytest.raises(InputError, match="no response to fit"):
+        fit(pd.DataFrame({"a": [1.0, 2.0, 3.0]}), pd.Series([5.0, np.nan, 6.0]), ["a"], ["1", "a"])
     with pytest.raises(InputError, match="the same in all cases"):
         fit(pd.DataFrame({"a": [1.0, 2.0, 3.0]}), pd.Series([5.0, 5.0, 5.0]), ["a"], ["1", "a"])
     constant = pd.DataFrame({"a": [1.0, 1.0, 1.0]})

@@ -105,8 +105,8 @@ def fit(
     Raises
     ------
     InputError
-        When there are no more cases than terms, when the response does not vary, or when the
-        design cannot tell terms apart: the aliased terms are named, never fitted by a
+        When there are no more cases than terms, when the response has gaps or does not vary, or
+        when the design cannot tell terms apart: the aliased terms are named, never fitted by a
         minimum-norm solution.
     """
     polynomial = parse(terms, factors)
@@ -117,6 +117,12 @@ def fit(
             f"{len(y)} solved cases cannot carry {len(polynomial)} terms",
             column="terms",
             remedy="solve more cases or fit fewer terms",
+        )
+    if not np.isfinite(y).all():
+        raise InputError(
+            "solved cases have no response to fit",
+            value=f"{int(np.sum(~np.isfinite(y)))} of {len(y)}",
+            remedy="fit surfaces to solvers that give the vertical stiffness",
         )
     if np.ptp(y) == 0:
         raise InputError(

@@ -97,12 +97,7 @@ def quality_table(study: str, quality: Mapping[str, Mapping[str, float]]) -> pd.
     return pd.DataFrame(rows, columns=list(SurfaceQuality.to_schema().columns))
 
 
-def read_published_coefficients(
-    path: str | None, factors: Sequence[str]
-) -> dict[tuple[int, ...], float]:
-    """Read the coefficients that the paper prints (CSV: term, coefficient), by their powers."""
-    if path is None:
-        return {}
-    table = pd.read_csv(path, dtype={"term": str})
-    powers = parse(list(table["term"]), factors).exponents
-    return dict(zip(powers, table["coefficient"].astype(float), strict=True))
+def by_powers(printed: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:
+    """Map the powers of each printed term (`PrintedCoefficients`) to its coefficient."""
+    powers = parse(list(printed["term"]), factors).exponents
+    return dict(zip(powers, printed["coefficient"], strict=True))
