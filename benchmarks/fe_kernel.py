@@ -40,9 +40,8 @@ def own_kernel() -> None:
     model = SpokeModel(design)
     rest = np.zeros_like(model.mesh.positions)
     bricks = model.rubbers[0]
-    print(
-        f"{len(bricks.nodes)} bricks, own blocks: {milliseconds(lambda: bricks.respond(rest)):.1f} ms"
-    )
+    spent = milliseconds(lambda: bricks.respond(rest))
+    print(f"{len(bricks.nodes)} bricks, own blocks: {spent:.1f} ms")
     blocks = model.blocks
     print(f"whole spoke: {milliseconds(lambda: [b.respond(rest) for b in blocks]):.1f} ms")
     row = 3 * model.mesh.nodes_per_row
