@@ -57,3 +57,10 @@ def test_declared_encoding_that_does_not_fit_is_refused(read, profiles):
     own = profiles["plain"].model_copy(update={"encoding": "ascii"})
     with pytest.raises(InputError, match="is not ascii"):
         read(f"{TEXTS['cp1252']}\r\n{ROWS}".encode("cp1252"), declared=own)
+
+
+def test_the_encoding_with_most_known_words_wins(read):
+    """In cp1250 the time would be readable too, the square would not."""
+    text = f"Probenquerschnitt\tmm²\r\n{TEXTS['cp1252']}\r\n{ROWS}"
+    table = read(text.encode("cp1252"))
+    assert table.encoding == "cp1252"

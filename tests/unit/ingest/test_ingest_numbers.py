@@ -136,3 +136,12 @@ def test_missing_values(read, word):
     lines[4] = f"0.4;4.5;{word}"
     strain = read("\n".join(lines)).values["strain"]
     assert [index for index, value in enumerate(strain) if value != value] == [3]
+
+
+def test_a_thousands_mark_that_nothing_proves_is_not_believed(read):
+    """A comma mistyped as a point must not multiply by a thousand."""
+    lines = ["time_s;force_N;strain_%", *(f"0,{n};{n},234;0,0{n}" for n in range(1, 8))]
+    lines[4] = "0,4;4.234;0,04"
+    with pytest.raises(InputError, match="not a number") as caught:
+        read("\n".join(lines))
+    assert (caught.value.line, caught.value.value) == (5, "4.234")

@@ -226,6 +226,16 @@ def test_a_drop_of_the_force_with_the_strain_is_no_removal():
     assert not np.isnan(signals.values["strain_axial"]).any()
 
 
+def test_a_leap_with_a_loss_of_force_is_damage_and_no_removal():
+    force = np.linspace(0, 1000, 21)
+    strain = 1e-5 * force
+    strain[12:] += 0.011
+    force[12:] -= 150
+    signals = conditioned(strain, force)
+    empty_after_removal(signals, ExtensometerRemoval(), rubber=False, source="")
+    assert not np.isnan(signals.values["strain_axial"]).any()
+
+
 def test_untared_load_cell():
     signals = conditioned(1e-5 * FORCE, FORCE + 25)
     signals.values["force"][:10] = 25

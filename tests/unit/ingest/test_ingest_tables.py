@@ -179,3 +179,17 @@ def test_results_only_export_is_explained(read):
 def test_empty_and_binary_files(read, content):
     with pytest.raises(InputError, match="empty|binary"):
         read(content)
+
+
+def test_table_that_goes_on_under_junk_is_refused(read):
+    rows = [*BODY, "Error,Sensor,overload", *BODY]
+    with pytest.raises(InputError, match="seems to go on in line 11"):
+        read("\n".join([NAMES, *rows]))
+    assert read("\n".join([NAMES, *rows]), part="1").rows == 8
+
+
+def test_unit_of_the_profile_is_said(read, profiles):
+    own = profiles["plain"].model_copy(update={"units": {"force": "kN"}})
+    table = read("\n".join(["time_s,force,strain_%", *BODY]), declared=own)
+    assert table.values["force"][0] == pytest.approx(1500)
+    assert "force: no unit in the file, 'kN' by profile 'plain'" in table.notes
