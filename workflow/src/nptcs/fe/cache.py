@@ -3,9 +3,11 @@
 from __future__ import annotations
 
 import json
+from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
+from zipfile import BadZipFile
 
 import numpy as np
 
@@ -14,15 +16,13 @@ from nptcs.fe.case import spoke_table
 from nptcs.fe.spoke import SpokeDesign
 from nptcs.fe.spoke_table import SpokeTable
 from nptcs.files import atomic_path, sha256_of_text
-
-# change it with any change of the code that may alter a table
-TABLE_VERSION = "1"
+from nptcs.provenance import code_hash
 
 
 def table_key(design: SpokeDesign, options: SpokeTableOptions) -> str:
     """SHA-256 over everything that a spoke's table depends on."""
     content: dict[str, Any] = {
-        "version": TABLE_VERSION,
+        "code": code_hash("nptcs.fe.case"),
         "design": {
             **asdict(design),
             "geometry": design.geometry.model_dump(),
@@ -49,7 +49,7 @@ def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> Sp
     if folder is None:
         return spoke_table(model, design)
     path = folder / f"{table_key(design, model.table)}.npz"
-    if path.exists():
+    with suppress(OSError, ValueError, KeyError, BadZipFile):  # an unreadable file is a miss
         return read_table(path)
     table = spoke_table(model, design)
     write_table(path, table)

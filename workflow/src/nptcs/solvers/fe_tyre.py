@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import ClassVar
 
 import numpy as np
 from pydantic import Field
@@ -18,6 +19,8 @@ from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
 
 class FeTyreOptions(SolverOptions, FeModel):
     """Options of ``fe_tyre``: the finite element model and where spokes are kept."""
+
+    without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
     spoke_cache: Path | None = Field(
         None,
