@@ -182,7 +182,7 @@ def judge(content: bytes, base: Base, table: RawTable) -> str | None:
     text = content.decode("latin-1")
     text = text.removeprefix("\xef\xbb\xbf")
     lines = re.split(r"\r\n|\n|\r", text)
-    wanted = len([value for value in lines[: (table.first_line or 1) - 1]])
+    wanted = (table.first_line or 1) - 1
     names = cells_of(lines[(table.header_line or 1) - 1], table.delimiter)
     raw_names = [name.encode("latin-1") for name in names]
     positions = {}
@@ -191,6 +191,9 @@ def judge(content: bytes, base: Base, table: RawTable) -> str | None:
         if position is None:
             return f"{quantity}: column '{table.columns[quantity]}' is not in the names {names}"
         positions[quantity] = position
+    for quantity, position in positions.items():
+        if not unit_is_stated(table, quantity, position, lines):
+            return f"{quantity}: unit '{table.units[quantity]}' does not stand in the header"
     rows = strict_rows(lines[wanted:], table, positions)
     if isinstance(rows, str):
         return rows
@@ -214,6 +217,19 @@ def position_of(table: RawTable, quantity: str, names: list[bytes], base: Base) 
             if same_name(text, reported):
                 return position
     return None
+
+
+def unit_is_stated(table: RawTable, quantity: str, position: int, lines: list[str]) -> bool:
+    """Tell whether a unit stands in the name or below it, or in the profile."""
+    unit, declared = table.units[quantity], table.profile.units.get(quantity)  # type: ignore[call-overload]
+    if not unit or unit == declared:
+        return True
+    first = (table.header_line or 1) - 1
+    rows = (cells_of(line, table.delimiter) for line in lines[first : first + 3])
+    cells = [row[position] for row in rows if position < len(row)]
+    words = {word.casefold() for cell in cells for word in re.split(r"[\s\[\]()\"_,]+", cell)}
+    stated = any(word for cell in cells[1:2] for word in re.findall(r"[A-Za-z%]+", cell))
+    return unit.casefold() in words or (unit == "1" and not stated)
 
 
 def same_name(text: str, reported: str) -> bool:
@@ -270,20 +286,8 @@ def strict_rows(
 def compare(rows: list[list[float]], table: RawTable, positions: Mapping[str, int]) -> str | None:
     """Rows without any reading do not count."""
     expected = np.array([row for row in rows if not all(math.isnan(value) for value in row)])
-    scales = [
-        FACTORS[DIMENSION[name]].get(table.units[name], math.nan) if table.units[name] else 1.0
-        for name in positions
-    ]
     for index, name in enumerate(positions):
-        unit = table.units[name].strip("()[] ")
-        scale = scales[index]
-        if math.isnan(scale):
-            same = [
-                value
-                for key, value in FACTORS[DIMENSION[name]].items()
-                if key.casefold() == unit.casefold()
-            ]
-            scale = same[0] if len(same) == 1 else FACTORS[DIMENSION[name]].get(unit, math.nan)
+        scale = FACTORS[DIMENSION[name]][table.units[name]] if table.units[name] else 1.0
         ours, theirs = table.values[name], expected[:, index] * scale if len(expected) else expected
         if len(ours) != len(theirs):
             return f"{len(ours)} rows read, {len(theirs)} in the file"

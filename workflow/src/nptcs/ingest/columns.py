@@ -10,7 +10,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.profiles import FormatProfile, name_matches, normalise
 from nptcs.ingest.sources import Source
 from nptcs.ingest.table import Block, Column, side_by_side
-from nptcs.ingest.units import DIMENSION, FACTORS, factor
+from nptcs.ingest.units import DIMENSION, FACTORS, find_unit
 
 STRAINS = ("strain", "strain_xx", "strain_yy", "stretch", "extension")
 LOADS = ("force", "stress")
@@ -229,8 +229,8 @@ def unit_of(
             line,
             column.name,
         )
-    scale = factor(quantity, unit)
-    if scale is None:
+    known = find_unit(DIMENSION[quantity], unit)
+    if known is None:
         raise InputError(
             f"not a unit of {quantity}",
             f"state the right one in a profile under 'wrong_units': {choices}",
@@ -239,4 +239,4 @@ def unit_of(
             column.name,
             value=unit,
         )
-    return unit, scale, note
+    return known, FACTORS[DIMENSION[quantity]][known], note
