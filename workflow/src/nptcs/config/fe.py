@@ -17,20 +17,20 @@ class SpokeGeometry(Strict):
     table 10 and five cases of table 5.
     """
 
-    leg_angle_deg: float = Field(28.06, gt=0, lt=60, description="Leg's angle from the radius")
+    leg_angle_deg: float = Field(26.433, gt=0, lt=60, description="Leg's angle from the radius")
     height_mm: float = Field(84.1, gt=0, description="From the rim to the band")
-    leg_thickness_mm: float = Field(4.35, gt=0, description="Normal to the leg")
+    leg_thickness_mm: float = Field(2.6, gt=0, description="Normal to the leg")
     block_thickness_mm: float = Field(
-        11.98, gt=0, description="Rubber block at mid-height, normal to the leg"
+        11.239, gt=0, description="Rubber block at mid-height, normal to the leg"
     )
-    block_half_length_mm: float = Field(8.79, gt=0, description="Half the block's height")
+    block_half_length_mm: float = Field(4.375, gt=0, description="Half the block's height")
     block_ramp_mm: float = Field(5.27, gt=0, description="Height of the ramp from leg to block")
     foot_thickness_mm: float = Field(
-        7.66, gt=0, description="At the rim and the band, normal to the leg"
+        8.988, gt=0, description="At the rim and the band, normal to the leg"
     )
     foot_taper_mm: float = Field(7.0, gt=0, description="Height of the taper from foot to leg")
-    plate_foot_gap_mm: float = Field(3.49, gt=0, description="Plate's end above the rim")
-    plate_mid_gap_mm: float = Field(4.14, gt=0, description="Plate's end short of mid-height")
+    plate_foot_gap_mm: float = Field(2.642, gt=0, description="Plate's end above the rim")
+    plate_mid_gap_mm: float = Field(2.828, gt=0, description="Plate's end short of mid-height")
     plate_layer_mm: float = Field(
         1.0,
         gt=0,
@@ -119,9 +119,9 @@ class SpokeTableOptions(Strict):
     u_theta_mm: tuple[float, float] = Field(
         (-11.0, 11.0), description="Circumferential displacement of the band"
     )
-    phi_rad: tuple[float, float] = Field((-0.13, 0.13), description="Rotation of the band")
+    phi_rad: tuple[float, float] = Field((-0.15, 0.15), description="Rotation of the band")
     narrowing: float = Field(
-        0.5,
+        0.6,
         gt=0,
         le=1,
         description="Part of the ranges of u_θ and φ that is left at the lowest u_r, linear from "
@@ -149,7 +149,12 @@ class TyreMesh(Strict):
     """Mesh of the band and tread; quadratic quadrilaterals."""
 
     foot_elements: int = Field(1, ge=1, description="Along the circumference under a spoke's foot")
-    gap_elements: int = Field(3, ge=1, description="Along the circumference between two feet")
+    gap_elements: int = Field(
+        1,
+        ge=1,
+        description="Along the circumference between two feet; the wires carry no bending, and "
+        "with shorter elements their compressed layer buckles between the nodes",
+    )
     band_rows: int = Field(1, ge=1, description="Across the shear band")
     tread_rows: int = Field(1, ge=1, description="Across the tread outside the band")
     first_spoke_deg: float = Field(

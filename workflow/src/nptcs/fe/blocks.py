@@ -212,11 +212,11 @@ class RubberBlock:
         force += np.einsum("enm,em->en", lift, self._mismatch)
         return Response(energy, force, tangent)
 
-    def update_pressure(self, step: Array) -> None:
-        """Follow a displacement step (nodes, dim) from the last state: dp = κ M⁻¹ (r_p + Gᵀ du)."""
+    def update_pressure(self, step: Array, part: float = 1.0) -> None:
+        """Follow part of a Newton step (nodes, dim) from the last state: κ M⁻¹ (r_p + Gᵀ du)."""
         local = step[self.nodes].reshape(len(self.nodes), -1)
         rhs = self._mismatch + np.einsum("enm,en->em", self._coupling, local)
-        self.pressure = self.pressure + np.einsum("emk,ek->em", self._inverse_mass, rhs)
+        self.pressure = self.pressure + part * np.einsum("emk,ek->em", self._inverse_mass, rhs)
 
 
 @dataclass(frozen=True)

@@ -21,7 +21,10 @@ Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
 ORDERS = (2, 2)
-MAX_ITERATIONS = 25
+MAX_ITERATIONS = 40
+# from this iteration on, steps that do not shrink are shortened
+CALM_ITERATIONS = 6
+LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
 FIRST_RISE_MM = 0.5
 
@@ -160,7 +163,8 @@ class TyreModel:
         self, displacement: Array, rise: float, load: float | None, path: LoadPath
     ) -> tuple[Array, float]:
         """Newton's method at a given load, or at a given rise if `load` is None."""
-        for _ in range(MAX_ITERATIONS):
+        before, part = np.inf, 1.0
+        for count in range(MAX_ITERATIONS):
             path.iterations += 1
             trial = self._trial(displacement, rise)
             solved = self._linear(trial)
@@ -173,11 +177,15 @@ class TyreModel:
             largest = float(np.abs(step).max())
             if not np.isfinite(largest):
                 raise FloatingPointError("the iteration has left the range of numbers")
-            damp = min(1.0, 6.0 / max(largest, 1e-12))
-            move = damp * step.reshape(-1, 2)
-            displacement = displacement + move
+            if count >= CALM_ITERATIONS:
+                # two contact states that take turns: go half-way, twice as far when that helps
+                part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
+            before = largest
+            damp = min(part, LARGEST_STEP_MM / max(largest, 1e-12))
+            move = step.reshape(-1, 2)
+            displacement = displacement + damp * move
             rise += damp * change
-            self.rubber.update_pressure(move)
+            self.rubber.update_pressure(move, damp)
             if largest < 1e-6 and abs(change) < 1e-6:
                 return displacement, rise
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
