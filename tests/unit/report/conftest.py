@@ -20,10 +20,11 @@ from nptcs.tables.cases import Design
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.impact import with_published
-from nptcs.tables.io import check, empty_table
+from nptcs.tables.io import check, empty_table, read_table
 from nptcs.tables.problems import Problems, problems_table
+from nptcs.tables.published import PrintedCoefficients
 from nptcs.tables.specimens import Specimen
-from nptcs.tables.surface import quality_table, read_published_coefficients, surface_table
+from nptcs.tables.surface import by_powers, quality_table, surface_table
 
 ROOT = Path(__file__).parents[3]
 PUBLISHED = ROOT / "raw_data" / "published"
@@ -91,7 +92,8 @@ def analysed(study, cases):
     names = [factor.name for factor in study.factors]
     response = cases["vertical_stiffness_n_per_mm"]
     surface = fit(cases, response, names, study.terms)
-    printed = read_published_coefficients(str(ROOT / study.published_coefficients), names)
+    file = ROOT / study.published_coefficients
+    printed = by_powers(read_table(file, PrintedCoefficients), names)
     quality = quality_table(study.name, {"published": assess(surface, cases, response)})
     impacts = [
         impact(surface, cases, rule).assign(study=study.name, solver="published")

@@ -28,6 +28,7 @@ _COMPARED = {
     "stiffness_n_per_mm": "lca_stiffness_n_per_mm",
 }
 """Our column → column of table 11."""
+_OURS_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
 
 
 def _solve_cases(
@@ -47,7 +48,9 @@ def _solve_cases(
     batch = solve_batch(
         {str(name): designs[name].to_numpy() for name in designs}, load_n=cases["load_n"].to_numpy()
     )
-    return pd.DataFrame(batch.columns).drop(columns="load_n")
+    solved = pd.DataFrame(batch.columns).drop(columns="load_n")
+    angle = np.radians(solved["theta_c_deg"])
+    return solved.assign(contact_length_mm=2 * designs["radius_mm"] * angle)
 
 
 def _percent(ours: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
@@ -94,7 +97,7 @@ def lca_validation(
         solved = _solve_cases(
             cases.assign(shear_band_c10_mpa=shear_band_c10_mpa), spoke_table, tyre, section
         )
-        part = pd.concat([cases, solved[[*_COMPARED, "balance_residual"]]], axis=1)
+        part = pd.concat([cases, solved[[*_COMPARED, *_OURS_ALONE]]], axis=1)
         part.insert(0, "section", section)
         parts.append(part)
     compared = _beside_table_11(pd.concat(parts, ignore_index=True), table_11)

@@ -17,6 +17,10 @@ DIFFERENCES = {
     "theta_t_difference_percent": "transition angle θt",
     "displacement_difference_percent": "displacement δ",
 }
+CONTACT = {
+    "contact_length_mm": "contact length [mm]",
+    "mean_pressure_mpa": "mean contact pressure [MPa]",
+}
 REGION_COLOURS = {"contact": COLOURS[1], "compression": COLOURS[4], "tension": COLOURS[0]}
 HATCHES = ("", "//", "..", "xx")
 
@@ -51,6 +55,28 @@ def load_displacement(table: pd.DataFrame) -> Figure:
             label="_printed",
         )
     axes.plot([], [], "o", mfc="none", mec="black", ms=8, label="printed")
+    axes.set_ylim(bottom=0)
+    axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2)
+    return figure
+
+
+@styled
+def contact_against_load(table: pd.DataFrame, column: str) -> Figure:
+    """Draw the contact length or the mean contact pressure against the load.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Rows of ``lca_validation.csv`` of one section.
+    column : str
+        A key of `CONTACT`.
+    """
+    name = SECTION_NAMES[table["section"].iloc[0]]
+    figure, axes = panel(f"Our LCA, {name}", "vertical load [N]", CONTACT[column])
+    for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
+        colour, marker = COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)]
+        rows = rows.sort_values("load_n")
+        axes.plot(rows["load_n"], rows[column], color=colour, marker=marker, label=f"{c10:g}")
     axes.set_ylim(bottom=0)
     axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2)
     return figure

@@ -9,7 +9,9 @@ import pandas as pd
 from nptcs.report import catalogue
 from nptcs.report.data import Results
 from nptcs.report.figures_lca import (
+    CONTACT,
     DIFFERENCES,
+    contact_against_load,
     differences,
     fem_differences,
     load_displacement,
@@ -79,9 +81,16 @@ def _stiffness_plot(results: Results) -> Plot:
 
 
 def _load_plots(results: Results) -> list[Plot]:
-    return [
-        plot(load_displacement(rows), f"Displacement against load, section {section}")
-        for section, rows in results.lca_validation.groupby("section", sort=False)
+    sections = [rows for _, rows in results.lca_validation.groupby("section", sort=False)]
+    plots = [
+        plot(
+            load_displacement(rows), f"Displacement against load, section {rows['section'].iloc[0]}"
+        )
+        for rows in sections
+    ]
+    return plots + [
+        plot(contact_against_load(sections[0], column), f"{label} against load")
+        for column, label in CONTACT.items()
     ]
 
 

@@ -20,6 +20,8 @@ class LcaValidation(pa.DataFrameModel):
     theta_t_deg: Series[float] = pa.Field(gt=0, lt=180)
     displacement_mm: Series[float] = pa.Field(gt=0)
     stiffness_n_per_mm: Series[float] = pa.Field(gt=0)
+    contact_length_mm: Series[float] = pa.Field(gt=0, description="2 R θc")
+    mean_pressure_mpa: Series[float] = pa.Field(gt=0, description="Load / (contact length × b)")
     balance_residual: Series[float] = pa.Field(ge=-1e-9, le=1e-9)
     published_theta_c_deg: Series[float] = pa.Field(nullable=True)
     published_theta_t_deg: Series[float] = pa.Field(nullable=True)
