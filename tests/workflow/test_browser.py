@@ -1,0 +1,51 @@
+"""The report in a real browser: all figures are drawn, and nothing is wider than the screen."""
+
+import re
+import shutil
+import subprocess
+
+import pytest
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+QUIET = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--virtual-time-budget=10000",
+]
+TELL = """<script>addEventListener("load", () => {
+  const broken = [...document.images].filter((i) => !i.complete || !i.naturalWidth).length;
+  const root = document.documentElement;
+  const found = [innerWidth, root.scrollWidth, broken, document.images.length];
+  parent.postMessage(found.join(" "), "*");
+});</script>"""
+FRAME = """<!doctype html><iframe src="report.html" style="width:{width}px;height:800px;border:0">
+</iframe><script>addEventListener("message", (e) => {{ document.title = e.data; }});</script>"""
+
+
+@pytest.mark.skipif(CHROMIUM is None, reason="Chromium is not installed (Debian: chromium)")
+@pytest.mark.parametrize("width", [390, 1280])
+def test_the_report_fits_the_screen_and_draws_every_figure(finished, tmp_path, width):
+    report = finished.path("results/report.html").read_text(encoding="utf-8")
+    (tmp_path / "report.html").write_text(report + TELL, encoding="utf-8")
+    (tmp_path / "frame.html").write_text(FRAME.format(width=width), encoding="utf-8")
+    profile = f"--user-data-dir={tmp_path / 'profile'}"
+    page = subprocess.run(
+        [CHROMIUM, *QUIET, profile, "--dump-dom", (tmp_path / "frame.html").as_uri()],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    ).stdout
+    found = re.search(r"<title>(\d+) (\d+) (\d+) (\d+)</title>", page)
+    assert found is not None, page[:500]
+    inner, scrolled, broken, images = map(int, found.groups())
+    assert inner == width
+    assert scrolled <= width
+    assert broken == 0
+    assert images > 10
