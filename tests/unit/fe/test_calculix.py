@@ -17,9 +17,21 @@ from nptcs.fe.spoke import SpokeDesign
 CORNERS = [0, 4, 3, 7, 1, 5, 2, 6]
 
 
+# a stout section of its own: the check must not move with the calibrated one
+SECTION = SpokeGeometry(
+    leg_angle_deg=28.06,
+    leg_thickness_mm=4.35,
+    block_thickness_mm=11.98,
+    block_half_length_mm=8.79,
+    foot_thickness_mm=7.66,
+    plate_foot_gap_mm=3.49,
+    plate_mid_gap_mm=4.14,
+)
+
+
 def small_design(ply, angle=30.0):
     design = SpokeDesign(
-        geometry=SpokeGeometry(),
+        geometry=SECTION,
         mesh=SpokeMesh(rows=(1, 1, 2, 1, 1, 1), bulk_to_shear_ratio=100.0),
         spacing_mm=10.0,
         plate_width_mm=5.0,

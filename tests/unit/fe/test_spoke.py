@@ -98,17 +98,17 @@ def test_pulling_follows_the_tangent_and_energy_balances(model):
 
 
 def test_mesh_converges(ply):
-    """Three meshes: the error falls, and the campaign's mesh is within 2 % of the finest."""
+    """Three meshes: the error falls, and the campaign's mesh is within 4 % of the finest."""
     stiffness = []
     for mesh in (
-        COARSE,
+        SpokeMesh(),
         SpokeMesh(rows=(2, 2, 4, 2, 2, 2)),
         SpokeMesh(rows=(3, 3, 6, 3, 3, 3), columns=2),
     ):
         model = SpokeModel(design(ply, mesh=mesh))
         stiffness.append(model.rest().tangent[0, 0])
     assert abs(stiffness[1] / stiffness[2] - 1.0) < abs(stiffness[0] / stiffness[2] - 1.0)
-    assert stiffness[0] == pytest.approx(stiffness[2], rel=0.02)
+    assert stiffness[0] == pytest.approx(stiffness[2], rel=0.04)
 
 
 def test_an_impossible_motion_is_reported_with_the_last_state(model):
