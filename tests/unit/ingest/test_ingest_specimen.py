@@ -210,6 +210,17 @@ def test_inspect_shows_what_was_detected(tmp_path, capsys):
     assert "names in line 1" in text
 
 
+def test_inspect_takes_the_profile_that_reads_most(tmp_path, capsys):
+    """Two signatures fit; only one profile knows the columns."""
+    lines = ["time (s),Standard force (N),Crosshead,Load cell,Strain (%)"]
+    lines += [f"0.{n},{n}.5,1{n}.0,2{n}.0,0.0{n}" for n in range(1, 8)]
+    (tmp_path / "a.csv").write_text("\n".join(lines))
+    assert run(inspect, str(tmp_path / "a.csv"), "--formats", str(FORMATS)) == 0
+    text = capsys.readouterr().out
+    assert "format     testxpert-en" in text
+    assert "signature of 'mts-testsuite', 'testxpert-en' fits" in text
+
+
 def test_inspect_of_what_is_not_understood(tmp_path, capsys):
     (tmp_path / "a.csv").write_text("nothing")
     assert run(inspect, str(tmp_path / "a.csv"), "--formats", str(FORMATS)) == 1

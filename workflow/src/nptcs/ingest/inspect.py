@@ -29,6 +29,13 @@ class Inspection:
     tests: list[Test] = field(default_factory=list)
     problem: InputError | None = None
 
+    @property
+    def understood(self) -> int:
+        """Number of columns that are a quantity, in the fullest table."""
+        if self.problem is not None:
+            return -1
+        return max((len(test.quantities) for test in self.tests), default=0)
+
 
 def inspect_file(
     path: Path, profiles: Mapping[str, FormatProfile], declared: FormatProfile | None = None
@@ -42,16 +49,19 @@ def inspect_file(
     """
     opened = open_file(path, profiles, declared or profiles[PLAIN])
     if declared is not None:
-        fitting, reason = [declared], "named on the command line"
-    else:
-        fitting, reason = matching(opened, profiles)
-    profile = fitting[0].for_head(opened.head)
-    result = Inspection(opened, profile, reason)
+        return _inspect(opened, declared, "named on the command line")
+    fitting, reason = matching(opened, profiles)
+    inspections = [_inspect(opened, profile, reason) for profile in fitting]
+    return max(inspections, key=lambda inspection: inspection.understood)
+
+
+def _inspect(opened: OpenedFile, profile: FormatProfile, reason: str) -> Inspection:
+    result = Inspection(opened, profile.for_head(opened.head), reason)
     try:
-        sources, result.dialect = sources_of(opened, profile)
+        sources, result.dialect = sources_of(opened, result.profile)
         for source in sources:
-            blocks = find_blocks(source, path, profile.unnamed_columns)
-            result.tests += tests_in(source, blocks, profile, path)
+            blocks = find_blocks(source, opened.path, profile.unnamed_columns)
+            result.tests += tests_in(source, blocks, profile, opened.path)
     except InputError as error:
         result.problem = error
     return result
