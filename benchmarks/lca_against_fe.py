@@ -21,6 +21,7 @@ from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design, spoke_table, tyre_model
 from nptcs.fe.spoke import SpokeModel
 from nptcs.fe.spoke_pull import pull, spoke_stiffness
+from nptcs.fe.tyre import TyreError
 
 BAND_C10_MPA = 5.0
 PLATES = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
@@ -49,10 +50,17 @@ def compare(spoke_c10_mpa: float, loads_n: list[float]) -> None:
     pulled, pressed = pull(spoke, REACH_MM[0], 20), pull(spoke, -REACH_MM[1], 64)
     curved = lca.SpokeLaw.from_curves(*pulled, *pressed)
     section = lca.RingSection.from_tyre(tyre, BAND_C10_MPA)
-    loaded = tyre_model(model, tyre, spoke_table(model, design), BAND_C10_MPA).load(loads_n)
-    path = loaded.path
+    loaded = tyre_model(model, tyre, spoke_table(model, design), BAND_C10_MPA)
+    try:
+        path = loaded.load(loads_n).path
+    except TyreError as error:
+        print(f"{spoke_c10_mpa:4g} finite elements: {error}", flush=True)
+        path = error.path
     for load in loads_n:
-        fe = path.rise_mm[int(np.argmin(np.abs(np.array(path.force_n) - load)))]
+        reached = np.flatnonzero(np.isclose(path.force_n, load))
+        if not len(reached):
+            continue
+        fe = path.rise_mm[int(reached[-1])]
         line = lca.solve(section, straight, load_n=load).displacement_mm
         paper = lca.solve_law(section, curved, load_n=load, contact="paper").displacement_mm
         local = lca.solve_law(section, curved, load_n=load, contact="local").displacement_mm
