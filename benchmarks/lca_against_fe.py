@@ -36,7 +36,7 @@ PLY = {
     "g13_mpa": 3147.0,
     "g23_mpa": 2300.0,
 }
-REACH_MM = (5.0, 32.0)
+REACH_MM = (8.0, 32.0)
 """How far the spoke is pulled and pressed for its curve."""
 
 
@@ -47,7 +47,7 @@ def compare(spoke_c10_mpa: float, loads_n: list[float]) -> None:
     spoke = SpokeModel(design)
     lines = spoke_stiffness(spoke, 16, 40)
     straight = lca.LinearSpokes(lines.tension_fit.slope, lines.compression_fit.slope)
-    pulled, pressed = pull(spoke, REACH_MM[0], 20), pull(spoke, -REACH_MM[1], 64)
+    pulled, pressed = pull(spoke, REACH_MM[0], 32), pull(spoke, -REACH_MM[1], 64)
     curved = lca.SpokeLaw.from_curves(*pulled, *pressed)
     section = lca.RingSection.from_tyre(tyre, BAND_C10_MPA)
     loaded = tyre_model(model, tyre, spoke_table(model, design), BAND_C10_MPA)
