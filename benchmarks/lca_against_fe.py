@@ -18,6 +18,7 @@ import numpy as np
 from nptcs import lca
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.fe.case import spoke_design, spoke_table, tyre_model
 from nptcs.fe.spoke import SpokeModel
 from nptcs.fe.spoke_pull import pull, spoke_stiffness
@@ -25,17 +26,6 @@ from nptcs.fe.tyre import TyreError
 
 BAND_C10_MPA = 5.0
 PLATES = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
-PLY = {
-    "e1_mpa": 128000.0,
-    "e2_mpa": 8800.0,
-    "e3_mpa": 8800.0,
-    "nu12": 0.357,
-    "nu13": 0.357,
-    "nu23": 0.35,
-    "g12_mpa": 3147.0,
-    "g13_mpa": 3147.0,
-    "g23_mpa": 2300.0,
-}
 REACH_MM = (8.0, 32.0)
 """How far the spoke is pulled and pressed for its curve."""
 
@@ -43,7 +33,7 @@ REACH_MM = (8.0, 32.0)
 def compare(spoke_c10_mpa: float, loads_n: list[float]) -> None:
     """Print a row for each load."""
     model, tyre = FeModel(), TyreGeometry()
-    design = spoke_design(model, tyre, PLY, {**PLATES, "spoke_c10_mpa": spoke_c10_mpa})
+    design = spoke_design(model, tyre, PUBLISHED_PLY, {**PLATES, "spoke_c10_mpa": spoke_c10_mpa})
     spoke = SpokeModel(design)
     lines = spoke_stiffness(spoke, 16, 40)
     straight = lca.LinearSpokes(lines.tension_fit.slope, lines.compression_fit.slope)
