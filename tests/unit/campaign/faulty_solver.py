@@ -26,6 +26,7 @@ def solve(inputs):
         status=Status.OK,
         vertical_stiffness_n_per_mm=stiffness,
         displacement_mm=inputs.load_n / stiffness,
+        extra={"threads": float(os.environ["OPENBLAS_NUM_THREADS"])},
     )
 
 

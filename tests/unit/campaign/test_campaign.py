@@ -67,6 +67,13 @@ def test_each_way_to_fail_is_a_row_and_the_others_are_solved(store):
     assert records[0].result.vertical_stiffness_n_per_mm == 201
 
 
+def test_each_case_has_one_thread_and_the_caller_keeps_its_own(store, monkeypatch):
+    monkeypatch.setenv("OPENBLAS_NUM_THREADS", "2")
+    (record,) = run_cases([job(10)], store, 1, quiet)
+    assert record.result.extra == {"threads": 1.0}
+    assert os.environ["OPENBLAS_NUM_THREADS"] == "2"
+
+
 def test_solved_cases_are_reused_and_failed_ones_tried_again(store):
     jobs = [job(10), job(1), job(11)]
     run_cases(jobs, store, 2, quiet)

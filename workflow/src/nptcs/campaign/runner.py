@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 import signal
 import sys
 import time
@@ -15,6 +16,9 @@ from multiprocessing.process import BaseProcess
 from nptcs.campaign import worker
 from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
 from nptcs.solvers.contract import SolverResult, Status
+
+THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
+"""Set to 1 for every case: cases run side by side, and threads that wait for a core cost tenfold."""
 
 KILL_AFTER_S = 2.0
 """Grace between the polite and the final signal to a case that is out of time."""
@@ -105,7 +109,7 @@ def _start(job: CaseJob) -> _Running:
     context = multiprocessing.get_context("forkserver")
     receive, send = context.Pipe(duplex=False)
     process = context.Process(target=worker.run, args=(job, send), name=job.case_id)
-    with _without_main_file():
+    with _without_main_file(), _one_thread():
         process.start()
     send.close()
     return _Running(job, process, receive, time.monotonic())
@@ -159,6 +163,21 @@ def _stop(process: BaseProcess) -> None:
         process.kill()
         process.join()
     process.close()
+
+
+@contextmanager
+def _one_thread() -> Iterator[None]:
+    """Let the fork server, which the first case starts, hand one thread to numerical libraries."""
+    before = {name: os.environ.get(name) for name in THREAD_LIMITS}
+    os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
+    try:
+        yield
+    finally:
+        for name, value in before.items():
+            if value is None:
+                del os.environ[name]
+            else:
+                os.environ[name] = value
 
 
 @contextmanager
