@@ -18,7 +18,7 @@ from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
 from nptcs.solvers.contract import SolverResult, Status
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Set to 1 for every case: cases run side by side, and threads that wait for a core cost tenfold."""
+"""Set to 1 for every case: cases run side by side, and threads that wait for a core cost time."""
 
 KILL_AFTER_S = 2.0
 """Grace between the polite and the final signal to a case that is out of time."""
