@@ -22,7 +22,9 @@ VALUES = {"thickness_mm": 1.8}
 def problem():
     spokes = tuple(SpokeTarget(VALUES, 30.0 + i, 13.0 + i) for i in range(2))
     tyres = tuple(TyreTarget(VALUES | {"case": i}, 200.0 + 20.0 * i) for i in range(5))
-    return Problem(START, TyreGeometry(), PUBLISHED_PLY, spokes, tyres, 5000.0, prior=1e-6)
+    return Problem(
+        START, TyreGeometry(), PUBLISHED_PLY, spokes, tyres, 5000.0, prior=1e-6, damping=1e-6
+    )
 
 
 def test_a_linear_problem_is_solved_in_one_step():

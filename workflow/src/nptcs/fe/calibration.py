@@ -6,8 +6,7 @@ as much as a spoke, so the tyre's stiffness is followed by a surrogate in the sp
     ln K = ln K₀ + β (Δ ln k_t + Δ ln k_c) / 2 ,
 
 that is corrected by a computed tyre for each case at the start of each round (space mapping). The
-logarithms of the stiffness are nearly linear in those of the dimensions: the sensitivities of the
-first section serve all rounds.
+spoke's sensitivities are computed anew in each round, with coarser steps.
 """
 
 from __future__ import annotations
@@ -24,8 +23,9 @@ from numpy.typing import NDArray
 from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.fe.spoke import SpokeModel
+from nptcs.fe.spoke import SpokeError, SpokeModel
 from nptcs.fe.spoke_pull import spoke_stiffness
+from nptcs.fe.tyre import TyreError
 
 Array = NDArray[np.float64]
 
@@ -65,7 +65,8 @@ START = FeModel(
 # K_tyre ∝ k_spoke^0.53 over the published tables
 EXPONENT = 0.53
 STEP = 0.03
-LARGEST_STEP = 0.25
+LARGEST_STEP = 0.15
+HALVINGS = 3
 # points of the tension and compression curves: of the fit itself, and of its sensitivities
 FINE = (8, 10)
 COARSE = (2, 4)
@@ -99,6 +100,7 @@ class Problem:
     tyres: tuple[TyreTarget, ...]
     load_n: float
     prior: float = 0.03
+    damping: float = 0.05
     spoke_weight: float = 1.0
     tyre_weight: float = 2.0
 
@@ -179,18 +181,29 @@ def calibrate(
         The model with the calibrated section.
     """
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
-    free = start.copy()
+    free, step = start.copy(), np.zeros_like(start)
     with ProcessPoolExecutor(workers) as pool:
-        slopes = _sensitivities(problem, start, pool.map)
         for last in range(rounds + 1):
-            jobs = [(free, target.values) for target in problem.tyres]
-            tyres = np.array(list(pool.map(partial(_tyre_job, problem), jobs)))
+            free, tyres = _reach(problem, free, step, pool.map)
             spokes = _spokes(problem, FINE, [free], pool.map)[0]
             report(Round(free.copy(), np.exp(spokes), np.exp(tyres)))
             if last < rounds:
-                free = free + _step(problem, slopes, spokes, tyres, free - start)
-                free = np.maximum(free, _smallest(problem))
+                slopes = _sensitivities(problem, free, pool.map)
+                step = _step(problem, slopes, spokes, tyres, free - start)
     return problem.with_section(free)
+
+
+def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[Array, Array]:
+    """Take a step, halved while a tyre of the new section cannot be loaded; ln K of the tyres."""
+    for _ in range(HALVINGS + 1):
+        moved = np.maximum(free + step, _smallest(problem))
+        jobs = [(moved, target.values) for target in problem.tyres]
+        try:
+            return moved, np.array(list(mapper(partial(_tyre_job, problem), jobs)))
+        except (SpokeError, TyreError) as error:
+            failure = error
+            step = step / 2.0
+    raise failure
 
 
 def _smallest(problem: Problem) -> Array:
@@ -201,16 +214,16 @@ def _smallest(problem: Problem) -> Array:
     return np.array([limits[name] for name in FREE])
 
 
-def _sensitivities(problem: Problem, start: Array, mapper: Mapper) -> Array:
+def _sensitivities(problem: Problem, free: Array, mapper: Mapper) -> Array:
     """∂ ln (k_t, k_c) / ∂ ln (dimension): array (targets, 2, dimensions)."""
-    points = [start, *(start + STEP * np.eye(len(FREE)))]
+    points = [free, *(free + STEP * np.eye(len(FREE)))]
     values = _spokes(problem, COARSE, points, mapper)
     slopes: Array = np.moveaxis((values[1:] - values[0]) / STEP, 0, 2)
     return slopes
 
 
 def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: Array) -> Array:
-    """Weighted least squares in per cent; the prior pulls towards the first section."""
+    """Weighted least squares; the prior pulls towards the first section, damping to the last."""
     count = len(problem.spokes)
     wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
     target = np.log([t.stiffness_n_per_mm for t in problem.tyres])
@@ -218,11 +231,13 @@ def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: A
         problem.spoke_weight * (spokes[:count] - wanted).ravel(),
         problem.tyre_weight * (tyres - target),
         problem.prior * moved,
+        np.zeros(len(FREE)),
     ]
     jacobian = [
         problem.spoke_weight * slopes[:count].reshape(-1, len(FREE)),
         problem.tyre_weight * EXPONENT * slopes[count:].mean(axis=1),
         problem.prior * np.eye(len(FREE)),
+        problem.damping * np.eye(len(FREE)),
     ]
     step: Array = np.linalg.lstsq(np.concatenate(jacobian), -np.concatenate(misfit))[0].astype(
         float
