@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
 
 from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
@@ -29,15 +30,19 @@ from nptcs.fe.tyre import TyreError
 
 Array = NDArray[np.float64]
 
-FREE = (
-    "leg_angle_deg",
-    "leg_thickness_mm",
-    "block_thickness_mm",
-    "block_half_length_mm",
-    "foot_thickness_mm",
-    "plate_foot_gap_mm",
-    "plate_mid_gap_mm",
-)
+# dimensions that are fitted, and how far they may go (mm, degrees)
+LIMITS = {
+    "leg_angle_deg": (15.0, 35.0),
+    "leg_thickness_mm": (2.5, 6.0),
+    "block_thickness_mm": (8.0, 15.0),
+    "block_half_length_mm": (4.0, 10.0),
+    "block_ramp_mm": (3.0, 8.0),
+    "foot_thickness_mm": (5.0, 14.0),
+    "foot_taper_mm": (5.0, 11.0),
+    "plate_foot_gap_mm": (1.5, 5.0),
+    "plate_mid_gap_mm": (1.5, 6.0),
+}
+FREE = tuple(LIMITS)
 # table 2 of the paper
 PUBLISHED_PLY = {
     "e1_mpa": 128000.0,
@@ -50,16 +55,18 @@ PUBLISHED_PLY = {
     "g13_mpa": 3147.0,
     "g23_mpa": 2300.0,
 }
-# where the calibration of the defaults began
+# where the calibration of the defaults began: found on a coarser mesh, the tyres by the surrogate
 START = FeModel(
     geometry=SpokeGeometry(
-        leg_angle_deg=25.5,
-        leg_thickness_mm=2.6,
-        block_thickness_mm=11.0,
-        block_half_length_mm=5.0,
-        foot_thickness_mm=7.0,
-        plate_foot_gap_mm=2.7,
-        plate_mid_gap_mm=2.5,
+        leg_angle_deg=30.4,
+        leg_thickness_mm=2.86,
+        block_thickness_mm=12.2,
+        block_half_length_mm=6.08,
+        block_ramp_mm=5.1,
+        foot_thickness_mm=13.9,
+        foot_taper_mm=9.3,
+        plate_foot_gap_mm=4.5,
+        plate_mid_gap_mm=5.8,
     )
 )
 # K_tyre ∝ k_spoke^0.53 over the published tables
@@ -101,7 +108,7 @@ class Problem:
     load_n: float
     prior: float = 0.03
     damping: float = 0.05
-    spoke_weight: float = 1.0
+    spoke_weight: float = 1.5
     tyre_weight: float = 2.0
 
     def with_section(self, free: Array) -> FeModel:
@@ -189,14 +196,14 @@ def calibrate(
             report(Round(free.copy(), np.exp(spokes), np.exp(tyres)))
             if last < rounds:
                 slopes = _sensitivities(problem, free, pool.map)
-                step = _step(problem, slopes, spokes, tyres, free - start)
+                step = _step(problem, slopes, spokes, tyres, free, start)
     return problem.with_section(free)
 
 
 def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[Array, Array]:
     """Take a step, halved while a tyre of the new section cannot be loaded; ln K of the tyres."""
     for _ in range(HALVINGS + 1):
-        moved = np.maximum(free + step, _smallest(problem))
+        moved = free + step
         jobs = [(moved, target.values) for target in problem.tyres]
         try:
             return moved, np.array(list(mapper(partial(_tyre_job, problem), jobs)))
@@ -204,14 +211,6 @@ def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[
             failure = error
             step = step / 2.0
     raise failure
-
-
-def _smallest(problem: Problem) -> Array:
-    """Lower limits of ln (dimension): the leg must hold the thickest plate of the targets."""
-    thickest = max(target.values["thickness_mm"] for target in problem.tyres)
-    limits = {name: -np.inf for name in FREE}
-    limits["leg_thickness_mm"] = np.log(thickest + 0.1)
-    return np.array([limits[name] for name in FREE])
 
 
 def _sensitivities(problem: Problem, free: Array, mapper: Mapper) -> Array:
@@ -222,7 +221,9 @@ def _sensitivities(problem: Problem, free: Array, mapper: Mapper) -> Array:
     return slopes
 
 
-def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: Array) -> Array:
+def _step(
+    problem: Problem, slopes: Array, spokes: Array, tyres: Array, free: Array, start: Array
+) -> Array:
     """Weighted least squares; the prior pulls towards the first section, damping to the last."""
     count = len(problem.spokes)
     wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
@@ -230,7 +231,7 @@ def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: A
     misfit = [
         problem.spoke_weight * (spokes[:count] - wanted).ravel(),
         problem.tyre_weight * (tyres - target),
-        problem.prior * moved,
+        problem.prior * (free - start),
         np.zeros(len(FREE)),
     ]
     jacobian = [
@@ -239,7 +240,9 @@ def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: A
         problem.prior * np.eye(len(FREE)),
         problem.damping * np.eye(len(FREE)),
     ]
-    step: Array = np.linalg.lstsq(np.concatenate(jacobian), -np.concatenate(misfit))[0].astype(
-        float
-    )
-    return step * min(1.0, LARGEST_STEP / float(np.abs(step).max()))
+    low, high = np.log(np.array(list(LIMITS.values()))).T
+    room = np.maximum(free - low, 1e-6), np.maximum(high - free, 1e-6)
+    bounds = -np.minimum(room[0], LARGEST_STEP), np.minimum(room[1], LARGEST_STEP)
+    found = lsq_linear(np.concatenate(jacobian), -np.concatenate(misfit), bounds)
+    step: Array = found.x
+    return step
