@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from nptcs.config.fe import GroundContact, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.band import ring_rubbers, wire_blocks
-from nptcs.fe.blocks import Response
+from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
 from nptcs.fe.contact import Ground
 from nptcs.fe.lagrange import line_shape
 from nptcs.fe.matrices import BandedPattern, element_dofs, folded_order
@@ -105,9 +105,10 @@ class TyreModel:
         ring = self.mesh
         self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
         self.wires = wire_blocks(ring, tyre)
+        self._bodies: list[RubberBlock | LinearBlock] = [*self.rubbers, *self.wires]
         self.ground = Ground(ring.positions, ring.tread_edges, tyre.tread_width_mm, contact)
         self.foot_operator = foot_operators(ring)
-        nodes = [*[block.nodes for block in [*self.rubbers, *self.wires]], ring.feet]
+        nodes = [*[block.nodes for block in self._bodies], ring.feet]
         self._dofs = [element_dofs(block, 2) for block in [*nodes, ring.tread_edges]]
         self._count = 2 * len(ring.positions)
         rows = len(ring.radii)
@@ -123,7 +124,7 @@ class TyreModel:
         return motion
 
     def _trial(self, displacement: Array, rise: float) -> _Trial:
-        responses = [block.respond(displacement) for block in [*self.rubbers, *self.wires]]
+        responses = [block.respond(displacement) for block in self._bodies]
         _, push, stiff = self.table.evaluate(self.spoke_motion(displacement))
         lift = self.foot_operator.transpose(0, 2, 1)
         spokes = Response(
