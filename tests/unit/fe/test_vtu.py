@@ -11,11 +11,12 @@ from nptcs.commands.fe_picture import SolvedTyre
 from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
-from nptcs.fe.bricks import MATERIALS, spoke_bricks, tyre_bricks
+from nptcs.fe.bricks import MATERIALS, Bricks, spoke_bricks, tyre_bricks
+from nptcs.fe.fields import lattice
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeTable
 from nptcs.fe.tyre import TyreModel
-from nptcs.fe.vtu import require_vtk, write_pvd, write_vtu
+from nptcs.fe.vtu import require_vtk, shared_nodes, write_pvd, write_vtu
 
 pytest.importorskip("vtkmodules", reason="needs vtk: pip install 'nptcs[paraview]'")
 
@@ -76,6 +77,7 @@ def tyre():
 
 
 def test_the_energy_in_a_spokes_file_is_the_models(tmp_path, spoke, pressed):
+    spoke.rest()  # leaves other pressures in the model than the state's
     write_vtu(tmp_path / "spoke.vtu", spoke_bricks(spoke, pressed), {"u_r_mm": -4.0})
     grid, points, cells, fields = read(tmp_path / "spoke.vtu")
     drawn = volumes(grid)
@@ -154,6 +156,19 @@ def test_spokes_stand_on_the_band_in_the_tyres_file(tyre, spoke):
             for part in (own, ~own)
         ]
         assert moved[near[0], :2] == pytest.approx(moved[near[1], :2], abs=0.15)
+
+
+def test_nodes_are_shared_within_a_body_and_fields_are_means_of_what_is_known():
+    nodes = lattice(3, 3)
+    places = np.stack([nodes, nodes + [2.0, 0.0, 0.0], nodes])
+    values = np.stack([np.full(27, value) for value in (1.0, 3.0, np.nan)])
+    cell = {"spoke": np.array([0, 0, 1])}
+    bricks = Bricks(places, np.zeros_like(places), cell, {"mises_mpa": values})
+    number, position, _, fields = shared_nodes(bricks)
+    assert len(position) == 27 + 18 + 27
+    assert position[number] == pytest.approx(places)
+    assert fields["mises_mpa"][number[0]] == pytest.approx(1.0 + (nodes[:, 0] == 1.0))
+    assert np.isnan(fields["mises_mpa"][number[2]]).all()
 
 
 def test_a_collection_names_its_files_and_times(tmp_path):

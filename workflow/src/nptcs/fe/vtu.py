@@ -1,7 +1,6 @@
 """Bricks as VTK files for ParaView: ``.vtu``, and ``.pvd`` for a row of states.
 
-VTK itself writes them (the extra ``nptcs[paraview]``): the project's own library, well kept. meshio
-is a thousandth of its size, but no longer kept and at odds with current NumPy.
+VTK itself writes them (the extra ``nptcs[paraview]``, see ``docs/methods/fe.md``).
 """
 
 from __future__ import annotations
