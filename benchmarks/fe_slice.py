@@ -73,14 +73,38 @@ def compare(
     return rows
 
 
+def compare_models(arguments: argparse.Namespace, model: FeModel, values: dict[str, float]) -> None:
+    """Solve one design point with both models and print their difference."""
+    dimensions = TyreGeometry()
+    loads = np.linspace(0.0, arguments.load, model.load_steps + 1)[1:].tolist()
+    design = spoke_design(model, dimensions, PUBLISHED_PLY, values)
+    table = spoke_table(model, design)
+    reduced_tyre = tyre_model(model, dimensions, table, arguments.band_c10)
+    reduced = solve("reduced", reduced_tyre, model, arguments.load)
+    direct_tyre = DirectTyre(
+        model, dimensions, design, table, arguments.band_c10, arguments.rigid_foot
+    )
+    foot = "rigid feet" if arguments.rigid_foot else "conforming feet"
+    direct = solve(f"direct, {foot}", direct_tyre, model, arguments.load)
+    unstable = sum(not spoke.stable for spoke in direct_tyre.spokes)
+    left = max(float(np.abs(spoke.step).max()) for spoke in direct_tyre.spokes)
+    print(
+        f"  {direct_tyre.unknowns} unknowns; last step of the spokes' nodes {left:.1e} mm; "
+        f"spokes unstable on a fixed foot: {unstable}"
+    )
+    if direct is not None and reduced is not None:
+        print("  load (N), rise direct, rise reduced (mm), reduced stiffness differs by (%)")
+        for load, *rises, difference in compare(direct, reduced, loads):
+            print(f"  {load:8.0f} {rises[0]:9.4f} {rises[1]:9.4f} {difference:+7.2f}")
+
+
 def main() -> None:
     """Compare the two models at each design point."""
     arguments = options()
-    model, dimensions = FeModel(), TyreGeometry()
+    model = FeModel()
     if arguments.foot_elements is not None:
         mesh = {**model.tyre_mesh.model_dump(), "foot_elements": arguments.foot_elements}
         model = model.model_copy(update={"tyre_mesh": TyreMesh(**mesh)})
-    loads = np.linspace(0.0, arguments.load, model.load_steps + 1)[1:].tolist()
     for c10 in arguments.spoke_c10:
         values = {
             "spacing_mm": arguments.spacing,
@@ -89,24 +113,10 @@ def main() -> None:
             "spoke_c10_mpa": c10,
         }
         print(
-            f"S-C {c10:g}, T-C {arguments.band_c10:g}: "
-            + ", ".join(f"{name} {value:g}" for name, value in list(values.items())[:3])
+            f"S-C {c10:g}, T-C {arguments.band_c10:g}, S {arguments.spacing:g}, "
+            f"T {arguments.thickness:g}, A {arguments.angle:g}"
         )
-        design = spoke_design(model, dimensions, PUBLISHED_PLY, values)
-        table = spoke_table(model, design)
-        reduced_tyre = tyre_model(model, dimensions, table, arguments.band_c10)
-        direct_tyre = DirectTyre(
-            model, dimensions, design, table, arguments.band_c10, arguments.rigid_foot
-        )
-        reduced = solve("reduced", reduced_tyre, model, arguments.load)
-        foot = "rigid feet" if arguments.rigid_foot else "conforming feet"
-        direct = solve(f"direct, {foot}", direct_tyre, model, arguments.load)
-        unstable = sum(not spoke.stable for spoke in direct_tyre.spokes)
-        print(f"  {direct_tyre.unknowns} unknowns; spokes unstable on a fixed foot: {unstable}")
-        if direct is not None and reduced is not None:
-            print("  load (N), rise direct, rise reduced (mm), reduced stiffness differs by (%)")
-            for row in compare(direct, reduced, loads):
-                print("  {:8.0f} {:9.4f} {:9.4f} {:+7.2f}".format(*row))
+        compare_models(arguments, model, values)
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss / 1024.0
     print(f"peak memory {peak:.0f} MiB")
 

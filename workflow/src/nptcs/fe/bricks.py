@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.blocks import RubberBlock
 from nptcs.fe.fields import (
     at_points,
     extreme,
@@ -154,38 +155,47 @@ def ring_bricks(
             wire.nodes.tolist(), linear_energy(wire, state.displacement), strict=True
         ):
             energies[tuple(nodes)] = energies.get(tuple(nodes), 0.0) + float(energy)
-    edge, axial = band_radii(dimensions)[1], np.linspace(low_mm, high_mm, 3)
-    parts = []
+    axial, parts = np.linspace(low_mm, high_mm, 3), []
     for block in [tyre.rubber]:
-        orders = RING_ORDERS[block.nodes.shape[1]]
-        shape, _ = tensor_shape(orders, lattice(3, 2))
+        own = np.array([energies.get(tuple(nodes), 0.0) for nodes in block.nodes.tolist()])
+        energy = rubber_energy(block, state.displacement) + own
         corners = tyre.mesh.positions[block.nodes]
-        fields = rubber_at(block, orders, corners, state.displacement, lattice(3, 2))
-        energy = rubber_energy(block, state.displacement)
-        energy = energy + [energies.get(tuple(nodes), 0.0) for nodes in block.nodes.tolist()]
+        inside = np.linalg.norm(corners.mean(axis=1), axis=1) < band_radii(dimensions)[1]
         whole = block.weight.sum(axis=1)
-        position = np.zeros((len(corners), 9, 3, 3))
-        position[..., :2] = np.einsum("gn,eni->egi", shape, corners)[:, :, None]
-        position[..., 2] = axial
-        moved = np.zeros_like(position)
-        local = np.einsum("gn,eni->egi", shape, state.displacement[block.nodes])
-        moved[..., :2] = local[:, :, None]
-        inside = np.linalg.norm(corners.mean(axis=1), axis=1) < edge
-        material = np.where(inside, MATERIALS["band rubber"], MATERIALS["tread rubber"])
-        nothing, outside = np.full(len(corners), np.nan), np.full(len(corners), -1)
-        volume = whole * (high_mm - low_mm) / dimensions.tread_width_mm
-        parts.append(
-            Bricks(
-                position.reshape(-1, BRICK_NODES, 3),
-                moved.reshape(-1, BRICK_NODES, 3),
-                _cells(material, outside, -1, volume, energy / whole, nothing, nothing),
-                {
-                    "mises_mpa": np.repeat(fields.mises, 3, axis=1),
-                    "pressure_mpa": np.repeat(fields.pressure, 3, axis=1),
-                },
-            )
+        nothing, outside = np.full(len(whole), np.nan), np.full(len(whole), -1)
+        cells = _cells(
+            np.where(inside, MATERIALS["band rubber"], MATERIALS["tread rubber"]),
+            outside,
+            -1,
+            whole * (high_mm - low_mm) / dimensions.tread_width_mm,
+            energy / whole,
+            nothing,
+            nothing,
         )
+        parts.append(_extruded(block, corners, state.displacement, axial, cells))
     return join(parts)
+
+
+def _extruded(
+    block: RubberBlock, corners: Array, displacement: Array, axial: Array, cells: dict[str, Array]
+) -> Bricks:
+    """Plane elements as bricks with their three nodes across at the axial places."""
+    orders, points = RING_ORDERS[block.nodes.shape[1]], lattice(3, 2)
+    shape, _ = tensor_shape(orders, points)
+    fields = rubber_at(block, orders, corners, displacement, points)
+    position, moved = np.zeros((2, len(corners), 9, 3, 3))
+    position[..., :2] = np.einsum("gn,eni->egi", shape, corners)[:, :, None]
+    position[..., 2] = axial
+    moved[..., :2] = np.einsum("gn,eni->egi", shape, displacement[block.nodes])[:, :, None]
+    return Bricks(
+        position.reshape(-1, BRICK_NODES, 3),
+        moved.reshape(-1, BRICK_NODES, 3),
+        cells,
+        {
+            "mises_mpa": np.repeat(fields.mises, 3, axis=1),
+            "pressure_mpa": np.repeat(fields.pressure, 3, axis=1),
+        },
+    )
 
 
 def tyre_bricks(
