@@ -14,7 +14,7 @@ FE = FeModel(
     spoke_mesh=SpokeMesh(rows=(1, 1, 1, 1, 1, 1)),
     table=SpokeTableOptions(
         u_r_mm=(-1.5, 1.5),
-        u_theta_mm=(-0.5, 0.5),
+        u_theta_mm=(-0.9, 0.9),
         phi_rad=(-0.02, 0.02),
         samples=(5, 3, 3),
         degrees=(6, 4),

@@ -156,7 +156,7 @@ def ring_bricks(
         ):
             energies[tuple(nodes)] = energies.get(tuple(nodes), 0.0) + float(energy)
     axial, parts = np.linspace(low_mm, high_mm, 3), []
-    for block in [tyre.rubber]:
+    for block in tyre.rubbers:
         own = np.array([energies.get(tuple(nodes), 0.0) for nodes in block.nodes.tolist()])
         energy = rubber_energy(block, state.displacement) + own
         corners = tyre.mesh.positions[block.nodes]

@@ -28,7 +28,7 @@ def ring_stress(tyre: TyreModel, state: TyreState) -> tuple[Array, Array]:
     """Deformed cells (cells, 4, 2) of band and tread, mm, and their von Mises stress, MPa."""
     points = lattice(FINE + 1, 2)
     quads, stresses = [], []
-    for block in [tyre.rubber]:
+    for block in tyre.rubbers:
         orders = RING_ORDERS[block.nodes.shape[1]]
         shape, _ = tensor_shape(orders, points)
         position = tyre.mesh.positions[block.nodes]

@@ -99,4 +99,5 @@ SOLVER = Solver(
     required=SPOKE_FACTORS,
     options=CalculixOptions,
     needs_ply=True,
+    loads_tyre=False,
 )
