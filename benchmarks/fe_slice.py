@@ -61,9 +61,9 @@ def solve(label: str, tyre: TyreModel, model: FeModel, load_n: float) -> TyreSta
 
 def compare(
     direct: TyreState, reduced: TyreState, loads_n: list[float]
-) -> list[tuple[float, float, float, float]]:
+) -> list[tuple[float, ...]]:
     """Load, rise of both (mm) and difference of the reduced secant stiffness (%), by load."""
-    rows = []
+    rows: list[tuple[float, ...]] = []
     for load in loads_n:
         rises = [
             float(np.interp(load, state.path.force_n, state.path.rise_mm))
