@@ -59,9 +59,7 @@ def solve(label: str, tyre: TyreModel, model: FeModel, load_n: float) -> TyreSta
     return state
 
 
-def compare(
-    direct: TyreState, reduced: TyreState, loads_n: list[float]
-) -> list[tuple[float, ...]]:
+def compare(direct: TyreState, reduced: TyreState, loads_n: list[float]) -> list[tuple[float, ...]]:
     """Load, rise of both (mm) and difference of the reduced secant stiffness (%), by load."""
     rows: list[tuple[float, ...]] = []
     for load in loads_n:
