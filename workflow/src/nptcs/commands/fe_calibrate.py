@@ -36,7 +36,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--cases", type=int, nargs="+", default=CASES, help="cases of table 5, at most five"
     )
-    parser.add_argument("--rounds", type=int, default=4, help="Gauss–Newton steps")
+    parser.add_argument(
+        "--rounds", type=int, default=2, help="Gauss–Newton steps (default: %(default)s)"
+    )
     parser.add_argument("--workers", type=int, default=2, help="processes")
     parser.add_argument(
         "--band-c10", type=float, default=5.0, help="band's C10 in table 5, which does not say"
@@ -138,7 +140,9 @@ def _report(problem: Problem, state: Round) -> None:
 
     pairs = zip(FREE, np.exp(state.free), strict=True)
     print("section: " + ", ".join(f"{name} {value:.3f}" for name, value in pairs), flush=True)
-    for target, (tension, compression) in zip(problem.spokes, state.spoke_stiffness, strict=True):
+    for target, (tension, compression) in zip(
+        problem.spokes, state.spoke_stiffness[: len(problem.spokes)], strict=True
+    ):
         print(
             f"  spoke C10 {target.values['spoke_c10_mpa']:g}: k_t {tension:.2f} "
             f"(wanted {target.tension_n_per_mm:g}), k_c {compression:.2f} "
