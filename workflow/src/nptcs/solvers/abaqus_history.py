@@ -6,6 +6,8 @@ import re
 
 from nptcs.fe.abaqus import GROUND, RIM
 
+ALL_ZERO = "ALL VALUES IN THIS TABLE ARE ZERO"
+
 
 def load_curve(dat_text: str) -> tuple[list[float], list[float]]:
     """Read settlement of the rim (mm) and load on the road (N), a point a converged increment.
@@ -34,7 +36,7 @@ def load_curve(dat_text: str) -> tuple[list[float], list[float]]:
 def _table(text: str, node_set: str) -> dict[str, float] | None:
     """Read the one node's row of a printed table, by column; None if it is not there.
 
-    A node whose values are all zero is not printed.
+    Abaqus prints no row of zeros: the values of a table that says so are left out.
     """
     start = re.search(
         rf"PRINTED FOR NODES BELONGING TO NODE SET (?:\S*_)?{re.escape(node_set)}\s*$",
@@ -46,13 +48,15 @@ def _table(text: str, node_set: str) -> dict[str, float] | None:
     lines = text[start.end() :].splitlines()
     following = next((i for i, line in enumerate(lines) if "TABLE IS PRINTED" in line), len(lines))
     table = lines[:following]
+    if any(ALL_ZERO in line for line in table):
+        return {}
     header = next((line.split() for line in table if line.split()[:1] == ["NODE"]), None)
     if header is None:
-        return {}
+        return None
     names = [name for name in header[1:] if not name.startswith("FOOT")]
     for line in table:
         words = line.split()
         if words and words[0].isdigit() and len(words) >= len(names) + 1:
             values = [float(word) for word in words[-len(names) :]]
             return dict(zip(names, values, strict=True))
-    return {}
+    return None
