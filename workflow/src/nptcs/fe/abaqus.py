@@ -120,12 +120,10 @@ def _instances(model: AbaqusModel, tyre: TyreGeometry) -> list[str]:
     for i, name in enumerate(_names(tyre)):
         angle = model.first_spoke_deg + i * pitch
         for part in ("SPOKE", "PLATES"):
-            lines += [
-                f"*INSTANCE, NAME={part}-{name}, PART={part}",
-                "0., 0., 0.",
-                numbers([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, angle]),
-                "*END INSTANCE",
-            ]
+            lines.append(f"*INSTANCE, NAME={part}-{name}, PART={part}")
+            if angle != 0.0:
+                lines += ["0., 0., 0.", numbers([0.0, 0.0, 0.0, 0.0, 0.0, 1.0, angle])]
+            lines.append("*END INSTANCE")
     return lines
 
 
@@ -256,7 +254,7 @@ def _output() -> list[str]:
         "*NODE PRINT, NSET=BAND-1.NEUTRAL, FREQUENCY=1000, SUMMARY=NO",
         "COORD",
         *comment("output database (.odb)"),
-        "*OUTPUT, FIELD, NUMBER INTERVAL=20",
+        "*OUTPUT, FIELD, NUMBER INTERVAL=10, TIME MARKS=NO",
         "*NODE OUTPUT",
         "U, RF, COORD",
         "*ELEMENT OUTPUT",
