@@ -115,6 +115,9 @@ elif mode == "leaves a child":
     finish("")
 elif mode == "ignores a parameter":
     finish(IGNORED)
+elif mode == "ignores a parameter and goes on":
+    write("dat", IGNORED)
+    time.sleep(600)
 elif mode == "does not converge":
     print(GRANTED)
     write("dat", INACTIVE + increments((0.02, 0.5)))

@@ -108,6 +108,17 @@ def test_a_warning_that_changes_the_model_is_fatal_unless_it_is_accepted():
     assert "THE PARAMETER HOST ELSET" in accepted.message
 
 
+def test_a_job_that_solves_another_model_is_not_waited_for():
+    result = case("ignores a parameter and goes on")
+    assert result.status is Status.ERROR
+    assert "something is left out: THE PARAMETER HOST ELSET" in result.message
+
+
+def test_accepted_warnings_are_patterns():
+    with pytest.raises(ValueError, match="no regular expression"):
+        abaqus.AbaqusOptions(accepted_warnings=("(",))
+
+
 def test_a_job_that_does_not_converge_keeps_its_last_point():
     result = case("does not converge")
     assert result.status is Status.DIVERGED

@@ -34,7 +34,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--config", metavar="CONFIG.yaml", help="take tyre and solver options from here"
     )
     parser.add_argument(
-        "--load", type=float, default=5000.0, help="vertical load on the tyre (N, default: 5000)"
+        "--load", type=float, default=5000.0, help="load on the tyre (N; Abaqus only; 5000)"
     )
     for name, what in (
         ("spoke-c10", "spokes' C10 (MPa)"),

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import tempfile
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
@@ -9,7 +10,7 @@ from math import floor
 from pathlib import Path
 from typing import ClassVar
 
-from pydantic import Field
+from pydantic import Field, field_validator
 
 from nptcs.config.abaqus import AbaqusModel
 from nptcs.fe.abaqus import tyre_deck
@@ -19,8 +20,8 @@ from nptcs.solvers.abaqus_messages import (
     NOT_CONVERGED,
     licence_denial,
     read_messages,
-    waits_for_licence,
 )
+from nptcs.solvers.abaqus_watch import JobWatch, text_of
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, Ended, run_command, time_for_command
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
@@ -66,6 +67,16 @@ class AbaqusOptions(SolverOptions, AbaqusModel):
         None, description="Folder in which decks and Abaqus' files are kept; null: deleted"
     )
 
+    @field_validator("accepted_warnings")
+    @classmethod
+    def _are_patterns(cls, patterns: tuple[str, ...]) -> tuple[str, ...]:
+        for pattern in patterns:
+            try:
+                re.compile(pattern)
+            except re.error as error:
+                raise ValueError(f"{pattern!r} is no regular expression: {error}") from None
+        return patterns
+
     def cores_per_case(self) -> int:
         """Return the cores that Abaqus takes for a case."""
         return self.cpus
@@ -95,11 +106,10 @@ def solve(inputs: CaseInputs) -> SolverResult:
                 [*options.command, *_arguments(options)],
                 folder,
                 time_for_command(options.timeout_s),
-                lambda printed: waits_for_licence(printed + _text(folder, "log")),
-                options.licence_wait_s,
+                JobWatch(folder / JOB, options.licence_wait_s, options.accepted_warnings),
             )
         except CommandStopped as stopped:
-            curve = _curve(*load_curve(_text(folder, "dat")))
+            curve = _curve(*load_curve(text_of(folder / JOB, "dat")))
             return SolverResult(status=stopped.status, message=str(stopped), curve=curve)
         return judge(folder, ended, inputs.load_n, options.accepted_warnings)
 
@@ -108,7 +118,7 @@ def judge(
     folder: Path, ended: Ended, load_n: float, accepted_warnings: Sequence[str] = ()
 ) -> SolverResult:
     """Make a result of the files that Abaqus has left in a folder."""
-    log, dat, msg, sta = (_text(folder, kind) for kind in ("log", "dat", "msg", "sta"))
+    log, dat, msg, sta = (text_of(folder / JOB, kind) for kind in ("log", "dat", "msg", "sta"))
     displacement, force = load_curve(dat)
     messages = read_messages([dat, msg], accepted_warnings)
     if messages.fatal:
@@ -173,12 +183,6 @@ def _folder(keep: Path | None, case_id: str) -> Iterator[Path]:
         return
     keep.mkdir(parents=True, exist_ok=True)
     yield Path(tempfile.mkdtemp(prefix=f"{case_id}-", dir=keep.resolve()))
-
-
-def _text(folder: Path, kind: str) -> str:
-    """Content of one of the job's files; an empty text if there is none."""
-    path = folder / f"{JOB}.{kind}"
-    return path.read_text(encoding="utf-8", errors="replace") if path.exists() else ""
 
 
 SOLVER = Solver(

@@ -51,8 +51,7 @@ def run_command(
     command: Sequence[str],
     folder: Path,
     timeout_s: float,
-    waits_for_licence: Callable[[str], bool] | None = None,
-    licence_wait_s: float = 0.0,
+    watch: Callable[[str], None] | None = None,
 ) -> Ended:
     """Run a command in a folder and wait for its end.
 
@@ -63,15 +62,13 @@ def run_command(
         Working folder; what the command prints is kept there in ``nptcs_output.txt``.
     timeout_s : float
         Time after which it is stopped, with all its children.
-    waits_for_licence : callable, optional
-        Tells from what has been printed so far whether the command waits for a licence now.
-    licence_wait_s : float
-        Time that it may wait without a break.
+    watch : callable, optional
+        Called now and then with all that has been printed; it may raise `CommandStopped`.
 
     Raises
     ------
     CommandStopped
-        With status ``error`` if there is no such command, ``timeout`` or ``licence``.
+        With status ``error`` if there is no such command, ``timeout``, or from `watch`.
     """
     output = folder / OUTPUT_FILE
     with output.open("wb") as stream:
@@ -89,20 +86,14 @@ def run_command(
             raise CommandStopped(Status.ERROR, message) from error
     _groups.add(process.pid)
     try:
-        waiting_since = None
         end = time.monotonic() + timeout_s
         while process.poll() is None:
-            now = time.monotonic()
-            if now >= end:
+            left = end - time.monotonic()
+            if left <= 0.0:
                 raise CommandStopped(Status.TIMEOUT, f"stopped after {timeout_s:g} s")
-            if waits_for_licence is not None and waits_for_licence(_read(output)):
-                waiting_since = now if waiting_since is None else waiting_since
-                if now - waiting_since >= licence_wait_s:
-                    message = f"no licence after {licence_wait_s:g} s (licence_wait_s)"
-                    raise CommandStopped(Status.LICENCE, message)
-            else:
-                waiting_since = None
-            time.sleep(min(POLL_S, end - now))
+            if watch is not None:
+                watch(_read(output))
+            time.sleep(min(POLL_S, left))
     finally:
         _end_group(process)
     return Ended(process.returncode, _read(output))
