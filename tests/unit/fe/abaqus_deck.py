@@ -123,10 +123,8 @@ class Deck:
         if "." in name:
             owner, own = name.split(".")
             return [(owner, label) for label in getattr(self.instances[owner].part, kind)[own]]
-        members = []
-        for entry in getattr(self.assembly, kind)[name]:
-            members += self.resolve(entry, kind) if isinstance(entry, str) else [("", entry)]
-        return members
+        members = getattr(self.assembly, kind)[name]
+        return [entry if isinstance(entry, tuple) else ("", entry) for entry in members]
 
     def surface(self, name: str) -> Block:
         owner, own = name.split(".")
@@ -207,7 +205,10 @@ def _collect(part: Part, block: Block) -> None:
     elif block.keyword in ("NSET", "ELSET"):
         sets = part.node_sets if block.keyword == "NSET" else part.element_sets
         entries = [entry for row in block.data for entry in row if entry]
-        sets[parameters[block.keyword]] = [int(e) if e.isdigit() else e for e in entries]
+        owner = parameters.get("INSTANCE")
+        labels = [int(entry) for entry in entries]
+        own = labels if owner is None else [(owner, label) for label in labels]
+        sets.setdefault(parameters[block.keyword], []).extend(own)  # Abaqus adds to a set
     elif block.keyword == "SURFACE":
         part.surfaces[parameters["NAME"]] = block
 

@@ -150,6 +150,7 @@ def test_feet_meet_the_band_and_the_tread_meets_the_road(deck, reader):
 def test_rim_is_rigid_and_moves_up_and_down_only(deck):
     rim = deck.resolve("RIM", "node_sets")
     assert len(rim) == len(set(rim)) == 60 * 4 * 44
+    assert {name for name, _ in rim} == {f"SPOKE-{i:02d}" for i in range(1, 61)}
     radii = [np.hypot(*deck.instances[name].position(node)[:2]) for name, node in rim[::97]]
     assert np.abs(np.array(radii) - 215.9).max() < 0.1
     held = {}

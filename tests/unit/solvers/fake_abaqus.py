@@ -102,7 +102,7 @@ elif mode == "queued a little":
     print(QUEUED, flush=True)
     time.sleep(0.5)
     print(GRANTED, flush=True)
-    time.sleep(3.2)
+    time.sleep(0.2)
     finish("")
 elif mode == "hangs with a child":
     write("dat", increments((0.02, 0.5)) + "   THE FOLLOWING TABLE IS PRI")

@@ -4,6 +4,7 @@ import os
 import sys
 import time
 from pathlib import Path
+from types import SimpleNamespace
 
 import pytest
 
@@ -11,7 +12,7 @@ from nptcs.config.abaqus import AbaqusMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.calibration import PUBLISHED_PLY
-from nptcs.solvers import abaqus, calculix
+from nptcs.solvers import abaqus, abaqus_watch, calculix
 from nptcs.solvers.abaqus_history import load_curve
 from nptcs.solvers.abaqus_messages import (
     licence_denial,
@@ -20,7 +21,7 @@ from nptcs.solvers.abaqus_messages import (
     waits_for_licence,
 )
 from nptcs.solvers.contract import CaseInputs, Status
-from nptcs.solvers.external import end_all, run_command, time_for_command
+from nptcs.solvers.external import CommandStopped, end_all, run_command, time_for_command
 
 FAKE = str(Path(__file__).with_name("fake_abaqus.py"))
 SMALL = AbaqusMesh(
@@ -75,13 +76,28 @@ def test_a_denied_licence_is_its_own_status():
 
 
 def test_a_long_queue_for_a_licence_is_ended():
-    result = case("queued", licence_wait_s=1.0)
+    result = case("queued", licence_wait_s=1.0, timeout_s=60.0)
     assert result.status is Status.LICENCE
     assert "licence_wait_s" in result.message
 
 
 def test_a_short_queue_for_a_licence_is_waited_for():
-    assert case("queued a little", licence_wait_s=3.0).status is Status.OK
+    assert case("queued a little", licence_wait_s=30.0).status is Status.OK
+
+
+def test_only_an_unbroken_queue_counts(tmp_path, monkeypatch):
+    now = [0.0]
+    monkeypatch.setattr(abaqus_watch, "time", SimpleNamespace(monotonic=lambda: now[0]))
+    watch = abaqus_watch.JobWatch(tmp_path / "tyre", 100.0, ())
+    queued = '"standard" license request queued for the License Server on a.\n'
+    printed = ""
+    for second, line in ((0, queued), (90, "checked out 5 tokens\n"), (95, queued), (180, "")):
+        now[0], printed = float(second), printed + line
+        watch(printed)
+    now[0] = 196.0
+    with pytest.raises(CommandStopped) as stopped:
+        watch(printed)
+    assert stopped.value.status is Status.LICENCE
 
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="reads the process table of Linux")
@@ -109,7 +125,7 @@ def test_a_warning_that_changes_the_model_is_fatal_unless_it_is_accepted():
 
 
 def test_a_job_that_solves_another_model_is_not_waited_for():
-    result = case("ignores a parameter and goes on")
+    result = case("ignores a parameter and goes on", timeout_s=60.0)
     assert result.status is Status.ERROR
     assert "something is left out: THE PARAMETER HOST ELSET" in result.message
 

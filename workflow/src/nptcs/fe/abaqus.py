@@ -9,7 +9,7 @@ from collections.abc import Mapping
 
 from nptcs.config.abaqus import AbaqusModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.abaqus_mesh import check_radii
+from nptcs.fe.abaqus_mesh import check_radii, spoke_part
 from nptcs.fe.abaqus_parts import (
     band_lines,
     ground_lines,
@@ -17,7 +17,7 @@ from nptcs.fe.abaqus_parts import (
     spoke_lines,
     wires_lines,
 )
-from nptcs.fe.abaqus_text import RULE, comment, number, numbers
+from nptcs.fe.abaqus_text import RULE, comment, members, number, numbers
 
 RIM, GROUND = "RIM-REF", "GROUND-REF"
 """Node sets whose displacement and reaction are printed to the .dat file."""
@@ -60,7 +60,7 @@ def tyre_deck(
         *wires_lines(model, tyre),
         *ground_lines(tyre),
         *_instances(model, tyre),
-        *_joints(tyre),
+        *_joints(model, tyre),
         *_materials(tyre, ply, values),
         *_contact(model),
         *_supports(),
@@ -127,9 +127,10 @@ def _instances(model: AbaqusModel, tyre: TyreGeometry) -> list[str]:
     return lines
 
 
-def _joints(tyre: TyreGeometry) -> list[str]:
+def _joints(model: AbaqusModel, tyre: TyreGeometry) -> list[str]:
     """Join the parts and close the assembly."""
     names = _names(tyre)
+    rim_foot = members(spoke_part(model.geometry, model.mesh, tyre).node_sets["RIMFOOT"].tolist())
     lines = [
         *comment(
             "the rim: a rigid body of all nodes of the spokes' inner feet (section 3.2); its "
@@ -139,11 +140,14 @@ def _joints(tyre: TyreGeometry) -> list[str]:
         "1, 0., 0., 0.",
         f"*NSET, NSET={RIM}",
         "1,",
-        "*NSET, NSET=RIM",
-        *[f"SPOKE-{name}.RIMFOOT," for name in names],
+        *[
+            line
+            for name in names
+            for line in (f"*NSET, NSET=RIM, INSTANCE=SPOKE-{name}", *rim_foot)
+        ],
         f"*RIGID BODY, REF NODE={RIM}, PIN NSET=RIM",
-        f"*NSET, NSET={GROUND}",
-        "GROUND-1.REF,",
+        f"*NSET, NSET={GROUND}, INSTANCE=GROUND-1",
+        "1,",
         *comment(
             "outer feet tied to the inside of the band (section 3.2); the flat feet lie less than "
             "0.1 mm off its cylinder and are moved onto it"

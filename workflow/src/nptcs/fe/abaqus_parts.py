@@ -29,7 +29,7 @@ def spoke_lines(model: AbaqusModel, tyre: TyreGeometry) -> list[str]:
             f"{len(part.elements)} C3D8H bricks (table 4: 3612 C3D8H/C3D6H per spoke); the mesh "
             "needs no wedges (C3D6H). Hybrid elements, because the rubber is incompressible. "
             f"As wide as the tread ({tyre.tread_width_mm:g} mm), since the paper gives no other "
-            "width. RIMFOOT: nodes on the rim. FOOT: faces on the shear band."
+            "width. FOOT: faces on the shear band."
         ),
         "*PART, NAME=SPOKE",
         *_mesh(part, "C3D8H"),
