@@ -47,7 +47,7 @@ def reader():
 @pytest.fixture(scope="session")
 def text():
     """The Abaqus deck of one case on the default mesh."""
-    return tyre_deck(AbaqusModel(), TyreGeometry(), PUBLISHED_PLY, CASE, 5000.0)
+    return tyre_deck(AbaqusModel(), TyreGeometry(), PUBLISHED_PLY, CASE, 5000.0, "c_001")
 
 
 @pytest.fixture(scope="session")
@@ -63,6 +63,7 @@ def small_deck(reader):
     def make(model=None, tyre=None, load_n=5000.0, **changes):
         model = AbaqusModel(mesh=SMALL) if model is None else model
         tyre = TyreGeometry() if tyre is None else tyre
-        return reader.read_deck(tyre_deck(model, tyre, PUBLISHED_PLY, CASE | changes, load_n))
+        values = CASE | changes
+        return reader.read_deck(tyre_deck(model, tyre, PUBLISHED_PLY, values, load_n, "small"))
 
     return make

@@ -158,9 +158,9 @@ def test_what_is_no_result_is_an_error(mode, message):
     assert message in result.message
 
 
-@pytest.mark.parametrize("solver", [abaqus, calculix])
-def test_a_missing_command_is_an_error(solver):
-    options = solver.SOLVER.options(command=("no-such-solver",))
+@pytest.mark.parametrize(("solver", "own"), [(abaqus, {"mesh": SMALL}), (calculix, {})])
+def test_a_missing_command_is_an_error(solver, own):
+    options = solver.SOLVER.options(command=("no-such-solver",), **own)
     inputs = CaseInputs("c", VALUES, 5000.0, TyreGeometry(), options, ply=PUBLISHED_PLY)
     result = solver.solve(inputs)
     assert result.status is Status.ERROR

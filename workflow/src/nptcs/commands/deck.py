@@ -65,7 +65,8 @@ def _abaqus(inputs: CaseInputs) -> str:
     from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
 
     values = checked_values(inputs, TYRE_FACTORS)
-    return tyre_deck(inputs.options, inputs.tyre, ply_constants(inputs), values, inputs.load_n)
+    ply = ply_constants(inputs)
+    return tyre_deck(inputs.options, inputs.tyre, ply, values, inputs.load_n, inputs.case_id)
 
 
 def _calculix(inputs: CaseInputs) -> str:

@@ -29,6 +29,7 @@ def tyre_deck(
     ply: Mapping[str, float],
     values: Mapping[str, float],
     load_n: float,
+    case_id: str,
 ) -> str:
     """Write the complete deck of one case.
 
@@ -44,6 +45,8 @@ def tyre_deck(
         ``shear_band_c10_mpa``.
     load_n : float
         Vertical load at the end of the step, N.
+    case_id : str
+        For the heading only.
 
     Raises
     ------
@@ -53,7 +56,7 @@ def tyre_deck(
     check_radii(model.geometry, tyre)
     plate = (values["spacing_mm"], values["thickness_mm"], values["angle_deg"])
     lines = [
-        *_heading(values, load_n),
+        *_heading(values, load_n, case_id),
         *spoke_lines(model, tyre),
         *plates_lines(model, tyre, *plate),
         *band_lines(model, tyre),
@@ -71,15 +74,13 @@ def tyre_deck(
     return "\n".join(lines) + "\n"
 
 
-def _heading(values: Mapping[str, float], load_n: float) -> list[str]:
+def _heading(values: Mapping[str, float], load_n: float, case_id: str) -> list[str]:
     return [
         "*HEADING",
-        "Non-pneumatic tyre with composite spokes on a rigid plane",
+        f"Non-pneumatic tyre with composite spokes on a rigid plane, case {case_id}",
         RULE,
         *comment("The finite element tyre of Sun et al., Machines 2024, 12, 358, section 3.2."),
-        *comment(
-            "Units: N, mm, MPa. X along the road, Y up, Z the tyre's axis; origin in the hub."
-        ),
+        *comment("Units: N, mm, MPa. X along the road, Y up, Z the tyre's axis; origin: hub."),
         *comment(
             f"Plates: spacing S {values['spacing_mm']:g} mm, thickness T "
             f"{values['thickness_mm']:g} mm, fibre angle A {values['angle_deg']:g} degrees."

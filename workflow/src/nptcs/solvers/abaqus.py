@@ -98,7 +98,8 @@ def solve(inputs: CaseInputs) -> SolverResult:
     """
     options: AbaqusOptions = inputs.options
     values = checked_values(inputs, TYRE_FACTORS)
-    deck = tyre_deck(options, inputs.tyre, ply_constants(inputs), values, inputs.load_n)
+    ply = ply_constants(inputs)
+    deck = tyre_deck(options, inputs.tyre, ply, values, inputs.load_n, inputs.case_id)
     with _folder(options.keep_files, inputs.case_id) as folder:
         (folder / f"{JOB}.inp").write_text(deck, encoding="ascii")
         try:
