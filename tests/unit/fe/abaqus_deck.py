@@ -263,21 +263,30 @@ def volumes(bricks):
 
 
 def held(bricks, points):
-    """Which of the points lie in one of the bricks, by Newton's method on natural places."""
+    """Which of the points lie in one of the bricks."""
+    return host(bricks, points)[0] >= 0
+
+
+def host(bricks, points):
+    """Number of a brick that holds each point, or -1, and the point's natural place in it.
+
+    By Newton's method, in all bricks near the point.
+    """
     low, high = bricks.min(axis=1) - 1e-6, bricks.max(axis=1) + 1e-6
     near = [np.flatnonzero(((low <= point) & (point <= high)).all(axis=1)) for point in points]
     which = np.repeat(np.arange(len(points)), [len(found) for found in near])
-    brick, point = bricks[np.concatenate(near)], points[which]
-    natural = np.zeros_like(point)
+    tried = np.concatenate(near)
+    natural = np.zeros((len(tried), 3))
     for _ in range(12):
         shape, slope = shape_and_slope(natural)
-        miss = np.einsum("pn,pnx->px", shape, brick) - point
-        jacobian = np.einsum("pnx,pnj->pxj", brick, slope)
+        miss = np.einsum("pn,pnx->px", shape, bricks[tried]) - points[which]
+        jacobian = np.einsum("pnx,pnj->pxj", bricks[tried], slope)
         natural -= np.linalg.solve(jacobian, miss[..., None])[..., 0]
     inside = np.abs(natural).max(axis=1) <= 1.0 + 1e-6
-    found = np.zeros(len(points), dtype=bool)
-    found[which[inside]] = True
-    return found
+    brick, place = np.full(len(points), -1), np.zeros((len(points), 3))
+    brick[which[inside]] = tried[inside]
+    place[which[inside]] = natural[inside]
+    return brick, place
 
 
 def places(part):

@@ -33,15 +33,25 @@ def ply(published_ply):
     return dict(published_ply)
 
 
-@pytest.fixture(scope="session")
-def reader():
-    """The tests' own reader of Abaqus decks."""
-    path = Path(__file__).with_name("abaqus_deck.py")
-    spec = importlib.util.spec_from_file_location("abaqus_deck", path)
+def load(name):
+    path = Path(__file__).with_name(f"{name}.py")
+    spec = importlib.util.spec_from_file_location(name, path)
     module = importlib.util.module_from_spec(spec)
     sys.modules[spec.name] = module
     spec.loader.exec_module(module)
     return module
+
+
+@pytest.fixture(scope="session")
+def reader():
+    """The tests' own reader of Abaqus decks; benchmarks read the same file."""
+    return load("abaqus_deck")
+
+
+@pytest.fixture(scope="session")
+def spoke_solver():
+    """A solver of its own for one spoke of a deck; benchmarks read the same file."""
+    return load("abaqus_spoke")
 
 
 @pytest.fixture(scope="session")

@@ -9,13 +9,29 @@ from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
-from nptcs.config.fe import SpokeMesh
+from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.abaqus_mesh import plate_count, spoke_part
 from nptcs.fe.blocks import RubberBlock
 from nptcs.fe.calculix import total_forces
 from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
+
+
+# a section of its own: what follows must not move with the calibrated one
+SECTION = SpokeGeometry(
+    leg_angle_deg=26.433,
+    height_mm=84.1,
+    leg_thickness_mm=2.6,
+    block_thickness_mm=11.239,
+    block_half_length_mm=4.375,
+    block_ramp_mm=5.27,
+    foot_thickness_mm=8.988,
+    foot_taper_mm=7.0,
+    plate_foot_gap_mm=2.642,
+    plate_mid_gap_mm=2.828,
+    plate_layer_mm=1.0,
+)
 
 
 def test_default_mesh_has_the_counts_of_table_4(deck):
@@ -178,7 +194,7 @@ def test_constant_pressure_bricks_of_the_default_mesh_bend():
 
 def slice_stiffness(mesh):
     """N/mm of one spoke's rubber (C10 = 1, 5 mm wide) against small outward motion of its foot."""
-    model = AbaqusModel(mesh=mesh.model_copy(update={"spoke_axial": 1}))
+    model = AbaqusModel(geometry=SECTION, mesh=mesh.model_copy(update={"spoke_axial": 1}))
     part = spoke_part(model.geometry, model.mesh, TyreGeometry(tread_width_mm=5.0))
     # the tensor product of the kernel runs z fastest
     nodes = part.elements[:, [0, 4, 3, 7, 1, 5, 2, 6]] - 1
@@ -204,6 +220,24 @@ def slice_stiffness(mesh):
     return -(matrix @ motion.ravel()).reshape(-1, 3)[moved, 1].sum()
 
 
+def test_the_decks_spoke_is_as_stiff_as_the_packages_own(small_deck, reader, spoke_solver, ply):
+    """All that the deck says of a spoke, solved at rest: embedding and plate count differ."""
+    deck = small_deck(AbaqusModel(geometry=SECTION, mesh=AbaqusMesh(around=60, band_axial=1)))
+    design = SpokeDesign(
+        geometry=SECTION,
+        mesh=SpokeMesh(),
+        spacing_mm=15.0,
+        plate_width_mm=5.0,
+        thickness_mm=1.8,
+        angle_deg=30.0,
+        c10_mpa=3.0,
+        ply=ply,
+        width_mm=215.0,
+    )
+    ours = SpokeModel(design).rest().tangent[0, 0]
+    assert spoke_solver.radial_stiffness(deck, reader) == pytest.approx(ours, rel=0.1)
+
+
 @pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
 def test_the_spokes_mesh_is_sound_in_another_solver(tmp_path, ply):
     """A slice of the spoke's rubber alone, in plane strain, against the package's own spoke.
@@ -212,7 +246,7 @@ def test_the_spokes_mesh_is_sound_in_another_solver(tmp_path, ply):
     limits.
     """
     width, u_r, ratio = 5.0, 1.0, 100.0
-    model = AbaqusModel(mesh=AbaqusMesh(spoke_axial=1, columns=4))
+    model = AbaqusModel(geometry=SECTION, mesh=AbaqusMesh(spoke_axial=1, columns=4))
     slice_mm = TyreGeometry(tread_width_mm=width)
     part = spoke_part(model.geometry, model.mesh, slice_mm)
     lines = ["*NODE, NSET=NALL"]
