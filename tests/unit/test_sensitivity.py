@@ -9,7 +9,8 @@ import pytest
 
 from nptcs.sensitivity import impact
 from nptcs.surface.fit import fit
-from nptcs.tables.impact import with_published
+from nptcs.tables.impact import Impact, with_published
+from nptcs.tables.io import check
 
 PUBLISHED = Path(__file__).parents[2] / "raw_data" / "published"
 
@@ -106,3 +107,31 @@ def test_printed_values_stand_only_beside_the_same_range():
     assert table["published_impact"].tolist()[0] == 54.93
     assert table["published_impact"].isna().tolist() == [False, True, True]
     assert table["difference_percent"].iloc[0] == pytest.approx(100 * (50 / 54.93 - 1))
+
+
+def test_ranks_are_among_the_factors_that_have_a_printed_value():
+    ours = pd.DataFrame(
+        {
+            "solver": "s",
+            "study": ["plate", "plate", "plate", "rubber", "rubber"],
+            "factor": [
+                "spacing_mm",
+                "thickness_mm",
+                "angle_deg",
+                "shear_band_c10_mpa",
+                "spoke_c10_mpa",
+            ],
+            "rule": "domain_mean_signed",
+            "gradient": 1.0,
+            # another range of the thickness: it stands beside nothing
+            "range": [10.0, 2.0, 90.0, 1.0, 4.0],
+            "impact": [-50.0, 900.0, -60.0, 38.0, 300.0],
+        }
+    )
+    other = ours[ours["study"] == "rubber"].assign(solver="t", impact=[40.0, 30.0])
+    printed = pd.read_csv(PUBLISHED / "table9_impact.csv")
+    table = check(with_published(pd.concat([ours, other]), printed), Impact, "impact.csv")
+
+    assert table["rank"].fillna(0).tolist() == [3, 0, 2, 4, 1, 1, 2]
+    # S-C 319.83 > spacing 54.93 > T-C 38.60 > angle 21.91
+    assert table["published_rank"].fillna(0).tolist() == [2, 0, 4, 3, 1, 2, 1]

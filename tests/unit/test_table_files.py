@@ -25,6 +25,8 @@ def impact():
             "published_gradient": [np.nan, 1.0],
             "published_impact": [np.nan, 2.0],
             "difference_percent": [np.nan, 0.0],
+            "rank": pd.array([None, 1], dtype="Int64"),
+            "published_rank": pd.array([None, 1], dtype="Int64"),
         }
     )
 
@@ -35,6 +37,7 @@ def test_numbers_and_text_come_back_exactly(tmp_path, impact):
     assert again["gradient"].tolist() == [1 / 3, -2.0]
     assert again["study"].tolist() == ["001", "NA"]
     assert again["published_impact"].isna().tolist() == [True, False]
+    assert again["rank"].tolist() == [pd.NA, 1]
 
 
 def test_empty_text_stays_text(tmp_path):

@@ -4,6 +4,7 @@ import json
 import re
 import shutil
 
+import openpyxl
 import yaml
 
 TABLES_OF_A_CASE_CHANGE = {"cases", "surface", "sensitivity", "problems", "report", "verdict"}
@@ -21,7 +22,7 @@ def test_everything_is_there_and_a_second_run_does_nothing(finished):
 def test_tables_have_the_documented_columns_and_plausible_numbers(finished):
     cases = finished.rows("cases.csv")
     assert {row["status"] for row in cases} == {"ok"}
-    assert len(cases) == 12
+    assert len(cases) == 20
     assert list(cases[0])[:5] == ["study", "case_id", "solver", "status", "message"]
     surface = finished.rows("rubber_surface.csv")
     assert list(surface[0])[:5] == [
@@ -54,6 +55,83 @@ def test_tables_have_the_documented_columns_and_plausible_numbers(finished):
     card = json.loads(finished.path("results/material_card.json").read_text())
     assert card["plies"]["cfrp"]["synthetic"] is True
     assert card["rubbers"]["rubber_75A"]["constants"]["c10_mpa"]["value"] > 1
+
+
+def test_computed_results_stand_beside_the_paper_s(finished):
+    """Coarse meshes: the right order of size, every table filled."""
+    rows = finished.rows("stiffness_against_published.csv")
+    by_fe = [row for row in rows if row["solver"] == "fe_tyre"]
+    assert [row["published_stiffness_n_per_mm"] for row in by_fe] == ["536.71", "591.18"]
+    assert all(abs(float(row["difference_percent"])) < 10 for row in by_fe)
+    assert {(row["study"], row["solver"]) for row in finished.rows("stiffness_errors.csv")} == {
+        ("rubber", "lca"),
+        ("band", "lca"),
+        ("band", "fe_tyre"),
+    }
+    levels = finished.rows("stiffness_by_level.csv")
+    assert {row["level"] for row in levels if row["study"] == "band"} == {"4.0", "5.0"}
+    spokes = finished.rows("spoke_stiffness.csv")
+    assert [row["published_tension_stiffness_n_per_mm"] for row in spokes] == ["30.2", "132.57"]
+    assert all(abs(float(row["compression_difference_percent"])) < 25 for row in spokes)
+    assert len(finished.rows("spoke_curves.csv")) == 2 * 57
+    lines = finished.rows("neutral_line.csv")
+    assert {(row["case_id"], row["solver"]) for row in lines} == {
+        ("band_002", "lca"),
+        ("band_002", "fe_tyre"),
+    }
+    deepest = {
+        solver: min(float(row["radial_mm"]) for row in lines if row["solver"] == solver)
+        for solver in ("lca", "fe_tyre")
+    }
+    assert abs(deepest["lca"] / deepest["fe_tyre"] - 1) < 0.25
+    loads = {row["study"]: row["load_n"] for row in finished.rows("cases.csv")}
+    assert loads == {"rubber": "5000.0", "band": "5000.0", "spoke": ""}
+    assert not finished.path("results/tables/spoke_surface.csv").exists()
+    report = finished.path("results/report.html").read_text(encoding="utf-8")
+    for text in ("Single spoke (section 4.3.1) against the paper", "What the neutral lines show"):
+        assert text in report
+    workbook = openpyxl.load_workbook(finished.path("results/workbook.xlsx"))
+    assert {"spoke_stiffness", "stiffness_against_published", "neutral_line"} <= set(
+        workbook.sheetnames
+    )
+
+
+def test_a_case_that_fails_is_a_row_beside_the_published_one(project):
+    small = yaml.safe_load(project.path("config/small.yaml").read_text())
+    small["solvers"]["fe_tyre"] |= {"load_steps": 6, "timeout_s": 0.2}
+    small["solvers"]["fe_spoke"] |= {"load_steps": 6, "timeout_s": 0.2}
+    project.path("config/small.yaml").write_text(yaml.safe_dump(small, sort_keys=False))
+
+    run = project.snakemake()
+
+    assert run.returncode != 0
+    rows = project.rows("stiffness_against_published.csv")
+    failed = [row for row in rows if row["solver"] == "fe_tyre"]
+    assert [row["status"] for row in failed] == ["timeout", "timeout"]
+    assert [row["computed_stiffness_n_per_mm"] for row in failed] == ["", ""]
+    assert [row["published_stiffness_n_per_mm"] for row in failed] == ["536.71", "591.18"]
+    errors = {(row["study"], row["solver"]): row for row in project.rows("stiffness_errors.csv")}
+    assert (errors["band", "fe_tyre"]["cases"], errors["band", "fe_tyre"]["compared"]) == ("2", "0")
+    assert errors["band", "lca"]["compared"] == "2"
+    spokes = project.rows("spoke_stiffness.csv")
+    assert [row["status"] for row in spokes] == ["timeout", "timeout"]
+    assert spokes[0]["published_tension_stiffness_n_per_mm"] == "30.2"
+    report = project.path("results/report.html").read_text(encoding="utf-8")
+    assert "fe_tyre: timeout" in report
+    assert {row["solver"] for row in project.rows("neutral_line.csv")} == {"lca"}
+
+
+def test_what_is_made_of_results_solves_nothing(project):
+    """A new calibration case or neutral line is a matter of tables alone."""
+    small = yaml.safe_load(project.path("config/small.yaml").read_text())
+    band = next(study for study in small["studies"] if study["name"] == "band")
+    band |= {"calibration_cases": {"fe_tyre": [1]}, "neutral_line_cases": [1, 2]}
+    project.path("config/small.yaml").write_text(yaml.safe_dump(small, sort_keys=False))
+
+    plan = project.planned()
+
+    assert (plan["against_published"], plan["neutral_line"], plan["report"]) == (1, 1, 1)
+    assert not {"design", "solve", "cases", "surface"} & set(plan)
 
 
 def test_touched_files_rerun_nothing(project):
@@ -102,7 +180,7 @@ def test_a_study_on_tested_rubbers_follows_the_raw_file(project):
     factor["levels"] = [{"rubber": "rubber_75A"}, 2.0, {"rubber": "rubber_88A"}]
     small["studies"][0]["solvers"] = ["lca"]
     del small["studies"][0]["solver_options"]
-    project.path("config/tested.yaml").write_text(yaml.safe_dump(small))
+    project.path("config/tested.yaml").write_text(yaml.safe_dump(small, sort_keys=False))
     assert project.snakemake(config="config/tested.yaml").returncode == 0
     rows, _ = project.read_sheet()
     row = next(row for row in rows if row["material"] == "rubber_75A")
@@ -118,14 +196,16 @@ def test_a_study_on_tested_rubbers_follows_the_raw_file(project):
 def test_a_changed_range_in_the_configuration_reruns_the_reduction(project):
     small = yaml.safe_load(project.path("config/small.yaml").read_text())
     small["reduction"] = {"astm_d3518": {"chord_range": [0.002, 0.0061]}}
-    project.path("config/small.yaml").write_text(yaml.safe_dump(small))
+    project.path("config/small.yaml").write_text(yaml.safe_dump(small, sort_keys=False))
 
     plan = project.planned()
 
     assert "ingest" not in plan
     assert plan["reduce"] == 5
     assert plan["calibrate_ply"] == 1
-    assert not {"calibrate_rubber", "design", "solve", "surface"} & set(plan)
+    # the finite elements rest on the ply, the other solvers do not
+    assert plan["solve"] == 2
+    assert not {"calibrate_rubber", "design", "surface"} & set(plan)
 
 
 def test_a_changed_level_solves_only_what_is_new(project):

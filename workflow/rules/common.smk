@@ -28,11 +28,12 @@ SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
 SERIES = sorted({specimen.series for specimen in SPECIMENS})
 RUBBERS = sorted({s.material for s in SPECIMENS if s.test.is_rubber and s.include})
 STUDIES = [study.name for study in CONFIG.studies]
+SURFACE_STUDIES = [study.name for study in CONFIG.studies if study.terms]
 
 TABLES = [
     f"results/tables/{name.replace('STUDY', study)}"
     for name in TABLE_CONTRACTS
-    for study in (STUDIES if "STUDY" in name else [""])
+    for study in (SURFACE_STUDIES if "STUDY" in name else [""])
 ]
 
 
@@ -48,6 +49,18 @@ wildcard_constraints:
 def plain(section):
     """A configuration section as plain values, so that Snakemake notices each change."""
     return section.model_dump(mode="json")
+
+
+def cases_of(study_name):
+    """What decides the cases of a study, without what is made of their results."""
+    afterwards = {
+        "terms",
+        "published_coefficients",
+        "published_spoke_stiffness",
+        "calibration_cases",
+        "neutral_line_cases",
+    }
+    return CONFIG.study(study_name).model_dump(mode="json", exclude=afterwards)
 
 
 def code_of(script, *modules):
@@ -81,6 +94,15 @@ def solver_of(study_name, solver_name):
     options = CONFIG.solver_options(CONFIG.study(study_name))[solver_name]
     solver = load(module_of(solver_name, options))
     return solver, read_options(solver, options)
+
+
+def tyre_solvers(study_name):
+    """The solvers of a study that load a tyre; the others compute single spokes."""
+    return [
+        name
+        for name in CONFIG.study(study_name).solvers
+        if solver_of(study_name, name)[0].loads_tyre
+    ]
 
 
 def batches(study_name, solver_name=None):

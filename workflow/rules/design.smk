@@ -11,7 +11,7 @@ def rubber_cards(wildcards):
 
 def design_job(wildcards):
     return {
-        "study": plain(CONFIG.study(wildcards.study)),
+        "study": cases_of(wildcards.study),
         "code": code_of("design"),
     }
 

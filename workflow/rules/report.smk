@@ -14,6 +14,7 @@ def solver_facts():
         facts[name] = {
             "about": about[0] if about else "",
             "needs_ply": solver.needs_ply,
+            "loads_tyre": solver.loads_tyre,
         }
     return facts
 
@@ -31,7 +32,7 @@ def configured_inputs():
         check.published_fem,
     ]
     for study in CONFIG.studies:
-        paths.append(study.published_coefficients)
+        paths += [study.published_coefficients, study.published_spoke_stiffness]
         for name in study.solvers:
             paths += solver_of(study.name, name)[1].tables().values()
     return list(dict.fromkeys(filter(None, paths)))
@@ -42,7 +43,7 @@ rule problems:
         records=records(SPECIMENS),
         cases="results/tables/cases.csv",
         tables=expand("results/2_reduce/{series}_problems.csv", series=SERIES)
-        + expand("results/6_surface/{study}_problems.csv", study=STUDIES),
+        + expand("results/6_surface/{study}_problems.csv", study=SURFACE_STUDIES),
     output:
         problems="results/tables/problems.csv",
     log:
@@ -71,10 +72,16 @@ rule report:
         records=records(SPECIMENS),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         cases="results/tables/cases.csv",
-        surfaces=expand("results/6_surface/{study}.json", study=STUDIES),
-        coefficients=expand("results/tables/{study}_surface.csv", study=STUDIES),
+        surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+        coefficients=expand("results/tables/{study}_surface.csv", study=SURFACE_STUDIES),
         quality="results/tables/surface_quality.csv",
         impact="results/tables/impact.csv",
+        spoke_stiffness="results/tables/spoke_stiffness.csv",
+        spoke_curves="results/tables/spoke_curves.csv",
+        against_published="results/tables/stiffness_against_published.csv",
+        stiffness_errors="results/tables/stiffness_errors.csv",
+        stiffness_by_level="results/tables/stiffness_by_level.csv",
+        neutral_line="results/tables/neutral_line.csv",
         lca_validation="results/tables/lca_validation.csv",
         lca_against_fem="results/tables/lca_against_fem.csv",
         lca_shape="results/tables/lca_shape.csv",

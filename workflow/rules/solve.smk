@@ -15,7 +15,7 @@ def solve_job(wildcards):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
     return {
-        "study": plain(study),
+        "study": cases_of(wildcards.study),
         "solver": wildcards.solver,
         "options": options,
         "tyre": plain(CONFIG.tyre),

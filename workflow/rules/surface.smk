@@ -35,9 +35,9 @@ rule surface:
 
 rule sensitivity:
     input:
-        surfaces=expand("results/6_surface/{study}.json", study=STUDIES),
-        designs=expand("results/4_design/{study}.csv", study=STUDIES),
-        quality=expand("results/6_surface/{study}_quality.csv", study=STUDIES),
+        surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+        designs=expand("results/4_design/{study}.csv", study=SURFACE_STUDIES),
+        quality=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
         published=(
             [CONFIG.sensitivity.published_impact]
             if CONFIG.sensitivity.published_impact
@@ -50,7 +50,7 @@ rule sensitivity:
         "results/logs/sensitivity.log",
     params:
         job={
-            "studies": STUDIES,
+            "studies": SURFACE_STUDIES,
             "rules": list(CONFIG.sensitivity.rules),
             "code": code_of("sensitivity"),
         },

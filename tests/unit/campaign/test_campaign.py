@@ -6,12 +6,18 @@ import sys
 import time
 from pathlib import Path
 
+import numpy as np
+import pandas as pd
 import pytest
 
+from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseJob, RecordStore, read_records, write_records
 from nptcs.campaign.runner import run_cases
+from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.provenance import code_hash
+from nptcs.tables.cases import Cases, cases_table
+from nptcs.tables.io import check
 
 SOLVER = Path(__file__).with_name("faulty_solver.py")
 
@@ -183,3 +189,66 @@ def alive(pid):
         return ") Z" not in Path(f"/proc/{pid}/stat").read_text()
     except (ProcessLookupError, FileNotFoundError):
         return False
+
+
+SPOKES = """
+from nptcs.solvers.contract import Solver, SolverResult
+
+def solve(inputs):
+    loaded = inputs.load_n == inputs.load_n  # not so for NaN
+    return SolverResult(status="ok", extra={"load_is_a_number": float(loaded)})
+
+SOLVER = Solver("spokes", "1", solve, frozenset({"c"}), loads_tyre=False)
+"""
+
+
+def test_a_solver_of_spokes_is_handed_no_load_and_solves_once_for_all_loads(tmp_path, store):
+    module = tmp_path / "spokes.py"
+    module.write_text(SPOKES)
+    design = pd.DataFrame({"case_id": ["s_001"], "case": [1], "c": [1.0]})
+    factor = {"name": "c", "label": "c", "unit": "-", "levels": [1, 2]}
+    light, heavy = (
+        make_jobs(
+            Study(name="s", title="s", factors=[factor], solvers=["spokes"], load_n=load_n),
+            "spokes",
+            {"module": str(module)},
+            TyreGeometry(),
+            design,
+            None,
+        )[0]
+        for load_n in (3000.0, 5000.0)
+    )
+    assert light.load_n is None
+    assert light.key == heavy.key
+    (record,) = run_cases([light], store, 1, quiet)
+    assert record.result.extra == {"load_is_a_number": 0.0}
+    table = check(cases_table([record]), Cases, "cases")
+    assert np.isnan(table["load_n"].iloc[0])
+
+
+def test_a_shape_is_carried_through_process_store_and_batch_file(tmp_path, store):
+    module = tmp_path / "shaped.py"
+    module.write_text(
+        "from nptcs.solvers.contract import Solver, SolverResult, neutral_line\n"
+        "def solve(inputs):\n"
+        "    return SolverResult(status='ok', shape=neutral_line([0, 90], [-1, 2], [0, 1]))\n"
+        "SOLVER = Solver('shaped', '1', solve, frozenset())\n"
+    )
+    (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)
+    write_records(tmp_path / "batch.jsonl", [record])
+    wanted = {"theta_deg": [0.0, 90.0], "radial_mm": [-1.0, 2.0], "tangential_mm": [0.0, 1.0]}
+    assert read_records([str(tmp_path / "batch.jsonl")])[0].result.shape == wanted
+    assert store.read(job(10, module=str(module))).result.shape == wanted
+
+
+def test_columns_of_unequal_length_are_an_error_of_their_case(tmp_path, store):
+    module = tmp_path / "ragged.py"
+    module.write_text(
+        "from nptcs.solvers.contract import Solver, SolverResult\n"
+        "def solve(inputs):\n"
+        "    return SolverResult(status='ok', shape={'a': [1.0], 'b': []})\n"
+        "SOLVER = Solver('ragged', '1', solve, frozenset())\n"
+    )
+    (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)
+    assert record.result.status == "error"
+    assert "equally long" in record.result.message

@@ -6,6 +6,7 @@ from pathlib import Path
 import pytest
 import yaml
 
+from nptcs.commands.fe_calibrate import CASES
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.solvers.registry import check_study, load, module_of
@@ -37,6 +38,14 @@ def changed(path, value):
         (["studies", 0, "load_n"], -5, "studies.0.load_n"),
         (["studies", 0, "fixed"], {"angle_deg": 3}, "both varied and fixed: ['angle_deg']"),
         (["studies", 0, "solver_options"], {"lca": {}}, "which `solvers` does not run"),
+        (["studies", 0, "calibration_cases"], {"lca": [1]}, "calibration_cases for ['lca']"),
+        (
+            ["studies", 0, "calibration_cases"],
+            {"fe_tyre": [63, 64]},
+            "[64] not among cases 1 to 63",
+        ),
+        (["studies", 1, "neutral_line_cases"], [0], "neutral_line_cases: [0] not among cases 1 to"),
+        (["studies", 1, "published_spoke_stiffness"], "x.csv", "the only factor is spoke_c10_mpa"),
         (["studies", 1, "name"], "plate", "a name is given twice"),
         (["studies"], [], "studies"),
         (["sensitivity", "rules"], ["mean"], "sensitivity.rules.0"),
@@ -72,7 +81,7 @@ def test_default_configuration_is_sound():
 
 def test_a_solver_that_cannot_see_a_factor_refuses_it_by_name():
     with pytest.raises(InputError) as refusal:
-        checked(["studies", 0, "solvers"], ["published", "lca"])
+        checked(["studies", 0, "solvers"], ["published", "lca", "fe_tyre"])
     assert "solver 'lca' cannot see angle_deg, spacing_mm, thickness_mm" in str(refusal.value)
     assert "studies.plate.solvers" in str(refusal.value)
 
@@ -82,6 +91,7 @@ def test_a_solver_that_lacks_a_value_says_which():
     config["studies"][1]["factors"] = config["studies"][1]["factors"][1:]
     config["studies"][1]["solvers"] = ["lca"]
     config["studies"][1]["solver_options"] = {}
+    config["studies"][1]["neutral_line_cases"] = []
     config = read_config(config)
     study = config.studies[1]
     with pytest.raises(InputError, match="solver 'lca' needs shear_band_c10_mpa"):
@@ -95,3 +105,29 @@ def test_unknown_solvers_and_options_are_named():
         checked(["studies", 0, "solver_options"], {"published": {"archve": "x.csv"}})
     with pytest.raises(InputError, match="does not exist"):
         load(module_of("own", {"module": "no/such/file.py"}))
+
+
+SPOKE = next(number for number, s in enumerate(DEFAULT["studies"]) if s["name"] == "spoke")
+
+
+def test_single_spokes_have_no_surface():
+    with pytest.raises(InputError) as refusal:
+        checked(["studies", SPOKE, "terms"], ["1", "spoke_c10_mpa"])
+    assert "give no vertical stiffness" in str(refusal.value)
+    assert "studies.spoke.solvers" in str(refusal.value)
+    assert "fe_spoke" in str(refusal.value)
+
+
+def test_table_10_beside_tyres_is_refused():
+    config = copy.deepcopy(DEFAULT)
+    config["studies"][SPOKE] |= {"solvers": ["lca"], "fixed": {"shear_band_c10_mpa": 5}}
+    config = read_config(config)
+    study = config.study("spoke")
+    with pytest.raises(InputError, match="no solver of this study computes single spokes"):
+        check_study(study, config.solver_options(study))
+
+
+def test_the_calibration_cases_are_those_of_the_calibration():
+    """The default study names the cases on which `nptcs fe-calibrate` fits the section."""
+    plate = read_config(DEFAULT).study("plate")
+    assert set(plate.calibration_cases["fe_tyre"]) == set(CASES)

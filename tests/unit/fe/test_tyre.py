@@ -46,12 +46,46 @@ def test_the_ring_closes_and_has_the_tyres_area():
     inner, outer = band_radii(TYRE)
     area = np.pi * ((TYRE.outer_diameter_mm / 2) ** 2 - inner**2)
     assert (inner, outer) == (300.0, 314.0)
-    assert model.rubber.weight.sum() == pytest.approx(area * TYRE.tread_width_mm, rel=1e-5)
-    hoops = sum(wire.weight.sum() for wire in model.wires)
+    rubber = sum(block.weight.sum() for block in model.rubbers)
+    assert rubber == pytest.approx(area * TYRE.tread_width_mm, rel=1e-5)
+    hoops = sum(wire.weight.sum() for wire in model.wires if wire.stiffness[:, 0, 0].any())
     section = np.pi / 4 / 2.0 * TYRE.tread_width_mm * 2
     length = np.pi * (TYRE.inner_wire_diameter_mm + TYRE.outer_wire_diameter_mm)
     assert hoops == pytest.approx(section * length, rel=1e-4)
     assert len(ring.feet) == 60
+
+
+def test_bent_wires_store_the_energy_of_a_thin_ring():
+    """Inextensional mode w = a cos 2θ: U = π/2 · E I (3a)² / R³ for each wire layer."""
+    model = tyre(mesh=TyreMesh(gap_elements=4, foot_elements=2))
+    amplitude = 1e-3
+    layers = zip((model.wires[:2], model.wires[2:]), (300.75, 313.25), strict=True)
+    for blocks, middle in layers:
+        x, y = model.mesh.positions.T
+        theta, radius = np.arctan2(x, -y), np.hypot(x, y)
+        w, slope = amplitude * np.cos(2 * theta), -2.0 * amplitude * np.sin(2 * theta)
+        v = -0.5 * amplitude * np.sin(2 * theta)
+        along = v + (radius - middle) / middle * (v - slope)
+        outward = np.stack([np.sin(theta), -np.cos(theta)], axis=1)
+        tangent = np.stack([np.cos(theta), np.sin(theta)], axis=1)
+        moved = w[:, None] * outward + along[:, None] * tangent
+        wires = TYRE.tread_width_mm / TYRE.wire_pitch_mm * 2
+        inertia = wires * np.pi * TYRE.wire_diameter_mm**4 / 64
+        expected = np.pi / 2 * TYRE.wire_modulus_mpa * inertia * (3 * amplitude) ** 2 / middle**3
+        energy = sum(block.respond(moved).energy for block in blocks)
+        assert energy == pytest.approx(expected, rel=0.01)
+
+
+def test_a_finer_ring_changes_the_stiffness_little():
+    """The compressed wires of a finer ring must not buckle between its nodes."""
+    coarse = tyre(mesh=TyreMesh()).load([1500.0, 3000.0])
+    fine = tyre(mesh=TyreMesh(gap_elements=4)).load([1500.0, 3000.0])
+    assert fine.rise_mm == pytest.approx(coarse.rise_mm, rel=0.005)
+
+
+def test_a_band_that_does_not_cover_its_wires_is_refused():
+    with pytest.raises(ValueError, match="does not cover"):
+        build_ring(TYRE.model_copy(update={"shear_band_thickness_mm": 13.0}), MESH, 7.0)
 
 
 def test_feet_that_overlap_are_refused():

@@ -8,22 +8,35 @@ import pandas as pd
 import pytest
 import yaml
 
+from nptcs.campaign.record import CaseRecord
 from nptcs.config.root import read_config
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.validation import lca_against_fem, lca_validation, ring_shapes
 from nptcs.materials import MaterialCard, PlyCard, Quantity, RubberCard
 from nptcs.report.data import Results, SolverFacts
 from nptcs.sensitivity import impact
+from nptcs.solvers.contract import SolverResult
 from nptcs.surface.fit import fit
 from nptcs.surface.quality import assess
+from nptcs.tables.against_published import (
+    AgainstPublished,
+    Comparison,
+    StiffnessByLevel,
+    StiffnessErrors,
+    against_published,
+    stiffness_by_level,
+    stiffness_errors,
+)
 from nptcs.tables.cases import Design
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.impact import with_published
 from nptcs.tables.io import check, empty_table, read_table
+from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.published import PrintedCoefficients
+from nptcs.tables.published import PrintedCoefficients, SpokeStiffness
 from nptcs.tables.specimens import Specimen
+from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
 from nptcs.tables.surface import by_powers, quality_table, surface_table
 
 ROOT = Path(__file__).parents[3]
@@ -38,7 +51,8 @@ def config():
     studies = [study for study in values["studies"] if study["name"] in ARCHIVES]
     for study in studies:
         study["solvers"] = ["published"]
-        study["solver_options"] = {}
+        study["solver_options"] = study["calibration_cases"] = {}
+        study["neutral_line_cases"] = []
     values["studies"] = studies
     values["report"] = {"title": "A title <b>&", "laboratory": "Laboratory of tyres"}
     return read_config(values)
@@ -87,19 +101,19 @@ def cases_of(study):
     )
 
 
-def analysed(study, cases):
+def analysed(study, cases, solver="published"):
     """Fit the study's surface as the pipeline does."""
     names = [factor.name for factor in study.factors]
     response = cases["vertical_stiffness_n_per_mm"]
     surface = fit(cases, response, names, study.terms)
     file = ROOT / study.published_coefficients
     printed = by_powers(read_table(file, PrintedCoefficients), names)
-    quality = quality_table(study.name, {"published": assess(surface, cases, response)})
+    quality = quality_table(study.name, {solver: assess(surface, cases, response)})
     impacts = [
-        impact(surface, cases, rule).assign(study=study.name, solver="published")
+        impact(surface, cases, rule).assign(study=study.name, solver=solver)
         for rule in ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
     ]
-    return surface, surface_table({"published": surface}, printed), quality, pd.concat(impacts)
+    return surface, surface_table({solver: surface}, printed), quality, pd.concat(impacts)
 
 
 def card(synthetic=True):
@@ -220,7 +234,7 @@ def results(config):
     return Results(
         config=config,
         sheet=sheet,
-        solvers={"published": SolverFacts("The published finite element results.", False)},
+        solvers={"published": SolverFacts("The published finite element results.", False, True)},
         software={"nptcs": "0.1.0", "Python": "3.11"},
         inputs={"raw_data/published/table5_plate_doe.csv": "a" * 64},
         card=card(),
@@ -246,6 +260,12 @@ def results(config):
         cases=pd.concat(cases.values(), ignore_index=True),
         quality=pd.concat([part[2] for part in parts.values()], ignore_index=True),
         impact=with_published(impacts, pd.read_csv(PUBLISHED / "table9_impact.csv")),
+        spoke_stiffness=empty_table(TABLES["spoke_stiffness.csv"]),
+        spoke_curves=empty_table(TABLES["spoke_curves.csv"]),
+        against_published=empty_table(TABLES["stiffness_against_published.csv"]),
+        stiffness_errors=empty_table(TABLES["stiffness_errors.csv"]),
+        stiffness_by_level=empty_table(TABLES["stiffness_by_level.csv"]),
+        neutral_line=empty_table(TABLES["neutral_line.csv"]),
         lca_validation=lca_validation(
             spokes, table_11, pd.read_csv(PUBLISHED / "figure15_load_errors.csv"), tyre
         ),
@@ -284,3 +304,117 @@ def measured(results):
     """The same run with measured specimens."""
     sheet = tuple(s.model_copy(update={"origin": "measured"}) for s in results.sheet)
     return replace(results, sheet=sheet, card=card(synthetic=False))
+
+
+ERROR_PERCENT = {"plate": lambda row: -1.0 if row["angle_deg"] < 60 else 2.0}
+ERROR_PERCENT["rubber"] = lambda row: 3.0 - row["spoke_c10_mpa"]
+"""Made-up differences of the solver fe_tyre from the published stiffness."""
+
+
+def computed_cases(study):
+    """Cases of a made-up fe_tyre; the last one of the rubber study diverged."""
+    cases = cases_of(study).assign(solver="fe_tyre")
+    error = cases.apply(ERROR_PERCENT[study.name], axis=1)
+    cases["vertical_stiffness_n_per_mm"] *= 1 + error / 100
+    if study.name == "rubber":
+        last = cases.index[-1]
+        cases.loc[last, ["status", "message"]] = ["diverged", "outside the table"]
+        cases.loc[last, ["vertical_stiffness_n_per_mm", "displacement_mm"]] = np.nan
+    return cases
+
+
+def spoke_records(study):
+    """Spokes twice as stiff in tension at the end as at the start; the last one diverged."""
+    place = np.linspace(-20.0, 4.0, 49)
+    records = []
+    for number, c10 in enumerate(study.factors[0].levels, start=1):
+        force = 30.0 * c10 * place + 2.0 * c10 * np.sign(place) * place**2
+        curve = {"displacement_mm": place.tolist(), "force_n": force.tolist()}
+        ok = SolverResult(status="ok", curve=curve)
+        failed = SolverResult(status="diverged", message="no equilibrium")
+        records.append(
+            CaseRecord(
+                study=study.name,
+                case_id=f"spoke_{number:03d}",
+                solver="fe_spoke",
+                solver_version="1",
+                key="0" * 64,
+                values={"spoke_c10_mpa": c10, **study.fixed},
+                load_n=None,
+                wall_time_s=1.0,
+                result=failed if c10 == 5 else ok,
+            )
+        )
+    return records
+
+
+def shape(solver, depth_mm):
+    theta = np.arange(-180.0, 180.0, 1.5)
+    radial = -depth_mm * np.exp(-((theta / 20) ** 2))
+    return pd.DataFrame(
+        {
+            "study": "rubber",
+            "case_id": "rubber_011",
+            "solver": solver,
+            "load_n": 5000.0,
+            "theta_deg": theta,
+            "radial_mm": radial,
+            "tangential_mm": 0.2 * depth_mm * np.sin(np.radians(theta)),
+        }
+    )
+
+
+@pytest.fixture(scope="session")
+def compared(results):
+    """The run of the default studies with a made-up fe_tyre and fe_spoke beside the paper."""
+    values = yaml.safe_load((ROOT / "config" / "config.yaml").read_text("utf-8"))
+    values["studies"] = [study for study in values["studies"] if study["name"] != "tested"]
+    for study in values["studies"]:
+        study["solvers"] = [name for name in study["solvers"] if name != "lca"]
+    config = read_config(values)
+    tyres = [config.study(name) for name in ARCHIVES]
+    computed = {study.name: computed_cases(study) for study in tyres}
+    cases = pd.concat([results.cases, *computed.values()], ignore_index=True)
+    studies = {
+        study.name: Comparison(
+            results.designs[study.name],
+            tuple(factor.name for factor in study.factors),
+            ("fe_tyre",),
+            study.calibration_cases,
+        )
+        for study in tyres
+    }
+    table = check(against_published(cases, studies), AgainstPublished, "against")
+    records = spoke_records(config.study("spoke"))
+    printed = read_table(PUBLISHED / "table10_spoke_stiffness.csv", SpokeStiffness)
+    solved = {name: rows[rows["status"] == "ok"] for name, rows in computed.items()}
+    parts = {study.name: analysed(study, solved[study.name], "fe_tyre") for study in tyres}
+    impacts = pd.concat([part[3] for part in parts.values()], ignore_index=True)
+    table_9 = pd.read_csv(PUBLISHED / "table9_impact.csv")
+    spokes = pd.DataFrame({"case_id": [r.case_id for r in records], "case": range(1, 6)})
+    spokes["spoke_c10_mpa"] = [r.values["spoke_c10_mpa"] for r in records]
+    return replace(
+        results,
+        config=config,
+        solvers={
+            **results.solvers,
+            "lca": SolverFacts("The ring.", False, True),
+            "fe_tyre": SolverFacts("The tyre.", True, True),
+            "fe_spoke": SolverFacts("The spoke.", True, False),
+        },
+        designs={**results.designs, "spoke": check(spokes, Design, "spoke")},
+        cases=cases,
+        surfaces={
+            name: {**by_solver, "fe_tyre": parts[name][0]}
+            for name, by_solver in results.surfaces.items()
+        },
+        impact=pd.concat([results.impact, with_published(impacts, table_9)], ignore_index=True),
+        spoke_stiffness=check(spoke_lines(records, {"spoke": printed}), SpokeLines, "lines"),
+        spoke_curves=check(spoke_curves(records), SpokeCurves, "curves"),
+        against_published=table,
+        stiffness_errors=check(stiffness_errors(table), StiffnessErrors, "errors"),
+        stiffness_by_level=check(stiffness_by_level(table, studies), StiffnessByLevel, "levels"),
+        neutral_line=check(
+            pd.concat([shape("lca", 20.0), shape("fe_tyre", 19.0)]), NeutralLine, ""
+        ),
+    )

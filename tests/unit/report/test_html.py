@@ -16,6 +16,8 @@ IDENTIFIERS = [
     "cases",
     "surfaces",
     "sensitivity",
+    "spoke",
+    "against",
     "lca",
     "provenance",
 ]

@@ -3,7 +3,9 @@
 import io
 import math
 
+import numpy as np
 import openpyxl
+import pandas as pd
 import pytest
 
 from nptcs.report.sheets import sheets_of
@@ -34,9 +36,11 @@ def test_every_number_is_native_and_whole(workbook, results):
         assert len(rows) == len(sheet.table)
         for written, record in zip(rows, sheet.table.itertuples(index=False), strict=True):
             for cell, value in zip(written, record, strict=True):
-                if isinstance(value, bool):
+                if value is pd.NA:
+                    assert cell is None
+                elif isinstance(value, bool):
                     assert cell == ("yes" if value else "no")
-                elif isinstance(value, int | float):
+                elif isinstance(value, int | float | np.integer):
                     # a workbook keeps 16 significant digits
                     assert (
                         cell is None

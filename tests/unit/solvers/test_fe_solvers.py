@@ -1,5 +1,6 @@
 import sys
 
+import numpy as np
 import pytest
 
 from nptcs.config.fe import SpokeMesh, SpokeTableOptions, TyreMesh
@@ -29,6 +30,22 @@ def inputs(options, values=VALUES, load_n=800.0, ply=PUBLISHED_PLY):
     return CaseInputs("case_1", values, load_n, TyreGeometry(), options, ply=ply)
 
 
+def neutral_line_is_sound(result):
+    """Lowest over the contact by nearly δ, driven away from it, at rest in no rigid turn."""
+    line = {name: np.array(column) for name, column in result.shape.items()}
+    theta, radial, along = line["theta_deg"], line["radial_mm"], line["tangential_mm"]
+    assert len(theta) == 240
+    assert (np.diff(theta) > 0).all()
+    assert np.abs(theta).max() <= 180.0
+    # the tread between band and ground gives way a little
+    assert 0.8 * result.displacement_mm < -radial.min() < result.displacement_mm
+    assert abs(theta[radial.argmin()]) < 6.0
+    # an inextensible band: u_θ' = -u_r, so that it moves away from the contact on both sides
+    middle = np.abs(theta) < 15.0
+    slope = np.polyfit(np.radians(theta[middle]), along[middle], 1)[0]
+    assert slope == pytest.approx(-radial[middle].mean(), rel=0.15)
+
+
 def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path):
     options = fe_tyre.FeTyreOptions(spoke_cache=tmp_path, load_steps=3, **TYRE_OPTIONS)
     first = fe_tyre.solve(inputs(options))
@@ -38,6 +55,7 @@ def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path)
     assert first.vertical_stiffness_n_per_mm == pytest.approx(800.0 / first.displacement_mm)
     assert 100.0 < first.vertical_stiffness_n_per_mm < 1500.0
     assert first.extra["smallest_u_r_mm"] > -first.displacement_mm
+    neutral_line_is_sound(first)
     files = sorted(tmp_path.iterdir())
     again = fe_tyre.solve(inputs(options))
     assert sorted(tmp_path.iterdir()) == files
@@ -55,6 +73,7 @@ def test_a_tyre_that_leaves_its_table_is_diverged_with_its_last_point(tmp_path):
     assert "outside the table" in result.message
     assert 0.0 < result.curve["force_n"][-1] < 5000.0
     assert result.vertical_stiffness_n_per_mm is None
+    assert result.shape is None
 
 
 def test_fe_spoke_gives_curve_and_lines():

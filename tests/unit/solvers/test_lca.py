@@ -1,5 +1,6 @@
 """The load-bearing model behind the contract of all solvers."""
 
+import numpy as np
 import pandas as pd
 import pytest
 
@@ -41,6 +42,34 @@ def test_case_of_table_11():
     assert curve["displacement_mm"].iloc[0] == 0
     assert curve["displacement_mm"].iloc[-1] == pytest.approx(result.displacement_mm, rel=1e-12)
     assert curve["displacement_mm"].is_monotonic_increasing
+
+
+def test_the_neutral_line_is_flat_on_the_ground_and_the_same_on_both_sides():
+    result = SOLVER.solve(inputs())
+    line = pd.DataFrame(result.shape)
+    assert list(line["theta_deg"]) == list(range(-180, 181))
+    theta = np.radians(line["theta_deg"])
+    radius = TyreGeometry().band_radius_mm
+    depth = (radius + line["radial_mm"]) * np.cos(theta) - line["tangential_mm"] * np.sin(theta)
+    on_ground = line["theta_deg"].abs() < result.extra["theta_c_deg"]
+    np.testing.assert_allclose(depth[on_ground], radius - result.displacement_mm, atol=1e-4)
+    assert (depth[~on_ground] < radius - result.displacement_mm).all()
+    np.testing.assert_allclose(line["radial_mm"], line["radial_mm"][::-1], atol=1e-4)
+    np.testing.assert_allclose(line["tangential_mm"], -line["tangential_mm"][::-1], atol=1e-4)
+
+
+def test_a_spoke_law_gives_the_whole_neutral_line_as_well():
+    result = SOLVER.solve(inputs(contact_spokes="local"))
+    line = pd.DataFrame(result.shape).set_index("theta_deg")
+    assert len(line) == 361
+    assert line["radial_mm"][0.0] == pytest.approx(-result.displacement_mm, abs=0.02)
+    np.testing.assert_allclose(line["radial_mm"], line["radial_mm"][::-1], atol=1e-4)
+    np.testing.assert_allclose(line["tangential_mm"], -line["tangential_mm"][::-1], atol=1e-4)
+    # away from the contact close to the model of two stiffnesses
+    linear = pd.DataFrame(SOLVER.solve(inputs()).shape).set_index("theta_deg")
+    for column in ("radial_mm", "tangential_mm"):
+        far = linear[column][90.0], line[column][90.0]
+        assert far[1] == pytest.approx(far[0], rel=0.1)
 
 
 def test_printed_section_is_an_option():

@@ -58,7 +58,7 @@ def make_jobs(
             module=module,
             code=code,
             values={str(k): float(v) for k, v in row.items() if k != "case"},
-            load_n=study.load_n,
+            load_n=study.load_n if solver.loads_tyre else None,
             tyre=tyre.model_dump(),
             ply=dict(ply) if solver.needs_ply and ply is not None else None,
             options=checked.model_dump(mode="json"),

@@ -31,7 +31,7 @@ class CaseJob(BaseModel):
     module: str = Field(description="Module or file that defines the solver")
     code: str = Field(description="Hash of the solver's code and of all that it imports")
     values: dict[str, float]
-    load_n: float
+    load_n: float | None = Field(description="None for a solver that loads no tyre")
     tyre: dict[str, Any]
     ply: dict[str, float] | None
     options: dict[str, Any]
@@ -63,7 +63,7 @@ class CaseRecord(BaseModel):
     solver_version: str
     key: str
     values: dict[str, float]
-    load_n: float
+    load_n: float | None
     wall_time_s: float = Field(description="Time of the run that made the result")
     result: SolverResult
 

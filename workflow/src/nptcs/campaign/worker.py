@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import os
 import signal
 import threading
@@ -25,7 +26,7 @@ def solve(job: CaseJob) -> SolverResult:
         inputs = CaseInputs(
             case_id=job.case_id,
             values=job.values,
-            load_n=job.load_n,
+            load_n=math.nan if job.load_n is None else job.load_n,
             tyre=TyreGeometry.model_validate(job.tyre),
             options=read_options(solver, job.options),
             ply=job.ply,

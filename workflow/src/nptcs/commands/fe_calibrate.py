@@ -137,7 +137,7 @@ def _report(problem: Problem, state: Round) -> None:
     from nptcs.fe.calibration import FREE
 
     pairs = zip(FREE, np.exp(state.free), strict=True)
-    print("section: " + ", ".join(f"{name} {value:.3f}" for name, value in pairs))
+    print("section: " + ", ".join(f"{name} {value:.3f}" for name, value in pairs), flush=True)
     for target, (tension, compression) in zip(
         problem.spokes, state.spoke_stiffness[: len(problem.spokes)], strict=True
     ):

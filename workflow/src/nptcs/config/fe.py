@@ -88,12 +88,12 @@ class SpokeMesh(Strict):
     """Numbers of quadratic elements of the spoke's mesh."""
 
     rows: tuple[int, int, int, int, int, int] = Field(
-        (1, 1, 3, 1, 1, 1),
+        (1, 2, 4, 1, 1, 1),
         description="Along a leg: foot to plate, taper, leg, ramp, block with plate, block",
     )
     columns: int = Field(1, ge=1, description="Across the rubber on each side of the plate")
     plate_columns: int = Field(1, ge=1, description="Across the width of the plate")
-    gap_columns: int = Field(1, ge=1, description="Across the rubber between two plates")
+    gap_columns: int = Field(2, ge=1, description="Across the rubber between two plates")
     bulk_to_shear_ratio: float = Field(
         2000.0,
         ge=100,
@@ -112,7 +112,7 @@ class SpokeTableOptions(Strict):
     """Range and sampling of the spoke's energy table."""
 
     u_r_mm: tuple[float, float] = Field(
-        (-32.0, 8.0),
+        (-40.0, 8.0),
         description="Radial displacement of the band, outward positive; a spoke that loses its "
         "stability before the lower end has a shorter table",
     )
@@ -128,10 +128,10 @@ class SpokeTableOptions(Strict):
         "u_r = 0: the most compressed spokes stand on the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
-        (8, 3, 3), description="Numbers of states computed along u_r, u_θ and φ"
+        (10, 3, 3), description="Numbers of states computed along u_r, u_θ and φ"
     )
     degrees: tuple[int, int] = Field(
-        (11, 5), description="Polynomial degree in u_r, and total degree in u_θ and φ"
+        (13, 5), description="Polynomial degree in u_r, and total degree in u_θ and φ"
     )
 
     @model_validator(mode="after")
@@ -149,13 +149,8 @@ class TyreMesh(Strict):
     """Mesh of the band and tread; quadratic quadrilaterals."""
 
     foot_elements: int = Field(1, ge=1, description="Along the circumference under a spoke's foot")
-    gap_elements: int = Field(
-        1,
-        ge=1,
-        description="Along the circumference between two feet; the wires carry no bending, and "
-        "with shorter elements their compressed layer buckles between the nodes",
-    )
-    band_rows: int = Field(1, ge=1, description="Across the shear band")
+    gap_elements: int = Field(1, ge=1, description="Along the circumference between two feet")
+    band_rows: int = Field(1, ge=1, description="Across the shear band between its wire layers")
     tread_rows: int = Field(1, ge=1, description="Across the tread outside the band")
     first_spoke_deg: float = Field(
         0.0, description="Angle of a spoke's feet from the middle of the contact"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from itertools import pairwise
+from math import prod
 from typing import Annotated, Any, Self
 
 from pydantic import Field, field_validator, model_validator
@@ -55,17 +56,37 @@ class Study(Strict):
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
     )
-    load_n: float = Field(5000.0, gt=0, description="Vertical load of the secant stiffness")
+    load_n: float = Field(
+        5000.0,
+        gt=0,
+        description="Vertical load of the secant stiffness; without effect on single spokes",
+    )
     solvers: tuple[Name, ...] = Field(min_length=1, description="Solvers that run this study")
     solver_options: dict[Name, dict[str, Any]] = Field(
         default_factory=dict, description="Options of a solver for this study only"
     )
     terms: tuple[str, ...] = Field(
-        min_length=1,
-        description="Terms of the response surface: '1', 'a', 'a^2', 'a*b', with factor names",
+        (),
+        description="Terms of the response surface: '1', 'a', 'a^2', 'a*b', with factor names; "
+        "without terms no surface is fitted",
     )
     published_coefficients: str | None = Field(
         None, description="CSV with the paper's coefficients (term, coefficient), shown beside ours"
+    )
+    published_spoke_stiffness: str | None = Field(
+        None,
+        description="CSV with the paper's table 10, shown beside the single spokes of this study; "
+        "the plates are then fixed and spoke_c10_mpa is the only factor",
+    )
+    calibration_cases: dict[Name, tuple[int, ...]] = Field(
+        default_factory=dict,
+        description="By solver, the numbers of the cases on whose published stiffness it was "
+        "calibrated; the errors of all others are summed up apart from theirs",
+    )
+    neutral_line_cases: tuple[int, ...] = Field(
+        (),
+        description="Numbers of the cases whose deformed neutral line is tabulated and drawn "
+        "(figure 14), by every solver that computes it",
     )
 
     @model_validator(mode="after")
@@ -78,6 +99,32 @@ class Study(Strict):
         if stray := sorted(set(self.solver_options) - set(self.solvers)):
             raise ValueError(
                 f"study {self.name}: solver_options for {stray}, which `solvers` does not run"
+            )
+        if stray := sorted(set(self.calibration_cases) - set(self.solvers)):
+            raise ValueError(
+                f"study {self.name}: calibration_cases for {stray}, which `solvers` does not run"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _cases_exist(self) -> Self:
+        last = prod(len(factor.levels) for factor in self.factors)
+        named = {"neutral_line_cases": self.neutral_line_cases}
+        named |= {
+            f"calibration_cases.{key}": value for key, value in self.calibration_cases.items()
+        }
+        for key, numbers in named.items():
+            if stray := [number for number in numbers if not 1 <= number <= last]:
+                raise ValueError(f"study {self.name}: {key}: {stray} not among cases 1 to {last}")
+        return self
+
+    @model_validator(mode="after")
+    def _table_10_is_of_one_spoke(self) -> Self:
+        names = [factor.name for factor in self.factors]
+        if self.published_spoke_stiffness and names != ["spoke_c10_mpa"]:
+            raise ValueError(
+                f"study {self.name}: table 10 gives one spoke a C10; with "
+                f"published_spoke_stiffness the only factor is spoke_c10_mpa, got {names}"
             )
         return self
 

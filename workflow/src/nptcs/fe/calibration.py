@@ -6,8 +6,7 @@ as much as a spoke, so the tyre's stiffness is followed by a surrogate in the sp
     ln K = ln K₀ + β (Δ ln k_t + Δ ln k_c) / 2 ,
 
 that is corrected by a computed tyre for each case at the start of each round (space mapping). The
-logarithms of the stiffness are nearly linear in those of the dimensions: the sensitivities of the
-first section serve all rounds.
+spoke's sensitivities are computed anew in each round, with coarser steps.
 """
 
 from __future__ import annotations
@@ -20,24 +19,30 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
+from scipy.optimize import lsq_linear
 
 from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.fe.spoke import SpokeModel
+from nptcs.fe.spoke import SpokeError, SpokeModel
 from nptcs.fe.spoke_pull import spoke_stiffness
+from nptcs.fe.tyre import TyreError
 
 Array = NDArray[np.float64]
 
-FREE = (
-    "leg_angle_deg",
-    "leg_thickness_mm",
-    "block_thickness_mm",
-    "block_half_length_mm",
-    "foot_thickness_mm",
-    "plate_foot_gap_mm",
-    "plate_mid_gap_mm",
-)
+# dimensions that are fitted, and how far they may go (mm, degrees)
+LIMITS = {
+    "leg_angle_deg": (15.0, 35.0),
+    "leg_thickness_mm": (2.5, 6.0),
+    "block_thickness_mm": (8.0, 15.0),
+    "block_half_length_mm": (4.0, 10.0),
+    "block_ramp_mm": (3.0, 8.0),
+    "foot_thickness_mm": (5.0, 14.0),
+    "foot_taper_mm": (5.0, 11.0),
+    "plate_foot_gap_mm": (1.5, 5.0),
+    "plate_mid_gap_mm": (1.5, 6.0),
+}
+FREE = tuple(LIMITS)
 # table 2 of the paper
 PUBLISHED_PLY = {
     "e1_mpa": 128000.0,
@@ -50,22 +55,25 @@ PUBLISHED_PLY = {
     "g13_mpa": 3147.0,
     "g23_mpa": 2300.0,
 }
-# where the calibration of the defaults began
+# where the calibration of the defaults began: found on a coarser mesh, the tyres by the surrogate
 START = FeModel(
     geometry=SpokeGeometry(
-        leg_angle_deg=25.5,
-        leg_thickness_mm=2.6,
-        block_thickness_mm=11.0,
-        block_half_length_mm=5.0,
-        foot_thickness_mm=7.0,
-        plate_foot_gap_mm=2.7,
-        plate_mid_gap_mm=2.5,
+        leg_angle_deg=30.4,
+        leg_thickness_mm=2.86,
+        block_thickness_mm=12.2,
+        block_half_length_mm=6.08,
+        block_ramp_mm=5.1,
+        foot_thickness_mm=13.9,
+        foot_taper_mm=9.3,
+        plate_foot_gap_mm=4.5,
+        plate_mid_gap_mm=5.8,
     )
 )
 # K_tyre ∝ k_spoke^0.53 over the published tables
 EXPONENT = 0.53
 STEP = 0.03
-LARGEST_STEP = 0.25
+LARGEST_STEP = 0.15
+HALVINGS = 3
 # points of the tension and compression curves: of the fit itself, and of its sensitivities
 FINE = (8, 10)
 COARSE = (2, 4)
@@ -99,7 +107,8 @@ class Problem:
     tyres: tuple[TyreTarget, ...]
     load_n: float
     prior: float = 0.03
-    spoke_weight: float = 1.0
+    damping: float = 0.05
+    spoke_weight: float = 1.5
     tyre_weight: float = 2.0
 
     def with_section(self, free: Array) -> FeModel:
@@ -179,52 +188,61 @@ def calibrate(
         The model with the calibrated section.
     """
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
-    free = start.copy()
+    free, step = start.copy(), np.zeros_like(start)
     with ProcessPoolExecutor(workers) as pool:
-        slopes = _sensitivities(problem, start, pool.map)
         for last in range(rounds + 1):
-            jobs = [(free, target.values) for target in problem.tyres]
-            tyres = np.array(list(pool.map(partial(_tyre_job, problem), jobs)))
+            free, tyres = _reach(problem, free, step, pool.map)
             spokes = _spokes(problem, FINE, [free], pool.map)[0]
             report(Round(free.copy(), np.exp(spokes), np.exp(tyres)))
             if last < rounds:
-                free = free + _step(problem, slopes, spokes, tyres, free - start)
-                free = np.maximum(free, _smallest(problem))
+                slopes = _sensitivities(problem, free, pool.map)
+                step = _step(problem, slopes, spokes, tyres, free, start)
     return problem.with_section(free)
 
 
-def _smallest(problem: Problem) -> Array:
-    """Lower limits of ln (dimension): the leg must hold the thickest plate of the targets."""
-    thickest = max(target.values["thickness_mm"] for target in problem.tyres)
-    limits = {name: -np.inf for name in FREE}
-    limits["leg_thickness_mm"] = np.log(thickest + 0.1)
-    return np.array([limits[name] for name in FREE])
+def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[Array, Array]:
+    """Take a step, halved while a tyre of the new section cannot be loaded; ln K of the tyres."""
+    for _ in range(HALVINGS + 1):
+        moved = free + step
+        jobs = [(moved, target.values) for target in problem.tyres]
+        try:
+            return moved, np.array(list(mapper(partial(_tyre_job, problem), jobs)))
+        except (SpokeError, TyreError) as error:
+            failure = error
+            step = step / 2.0
+    raise failure
 
 
-def _sensitivities(problem: Problem, start: Array, mapper: Mapper) -> Array:
+def _sensitivities(problem: Problem, free: Array, mapper: Mapper) -> Array:
     """∂ ln (k_t, k_c) / ∂ ln (dimension): array (targets, 2, dimensions)."""
-    points = [start, *(start + STEP * np.eye(len(FREE)))]
+    points = [free, *(free + STEP * np.eye(len(FREE)))]
     values = _spokes(problem, COARSE, points, mapper)
     slopes: Array = np.moveaxis((values[1:] - values[0]) / STEP, 0, 2)
     return slopes
 
 
-def _step(problem: Problem, slopes: Array, spokes: Array, tyres: Array, moved: Array) -> Array:
-    """Weighted least squares in per cent; the prior pulls towards the first section."""
+def _step(
+    problem: Problem, slopes: Array, spokes: Array, tyres: Array, free: Array, start: Array
+) -> Array:
+    """Weighted least squares; the prior pulls towards the first section, damping to the last."""
     count = len(problem.spokes)
     wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
     target = np.log([t.stiffness_n_per_mm for t in problem.tyres])
     misfit = [
         problem.spoke_weight * (spokes[:count] - wanted).ravel(),
         problem.tyre_weight * (tyres - target),
-        problem.prior * moved,
+        problem.prior * (free - start),
+        np.zeros(len(FREE)),
     ]
     jacobian = [
         problem.spoke_weight * slopes[:count].reshape(-1, len(FREE)),
         problem.tyre_weight * EXPONENT * slopes[count:].mean(axis=1),
         problem.prior * np.eye(len(FREE)),
+        problem.damping * np.eye(len(FREE)),
     ]
-    step: Array = np.linalg.lstsq(np.concatenate(jacobian), -np.concatenate(misfit))[0].astype(
-        float
-    )
-    return step * min(1.0, LARGEST_STEP / float(np.abs(step).max()))
+    low, high = np.log(np.array(list(LIMITS.values()))).T
+    room = np.maximum(free - low, 1e-6), np.maximum(high - free, 1e-6)
+    bounds = -np.minimum(room[0], LARGEST_STEP), np.minimum(room[1], LARGEST_STEP)
+    found = lsq_linear(np.concatenate(jacobian), -np.concatenate(misfit), bounds)
+    step: Array = found.x
+    return step

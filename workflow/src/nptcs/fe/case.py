@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
@@ -40,6 +41,7 @@ def spoke_design(
     )
 
 
+@threadpool_limits.wrap(limits=1)
 def spoke_table(model: FeModel, design: SpokeDesign) -> SpokeTable:
     """Compute the energy table of one spoke."""
     return fit(sample(SpokeModel(design), model.table), model.table)
@@ -60,6 +62,7 @@ def tyre_model(
     )
 
 
+@threadpool_limits.wrap(limits=1)
 def loaded_tyre(assembled: TyreModel, model: FeModel, load_n: float) -> TyreState:
     """Load a tyre in equal steps."""
     return assembled.load(np.linspace(0.0, load_n, model.load_steps + 1)[1:].tolist())

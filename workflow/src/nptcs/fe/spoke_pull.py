@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
+from threadpoolctl import threadpool_limits
 
 from nptcs.fe.spoke import SpokeModel
 
@@ -77,6 +78,7 @@ class SpokeStiffness:
     compression_fit: OriginFit
 
 
+@threadpool_limits.wrap(limits=1)
 def spoke_stiffness(
     model: SpokeModel, tension_steps: int = 8, compression_steps: int = 10
 ) -> SpokeStiffness:

@@ -193,7 +193,8 @@ def _row(
 def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
-    All data enter in units of energy: forces times the half range, tangents times its square.
+    All data enter in units of energy: forces times the half range, tangents times its square. A
+    table that ends early has fewer levels of u_r, and for them a lower degree.
     """
     low, high = np.array([options.u_r_mm, options.u_theta_mm, options.phi_rad]).T
     low[0] = samples.motion[:, 0].min()
@@ -201,6 +202,7 @@ def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
     half = 0.5 * (high - low)
     local = (samples.motion - low) / half - 1.0
     radial, side = options.degrees
+    radial = min(radial, 2 * len(np.unique(samples.motion[:, 0])) - 2)
     exponents = np.array(
         [(i, j, k) for i in range(radial + 1) for j in range(side + 1) for k in range(side + 1 - j)]
     )

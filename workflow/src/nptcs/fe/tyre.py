@@ -10,9 +10,10 @@ from numpy.typing import NDArray
 
 from nptcs.config.fe import GroundContact, TyreMesh
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.band import ring_rubbers, wire_blocks
 from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
 from nptcs.fe.contact import Ground
-from nptcs.fe.lagrange import gauss, jacobians, line_shape, tensor_rule, tensor_shape
+from nptcs.fe.lagrange import line_shape
 from nptcs.fe.matrices import BandedPattern, element_dofs, folded_order
 from nptcs.fe.spoke_table import SpokeTable, TableRangeError
 from nptcs.fe.tyre_mesh import RingMesh, build_ring
@@ -20,7 +21,6 @@ from nptcs.fe.tyre_mesh import RingMesh, build_ring
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
 
-ORDERS = (2, 2)
 MAX_ITERATIONS = 40
 # from this iteration on, steps that do not shrink are shortened
 CALM_ITERATIONS = 6
@@ -103,11 +103,12 @@ class TyreModel:
         self.table = table
         self.mesh = build_ring(tyre, mesh, foot_width_mm)
         ring = self.mesh
-        self.rubber = _ring_rubber(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
-        self.wires = _wires(ring, tyre)
+        self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
+        self.wires = wire_blocks(ring, tyre)
+        self._bodies: list[RubberBlock | LinearBlock] = [*self.rubbers, *self.wires]
         self.ground = Ground(ring.positions, ring.tread_edges, tyre.tread_width_mm, contact)
         self.foot_operator = foot_operators(ring)
-        nodes = [self.rubber.nodes, *[wire.nodes for wire in self.wires], ring.feet]
+        nodes = [*[block.nodes for block in self._bodies], ring.feet]
         self._dofs = [element_dofs(block, 2) for block in [*nodes, ring.tread_edges]]
         self._count = 2 * len(ring.positions)
         rows = len(ring.radii)
@@ -123,8 +124,7 @@ class TyreModel:
         return motion
 
     def _trial(self, displacement: Array, rise: float) -> _Trial:
-        responses = [self.rubber.respond(displacement)]
-        responses += [wire.respond(displacement) for wire in self.wires]
+        responses = [block.respond(displacement) for block in self._bodies]
         _, push, stiff = self.table.evaluate(self.spoke_motion(displacement))
         lift = self.foot_operator.transpose(0, 2, 1)
         spokes = Response(
@@ -185,7 +185,8 @@ class TyreModel:
             move = step.reshape(-1, 2)
             displacement = displacement + damp * move
             rise += damp * change
-            self.rubber.update_pressure(move, damp)
+            for block in self.rubbers:
+                block.update_pressure(move, damp)
             if largest < 1e-6 and abs(change) < 1e-6:
                 return displacement, rise
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
@@ -200,7 +201,8 @@ class TyreModel:
         """
         path = LoadPath()
         displacement = np.zeros_like(self.mesh.positions)
-        self.rubber.pressure[:] = 0.0
+        for block in self.rubbers:
+            block.pressure[:] = 0.0
         try:
             displacement, rise = self._solve(displacement, FIRST_RISE_MM, None, path)
             self.ground.advance(displacement, rise)
@@ -222,7 +224,7 @@ class TyreModel:
     ) -> tuple[Array, float, float]:
         """One load step, halved until it converges."""
         step = load - reached
-        pressure = self.rubber.pressure.copy()
+        pressures = [block.pressure.copy() for block in self.rubbers]
         while True:
             target = load if step >= load - reached else reached + step
             try:
@@ -231,7 +233,8 @@ class TyreModel:
                 step /= 2.0
                 if step < SMALLEST_STEP_N:
                     raise
-                self.rubber.pressure = pressure.copy()
+                for block, pressure in zip(self.rubbers, pressures, strict=True):
+                    block.pressure = pressure.copy()
                 continue
             self.ground.advance(moved, new_rise)
             path.force_n.append(target)
@@ -242,7 +245,7 @@ class TyreModel:
         """Energy of each part at a state, N mm."""
         spokes, _, _ = self.table.evaluate(state.motion)
         return {
-            "rubber": self.rubber.respond(state.displacement).energy,
+            "rubber": sum(block.respond(state.displacement).energy for block in self.rubbers),
             "wires": sum(wire.respond(state.displacement).energy for wire in self.wires),
             "spokes": float(spokes.sum()),
             "contact": self.ground.energy(state.displacement, state.rise_mm),
@@ -250,53 +253,9 @@ class TyreModel:
 
     def neutral_line(self, displacement: Array) -> Array:
         """Deformed positions (columns, 2) of the band's middle, x and y in mm."""
-        rows = len(self.mesh.radii)
-        middle = int((self.mesh.elements[self.mesh.band] % rows).max()) // 2
-        line: Array = (self.mesh.positions + displacement)[middle::rows]
+        moved = self.mesh.positions + displacement
+        line: Array = moved[self.mesh.middle_row :: len(self.mesh.radii)]
         return line
-
-
-def _ring_rubber(ring: RingMesh, width: float, c10: float, ratio: float) -> RubberBlock:
-    points, weights = gauss((3, 3))
-    _, slope = tensor_shape(ORDERS, points)
-    gradient, area = jacobians(slope, ring.positions[ring.elements])
-    modes = np.column_stack([np.ones(len(points)), points])
-    return RubberBlock(
-        ring.elements, gradient, area * weights * width, modes, c10, 2.0 * c10 * ratio
-    )
-
-
-def _wires(ring: RingMesh, tyre: TyreGeometry) -> list[LinearBlock]:
-    """Hoop layers embedded in the band's elements at their own radius."""
-    section = np.pi / 4.0 * tyre.wire_diameter_mm**2 / tyre.wire_pitch_mm * tyre.tread_width_mm
-    section *= tyre.wire_layers / 2.0
-    blocks = []
-    for diameter in (tyre.inner_wire_diameter_mm, tyre.outer_wire_diameter_mm):
-        blocks.append(_hoop(ring, diameter / 2.0, section, tyre.wire_modulus_mpa))
-    return blocks
-
-
-def _hoop(ring: RingMesh, radius: float, section: float, modulus: float) -> LinearBlock:
-    nodes = ring.elements[ring.band]
-    radial = np.linalg.norm(ring.positions[nodes], axis=2)
-    inside = (radial.min(axis=1) <= radius) & (radius < radial.max(axis=1) - 1e-9)
-    nodes = nodes[inside]
-    low, high = float(radial[inside].min()), float(radial[inside].max())
-    height = np.array([2.0 * (radius - low) / (high - low) - 1.0]), np.ones(1)
-    points, weights = tensor_rule([height, np.polynomial.legendre.leggauss(3)])
-    _, slope = tensor_shape(ORDERS, points)
-    gradient, _ = jacobians(slope, ring.positions[nodes])
-    along = np.einsum("gn,eni->egi", slope[..., 1], ring.positions[nodes])
-    length = np.linalg.norm(along, axis=2)
-    frame = np.zeros((*length.shape, 3, 3))
-    frame[..., :2, 0] = along / length[..., None]
-    frame[..., 0, 1] = -frame[..., 1, 0]
-    frame[..., 1, 1] = frame[..., 0, 0]
-    frame[..., 2, 2] = 1.0
-    local = np.einsum("egni,egij->egnj", gradient, frame[..., :2, :2])
-    stiffness = np.zeros((len(points), 6, 6))
-    stiffness[:, 0, 0] = modulus
-    return LinearBlock(nodes, local, length * weights * section, stiffness, frame)
 
 
 def foot_operators(ring: RingMesh) -> Array:

@@ -26,9 +26,12 @@ class RingMesh:
     ----------
     positions : array (nodes, 2)
     elements : array (elements, 9)
-        All quadratic elements, the radial direction first.
-    band : array
-        Numbers of the elements that lie in the shear band.
+        Quadratic elements, the radial direction first.
+    wire_elements : array (2, elements, 6)
+        Thin elements around the inner and the outer wire layers: linear along the radius, which
+        comes first, and quadratic along the circumference.
+    middle_row : int
+        Row of nodes in the middle of the band.
     tread_edges : array (edges, 3)
         Nodes of the outer edges, in the order of θ.
     feet : array (spokes, nodes of a foot)
@@ -43,7 +46,8 @@ class RingMesh:
 
     positions: Array
     elements: Index
-    band: Index
+    wire_elements: Index
+    middle_row: int
     tread_edges: Index
     feet: Index
     spoke_angle: Array
@@ -64,7 +68,7 @@ def build_ring(tyre: TyreGeometry, mesh: TyreMesh, foot_width_mm: float) -> Ring
     Raises
     ------
     ValueError
-        If the spokes' feet overlap.
+        If the spokes' feet overlap, or the wires lie outside the band.
     """
     inner, outer = band_radii(tyre)
     pitch = 2.0 * np.pi / tyre.spoke_count
@@ -79,35 +83,44 @@ def build_ring(tyre: TyreGeometry, mesh: TyreMesh, foot_width_mm: float) -> Ring
         ]
     )
     theta = (start + pitch * np.arange(tyre.spoke_count)[:, None] + local).ravel()
+    cover = tyre.inner_wire_diameter_mm - 2.0 * inner
+    if cover <= tyre.wire_diameter_mm:
+        raise ValueError(f"a band {outer - inner:g} mm thick does not cover its wires")
+    outside = tyre.outer_diameter_mm / 2.0
     radii = np.concatenate(
         [
-            np.linspace(inner, outer, 2 * mesh.band_rows, endpoint=False),
-            np.linspace(outer, tyre.outer_diameter_mm / 2.0, 2 * mesh.tread_rows + 1),
+            [inner],
+            np.linspace(inner + cover, outer - cover, 2 * mesh.band_rows + 1),
+            np.linspace(outer, outside, 2 * mesh.tread_rows + 1),
         ]
     )
     rows, columns = len(radii), len(theta)
     radius, angle = np.tile(radii, columns), np.repeat(theta, rows)
     positions = np.stack([radius * np.sin(angle), -radius * np.cos(angle)], axis=1)
-    layers = mesh.band_rows + mesh.tread_rows
-    first_column, first_row = (
-        part.ravel()
-        for part in np.meshgrid(
-            np.arange(0, columns, 2), np.arange(0, 2 * layers, 2), indexing="ij"
-        )
-    )
-    i, j = (part.ravel() for part in np.meshgrid(range(3), range(3), indexing="ij"))
-    elements = ((first_column[:, None] + j) % columns) * rows + first_row[:, None] + i
+    tread = 2 * mesh.band_rows + 2
+    starts = [*range(1, tread - 1, 2), *range(tread, rows - 1, 2)]
     edges = ((np.arange(0, columns, 2)[:, None] + np.arange(3)) % columns) * rows + rows - 1
     per_pitch = len(local)
     feet = np.arange(tyre.spoke_count)[:, None] * per_pitch
     feet = (feet + np.arange(2 * mesh.foot_elements + 1)) * rows
     return RingMesh(
         positions=positions,
-        elements=elements,
-        band=np.flatnonzero(first_row < 2 * mesh.band_rows),
+        elements=_elements(rows, columns, starts, 3),
+        wire_elements=np.stack([_elements(rows, columns, [i], 2) for i in (0, tread - 1)]),
+        middle_row=1 + mesh.band_rows,
         tread_edges=edges,
         feet=feet,
         spoke_angle=start + foot / 2.0 + pitch * np.arange(tyre.spoke_count),
         theta=theta,
         radii=radii,
     )
+
+
+def _elements(rows: int, columns: int, starts: list[int], high: int) -> Index:
+    """Elements three columns long and `high` rows high that start at these rows."""
+    first_column, first_row = (
+        part.ravel() for part in np.meshgrid(np.arange(0, columns, 2), starts, indexing="ij")
+    )
+    i, j = (part.ravel() for part in np.meshgrid(range(high), range(3), indexing="ij"))
+    nodes: Index = ((first_column[:, None] + j) % columns) * rows + first_row[:, None] + i
+    return nodes

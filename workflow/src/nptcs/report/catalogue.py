@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from nptcs.report.units import Heading
 
@@ -14,6 +14,7 @@ IMPACT_HEADINGS = {
     "published_gradient": Heading("printed gradient", "N/mm per unit of the factor"),
     "published_impact": Heading("printed impact", "N/mm"),
     "difference_percent": Heading("difference", "%"),
+    "published_rank": Heading("printed rank"),
 }
 SURFACE_HEADINGS = {
     "coefficient_natural": Heading("coefficient, natural", "N/mm per unit of the term"),
@@ -21,6 +22,19 @@ SURFACE_HEADINGS = {
     "standard_error": Heading("standard error, natural", "N/mm per unit of the term"),
     "standard_error_coded": Heading("standard error, coded", "N/mm"),
     "published_coefficient": Heading("printed coefficient (FE)", "N/mm per unit of the term"),
+}
+SPOKE_HEADINGS = {
+    f"{prefix}{direction}_r2{suffix}": Heading(f"{prefix.replace('_', ' ')}{direction} R²{kind}")
+    for direction in ("tension", "compression")
+    for prefix, suffix, kind in (
+        ("", "_uncentred", ", uncentred"),
+        ("", "_centred", ", centred"),
+        ("published_", "", ""),
+    )
+}
+LEVEL_HEADINGS = {
+    "level": Heading("level", "unit of the factor"),
+    "compared": Heading("cases compared"),
 }
 QUALITY_HEADINGS = {
     "residual_sd": Heading("residual SD", "N/mm"),
@@ -54,6 +68,10 @@ class Entry:
     rule: str
     source: str
     headings: Mapping[str, Heading] = field(default_factory=dict)
+
+    def with_headings(self, headings: Mapping[str, Heading]) -> Entry:
+        """Return the same entry for a view of it that has columns of its own."""
+        return replace(self, headings={**self.headings, **headings})
 
 
 PROBLEMS = Entry(
@@ -152,6 +170,51 @@ IMPACT = Entry(
     "sensitivity",
     "the response surfaces; printed values are those of table 9",
     IMPACT_HEADINGS,
+)
+SPOKE_STIFFNESS = Entry(
+    "spoke_stiffness",
+    "Stiffness of single spokes, computed and table 10",
+    "results/tables/spoke_stiffness.csv",
+    "spoke_stiffness",
+    "the single spokes' curves, lines through the origin; printed values are those of table 10",
+    SPOKE_HEADINGS,
+)
+SPOKE_CURVES = Entry(
+    "spoke_curves",
+    "Force–displacement curves of single spokes (figure 13)",
+    "results/tables/spoke_curves.csv",
+    "spoke_stiffness",
+    "the records of the single spokes",
+)
+AGAINST_PUBLISHED = Entry(
+    "stiffness_against_published",
+    "Computed vertical stiffness beside the published one, case by case",
+    "results/tables/stiffness_against_published.csv",
+    "against_published",
+    "cases.csv; published values are those that the solver `published` looked up",
+)
+STIFFNESS_ERRORS = Entry(
+    "stiffness_errors",
+    "Differences from the published stiffness, blind cases apart from calibrated ones",
+    "results/tables/stiffness_errors.csv",
+    "against_published",
+    "stiffness_against_published.csv, summed up",
+    {"compared": Heading("cases compared"), "largest_case_id": Heading("case of the largest")},
+)
+STIFFNESS_BY_LEVEL = Entry(
+    "stiffness_by_level",
+    "Main effects and differences by level of each factor",
+    "results/tables/stiffness_by_level.csv",
+    "against_published",
+    "stiffness_against_published.csv, averaged over the cases at each level",
+    LEVEL_HEADINGS,
+)
+NEUTRAL_LINE = Entry(
+    "neutral_line",
+    "Displacement of the band's neutral line, every solver (figure 14)",
+    "results/tables/neutral_line.csv",
+    "neutral_line",
+    "the records of the cases that the studies' neutral_line_cases names",
 )
 LCA_VALIDATION = Entry(
     "lca_validation",

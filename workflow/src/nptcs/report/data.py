@@ -36,6 +36,12 @@ PLAIN_TABLES = {
     "cases": "cases.csv",
     "quality": "surface_quality.csv",
     "impact": "impact.csv",
+    "spoke_stiffness": "spoke_stiffness.csv",
+    "spoke_curves": "spoke_curves.csv",
+    "against_published": "stiffness_against_published.csv",
+    "stiffness_errors": "stiffness_errors.csv",
+    "stiffness_by_level": "stiffness_by_level.csv",
+    "neutral_line": "neutral_line.csv",
     "lca_validation": "lca_validation.csv",
     "lca_against_fem": "lca_against_fem.csv",
     "lca_shape": "lca_shape.csv",
@@ -60,6 +66,7 @@ class SolverFacts:
 
     about: str
     needs_ply: bool
+    loads_tyre: bool
 
 
 @dataclass(frozen=True)
@@ -85,6 +92,12 @@ class Results:
     cases: pd.DataFrame
     quality: pd.DataFrame
     impact: pd.DataFrame
+    spoke_stiffness: pd.DataFrame
+    spoke_curves: pd.DataFrame
+    against_published: pd.DataFrame
+    stiffness_errors: pd.DataFrame
+    stiffness_by_level: pd.DataFrame
+    neutral_line: pd.DataFrame
     lca_validation: pd.DataFrame
     lca_against_fem: pd.DataFrame
     lca_shape: pd.DataFrame
@@ -140,6 +153,13 @@ class Results:
         with_ply = any(self.solvers[name].needs_ply for name in solvers)
         return with_ply and self.plies_synthetic
 
+    def table_is_synthetic(self, table: pd.DataFrame) -> bool:
+        """Tell whether any row of a table with the columns study and solver rests on such data."""
+        return any(
+            self.study_is_synthetic(self.config.study(study), solver)
+            for study, solver in table[["study", "solver"]].drop_duplicates().to_numpy()
+        )
+
 
 def factor_labels(study: Study) -> dict[str, FactorLabel]:
     """Return how a study's factors are written in figures."""
@@ -156,8 +176,8 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         plain values.
     files : mapping
         A path for each of `PLAIN_TABLES` and for ``card``; lists of paths under ``curves``,
-        ``records``, ``designs``, ``surfaces``, ``coefficients`` and ``inputs``, the three before
-        the last in the order of the studies.
+        ``records``, ``designs``, ``surfaces``, ``coefficients`` and ``inputs``: designs in the
+        order of the studies, surfaces and coefficients in that of the studies that have terms.
 
     Returns
     -------
@@ -170,6 +190,7 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     """
     config = Config.model_validate(job["config"])
     studies = [study.name for study in config.studies]
+    with_surface = [study.name for study in config.studies if study.terms]
     designs = [read_table(file, Design) for file in files["designs"]]
     coefficients = [read_table(file, SurfaceTable) for file in files["coefficients"]]
     surfaces = [load(Path(file).read_text("utf-8")) for file in files["surfaces"]]
@@ -190,8 +211,8 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         },
         records={record.specimen: record for record in map(_read_record, files["records"])},
         designs=dict(zip(studies, designs, strict=True)),
-        surfaces=dict(zip(studies, surfaces, strict=True)),
-        coefficients=dict(zip(studies, coefficients, strict=True)),
+        surfaces=dict(zip(with_surface, surfaces, strict=True)),
+        coefficients=dict(zip(with_surface, coefficients, strict=True)),
         **{name: read_table(files[name], TABLES[table]) for name, table in PLAIN_TABLES.items()},
     )
 

@@ -53,7 +53,13 @@ def _remarks(results: Results) -> tuple[str, ...]:
 
 def glance(results: Results) -> tuple[Fact, ...]:
     """Select the numbers that most readers look for first."""
-    return (*_materials(results), *_surfaces(results), *_rankings(results), *_lca(results))
+    return (
+        *_materials(results),
+        *_surfaces(results),
+        *_rankings(results),
+        *_against(results),
+        *_lca(results),
+    )
 
 
 def _materials(results: Results) -> list[Fact]:
@@ -107,6 +113,24 @@ def _rankings(results: Results) -> list[Fact]:
             )
         )
     return rows
+
+
+def _against(results: Results) -> list[Fact]:
+    """Sum up how far the computed stiffness is from the published one."""
+    facts = []
+    for row in results.stiffness_errors.itertuples():
+        kind = "blind" if row.group == "blind" else "used for calibration"
+        text = f"{row.compared} of {row.cases} cases compared"
+        if row.compared:
+            text += (
+                f", mean {row.mean_percent:+.2f} %, mean absolute "
+                f"{row.mean_absolute_percent:.2f} %, largest {row.largest_percent:+.2f} % "
+                f"({row.largest_case_id})"
+            )
+        name = f"Stiffness of {row.study}, solver {row.solver}, against the published, {kind}"
+        badge = _badge(results, [str(row.study)], str(row.solver))
+        facts.append(Fact(name + badge, text, "stiffness_errors.csv"))
+    return facts
 
 
 def _lca(results: Results) -> list[Fact]:

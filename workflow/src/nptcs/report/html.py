@@ -7,6 +7,7 @@ from importlib import resources
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from nptcs.report.against import against_section
 from nptcs.report.data import Results
 from nptcs.report.head import head_blocks
 from nptcs.report.lca import lca_section
@@ -14,6 +15,7 @@ from nptcs.report.materials import materials_section
 from nptcs.report.provenance import provenance_section
 from nptcs.report.sheets import sheets_of
 from nptcs.report.specimens import specimens_section
+from nptcs.report.spokes import spoke_section
 from nptcs.report.studies import (
     cases_section,
     design_section,
@@ -45,6 +47,8 @@ def render_report(results: Results) -> str:
         cases_section,
         surfaces_section,
         sensitivity_section,
+        spoke_section,
+        against_section,
         lca_section,
         provenance_section,
     )

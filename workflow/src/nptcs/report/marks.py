@@ -25,6 +25,11 @@ def by_status(row: Row) -> str:
     return "" if row["status"] == "ok" else "bad"
 
 
+def by_calibration(row: Row) -> str:
+    """Mark cases that failed, and those that a solver was calibrated on."""
+    return by_status(row) or ("out" if row["used_for_calibration"] else "")
+
+
 def by_file_status(row: Row) -> str:
     """Mark files that are missing, not understood, not named or left out."""
     return FILE_CLASSES.get(str(row["status"]), "")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 from nptcs.report import catalogue
 from nptcs.report.data import Results
+from nptcs.report.ply import ply_words
 from nptcs.report.provenance_tables import configuration_text, entries_table
 from nptcs.report.sheets import Sheets
-from nptcs.report.view import Folded, Section, sheet_view, table_view
+from nptcs.report.view import Block, Folded, Section, Text, sheet_view, table_view
 
 TABLES = catalogue.Entry(
     "about", "Which rule made which table", "this report", "report", "the catalogue of tables"
@@ -16,13 +17,12 @@ TABLES = catalogue.Entry(
 def provenance_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     entries = [sheet.entry for sheet in sheets.values()]
-    return Section(
-        "provenance",
-        "Where the numbers came from",
-        (
-            table_view(entries_table(entries), TABLES),
-            sheet_view(sheets[catalogue.INPUTS.sheet]),
-            sheet_view(sheets[catalogue.SOFTWARE.sheet]),
-            Folded("The configuration, with all defaults", configuration_text(results)),
-        ),
-    )
+    ply = ply_words(results)
+    blocks: list[Block] = [Text(ply)] if ply else []
+    blocks += [
+        table_view(entries_table(entries), TABLES),
+        sheet_view(sheets[catalogue.INPUTS.sheet]),
+        sheet_view(sheets[catalogue.SOFTWARE.sheet]),
+        Folded("The configuration, with all defaults", configuration_text(results)),
+    ]
+    return Section("provenance", "Where the numbers came from", tuple(blocks))

@@ -37,6 +37,7 @@ def sheets_of(results: Results) -> Sheets:
         *_laboratory_sheets(results),
         *_material_sheets(results),
         *_study_sheets(results),
+        *_compared_sheets(results),
         Sheet(catalogue.LCA_VALIDATION, results.lca_validation),
         Sheet(catalogue.LCA_AGAINST_FEM, results.lca_against_fem),
         Sheet(catalogue.LCA_SHAPE, results.lca_shape),
@@ -85,4 +86,20 @@ def _study_sheets(results: Results) -> list[Sheet]:
         *surfaces,
         Sheet(catalogue.QUALITY, results.quality, synthetic=any_synthetic),
         Sheet(catalogue.IMPACT, results.impact, synthetic=any_synthetic),
+    ]
+
+
+def _compared_sheets(results: Results) -> list[Sheet]:
+    """List what stands beside the paper's finite elements; each is synthetic by its solvers."""
+    tables: list[tuple[Entry, pd.DataFrame, RowClass]] = [
+        (catalogue.SPOKE_STIFFNESS, results.spoke_stiffness, marks.by_status),
+        (catalogue.SPOKE_CURVES, results.spoke_curves, marks.nothing),
+        (catalogue.STIFFNESS_ERRORS, results.stiffness_errors, marks.nothing),
+        (catalogue.AGAINST_PUBLISHED, results.against_published, marks.by_calibration),
+        (catalogue.STIFFNESS_BY_LEVEL, results.stiffness_by_level, marks.nothing),
+        (catalogue.NEUTRAL_LINE, results.neutral_line, marks.nothing),
+    ]
+    return [
+        Sheet(entry, table, mark, results.table_is_synthetic(table))
+        for entry, table, mark in tables
     ]

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import math
+from collections.abc import Sequence
 
 import pandas as pd
 
@@ -11,6 +12,7 @@ from nptcs.report import catalogue, marks
 from nptcs.report.data import Results, factor_labels
 from nptcs.report.figures_impact import impact_bars
 from nptcs.report.figures_surface import contours, pairs, slices
+from nptcs.report.ranking import ranking_blocks
 from nptcs.report.sheets import Sheets
 from nptcs.report.units import words
 from nptcs.report.view import (
@@ -47,15 +49,16 @@ COUNTS = catalogue.Entry(
 
 def design_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the designs."""
-    rows = [row for study in results.config.studies for row in _factor_rows(study, results.designs)]
+    rows = [row for study in results.config.studies for row in _factor_rows(study, results)]
     columns = ["study", "title", "cases", "quantity", "unit", "levels", "load_n", "solvers"]
     view = table_view(pd.DataFrame(rows, columns=columns), FACTORS)
     return Section("design", "Design", (view,))
 
 
-def _factor_rows(study: Study, designs: Mapping[str, pd.DataFrame]) -> list[tuple[object, ...]]:
-    design = designs[study.name]
-    shared = (study.load_n, ", ".join(study.solvers))
+def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
+    design = results.designs[study.name]
+    loaded = any(results.solvers[name].loads_tyre for name in study.solvers)
+    shared = (study.load_n if loaded else math.nan, ", ".join(study.solvers))
     rows: list[tuple[object, ...]] = [
         (study.name, study.title, len(design), factor.label, factor.unit, _levels(factor, design))
         + shared
@@ -128,6 +131,9 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
 
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Block]:
     """Build the coefficients and the figures of one study."""
+    if not study.terms:
+        asked = f"No surface is asked for of the study {study.name}: it has no terms."
+        return [Text(study.title, "head"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = f"No surface could be fitted to the study {study.name}; see the problems above."
         return [Text(study.title, "head"), Text(refused, "bad")]
@@ -187,6 +193,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
             f"{words(rules[0])}."
         ),
         Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
+        *ranking_blocks(results),
         sheet_view(sheets[catalogue.IMPACT.sheet]),
     ]
     return Section("sensitivity", "Sensitivity", tuple(blocks))

@@ -37,8 +37,14 @@ FEWER_DIGITS = {
     "condition_number_natural": 3,
     "condition_number_coded": 3,
     "wall_time_s": 3,
+    "mean_percent": 3,
+    "mean_absolute_percent": 3,
+    "largest_percent": 3,
 }
-"""Columns whose digits beyond these mean nothing; differences in percent have three as well."""
+"""Columns whose digits beyond these mean nothing."""
+
+PERCENTS = ("difference_percent", "change_percent")
+"""Endings of columns that have three digits as well."""
 
 
 @dataclass(frozen=True)
@@ -193,12 +199,15 @@ def table_view(
         Whether it shows synthetic data.
     """
     shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
-    digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith("difference_percent")}}
+    digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith(PERCENTS)}}
     digits |= given_digits or {}
     numeric = tuple(_is_numeric(table[name]) for name in shown)
     rows = []
     for record in table.to_dict("records"):
-        cells = tuple(_cell(record[name], digits.get(name, DIGITS)) for name in shown)
+        cells = tuple(
+            _cell(record[name], digits.get(name, DIGITS), is_number)
+            for name, is_number in zip(shown, numeric, strict=True)
+        )
         rows.append((mark({str(key): value for key, value in record.items()}), cells))
     return TableView(
         entry,
@@ -237,14 +246,16 @@ def _is_empty(column: pd.Series) -> bool:
     return len(column) > 0 and bool((column.isna() | (column.astype(str) == "")).all())
 
 
-def _cell(value: object, digits: int) -> Cell:
-    """Write one value."""
+def _cell(value: object, digits: int, is_number: bool) -> Cell:
+    """Write one value; `is_number` tells whether its column holds numbers."""
+    if value is None or value is pd.NA:
+        return Cell("–" if is_number else "")
     if isinstance(value, bool | np.bool_):
         return Cell("yes" if value else "no")
     if isinstance(value, int | float | np.integer | np.floating):
         number = float(value)
         return Cell(number_text(number, digits), "" if math.isnan(number) else repr(number))
-    return Cell("" if value is None else str(value))
+    return Cell(str(value))
 
 
 def plot(figure: Figure, alt: str, synthetic: bool = False) -> Plot:

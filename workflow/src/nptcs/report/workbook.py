@@ -92,7 +92,10 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
     lines = [settings.title, settings.laboratory, line]
     if results.any_synthetic:
         lines.append("SYNTHETIC example data: sheets with an orange header rest on it.")
-    lines.append("Rows: red failed, yellow flagged, grey left out or assumed. Units: in brackets.")
+    lines.append(
+        "Rows: red failed, yellow flagged, grey left out, assumed or calibrated on. "
+        "Units: in brackets."
+    )
     for row, text in enumerate(filter(None, lines), start=1):
         _write(about.cell(row, 1), text)
         about.cell(row, 1).font = Font(name=FONT, bold=row <= 3, size=14 if row == 1 else 11)

@@ -88,4 +88,5 @@ SOLVER = Solver(
     required=SPOKE_FACTORS,
     options=CalculixOptions,
     needs_ply=True,
+    loads_tyre=False,
 )

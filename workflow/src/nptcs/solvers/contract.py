@@ -11,7 +11,9 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, ClassVar
 
-from pydantic import BaseModel, ConfigDict, Field
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from nptcs.config.base import Strict
 from nptcs.config.tyre import TyreGeometry
@@ -62,7 +64,8 @@ class CaseInputs:
         Factor values of the case and the study's fixed values, e.g. ``spacing_mm``,
         ``thickness_mm``, ``angle_deg``, ``shear_band_c10_mpa``, ``spoke_c10_mpa``.
     load_n : float
-        Vertical load at which the secant stiffness is taken.
+        Vertical load at which the secant stiffness is taken; not a number for a solver that
+        loads no tyre.
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
@@ -97,6 +100,52 @@ class SolverResult(BaseModel):
     curve: dict[str, list[float]] | None = Field(
         None, description="Columns of equal length, e.g. displacement_mm and force_n"
     )
+    shape: dict[str, list[float]] | None = Field(
+        None,
+        description="Displacement of the band's neutral line at the load, as `neutral_line` "
+        "makes it: theta_deg, radial_mm, tangential_mm",
+    )
+
+    @field_validator("curve", "shape")
+    @classmethod
+    def _equally_long(cls, columns: dict[str, list[float]] | None) -> dict[str, list[float]] | None:
+        lengths = {name: len(column) for name, column in (columns or {}).items()}
+        if len(set(lengths.values())) > 1:
+            raise ValueError(f"columns must be equally long, got {lengths}")
+        return columns
+
+
+SHAPE_DIGITS = 6
+"""Significant digits of a neutral line: a case keeps hundreds of points."""
+
+
+def neutral_line(
+    theta_deg: ArrayLike, radial_mm: ArrayLike, tangential_mm: ArrayLike
+) -> dict[str, list[float]]:
+    """Lay out the displacement of the band's neutral line for `SolverResult.shape`.
+
+    Parameters
+    ----------
+    theta_deg : array-like
+        Angle of each point before the load, 0 at the middle of the contact, positive
+        anticlockwise.
+    radial_mm, tangential_mm : array-like
+        Displacement of the point relative to the rim, outward and towards larger angles.
+
+    Returns
+    -------
+    dict of str to list of float
+        Columns in the order of the angle, between -180° and 180°, to six significant digits.
+    """
+    angle = np.asarray(theta_deg, dtype=float)
+    wrapped = np.where(np.abs(angle) > 180.0, (angle + 180.0) % 360.0 - 180.0, angle)
+    order = np.argsort(wrapped, kind="stable")
+    columns = {"theta_deg": wrapped, "radial_mm": radial_mm, "tangential_mm": tangential_mm}
+    return {name: _rounded(np.asarray(column)[order]) for name, column in columns.items()}
+
+
+def _rounded(values: NDArray[np.float64]) -> list[float]:
+    return [float(f"{value + 0.0:.{SHAPE_DIGITS}g}") for value in values]
 
 
 @dataclass(frozen=True)
@@ -120,6 +169,9 @@ class Solver:
         Its section of the configuration.
     needs_ply : bool
         Whether the ply constants are handed to it (and are part of the key).
+    loads_tyre : bool
+        Whether it loads a tyre: the study's load is handed to it (and is part of the key) and
+        it gives the vertical stiffness. A solver of single spokes does not.
     """
 
     name: str
@@ -129,3 +181,4 @@ class Solver:
     required: frozenset[str] = frozenset()
     options: type[SolverOptions] = SolverOptions
     needs_ply: bool = False
+    loads_tyre: bool = True

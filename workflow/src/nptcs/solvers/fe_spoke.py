@@ -56,4 +56,5 @@ SOLVER = Solver(
     required=SPOKE_FACTORS,
     options=FeSpokeOptions,
     needs_ply=True,
+    loads_tyre=False,
 )

@@ -13,7 +13,14 @@ from nptcs.fe.cache import shared_table
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.spoke import SpokeError
 from nptcs.fe.tyre import LoadPath, TyreError, TyreModel, TyreState
-from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.contract import (
+    CaseInputs,
+    Solver,
+    SolverOptions,
+    SolverResult,
+    Status,
+    neutral_line,
+)
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
 
 
@@ -54,7 +61,18 @@ def solve(inputs: CaseInputs) -> SolverResult:
         displacement_mm=state.rise_mm,
         extra={"table_force_residual_n": table.force_residual_n, **_summary(tyre, state)},
         curve=_curve(state.path),
+        shape=_shape(tyre, state),
     )
+
+
+def _shape(tyre: TyreModel, state: TyreState) -> dict[str, list[float]]:
+    """Displacement of the band's middle, in the directions of the undeformed ring."""
+    theta = tyre.mesh.theta
+    start = tyre.neutral_line(np.zeros_like(state.displacement))
+    x, y = (tyre.neutral_line(state.displacement) - start).T
+    outward = x * np.sin(theta) - y * np.cos(theta)
+    along = x * np.cos(theta) + y * np.sin(theta)
+    return neutral_line(np.degrees(theta), outward, along)
 
 
 def _curve(path: LoadPath) -> dict[str, list[float]]:

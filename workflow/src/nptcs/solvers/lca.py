@@ -14,9 +14,18 @@ from nptcs.errors import InputError
 from nptcs.lca.spoke_law_table import SpokeLawTable
 from nptcs.lca.spoke_table import OutOfRangeError, SpokeTable
 from nptcs.lca.state import LcaState
-from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.contract import (
+    CaseInputs,
+    Solver,
+    SolverOptions,
+    SolverResult,
+    Status,
+    neutral_line,
+)
 
 VERSION = "1"
+SHAPE_DEG = np.arange(-180.0, 181.0)
+"""Angles of the neutral line."""
 
 
 class LcaOptions(SolverOptions):
@@ -114,7 +123,10 @@ def _solve_linear(
         "contact_length_mm": state.contact_length_mm,
         "mean_pressure_mpa": state.mean_pressure_mpa,
     }
-    return _result(state, extra, [float(value) for value in curve["displacement_mm"]], loads)
+    at = state.at(SHAPE_DEG)
+    shape = neutral_line(SHAPE_DEG, at["u_r_mm"], at["u_theta_mm"])
+    displacement = [float(value) for value in curve["displacement_mm"]]
+    return _result(state, extra, displacement, loads, shape)
 
 
 def _solve_law(inputs: CaseInputs, section: lca.RingSection, law: lca.SpokeLaw) -> SolverResult:
@@ -132,7 +144,18 @@ def _solve_law(inputs: CaseInputs, section: lca.RingSection, law: lca.SpokeLaw) 
         "lowest_elongation_mm": state.elongation_mm[0],
         "highest_elongation_mm": state.elongation_mm[1],
     }
-    return _result(state, extra, [each.displacement_mm for each in states], loads)
+    displacement = [each.displacement_mm for each in states]
+    return _result(state, extra, displacement, loads, _law_shape(state))
+
+
+def _law_shape(state: lca.LawState) -> dict[str, list[float]]:
+    """Neutral line of smeared spokes, which is solved for one half: the other is its mirror."""
+    points = state.points().sort_values("theta_deg")
+    half, side = np.abs(SHAPE_DEG), np.sign(SHAPE_DEG)
+    radial, along = (
+        np.interp(half, points["theta_deg"], points[name]) for name in ("u_r_mm", "u_theta_mm")
+    )
+    return neutral_line(SHAPE_DEG, radial, side * along)
 
 
 def _result(
@@ -140,6 +163,7 @@ def _result(
     extra: dict[str, float],
     displacement: list[float],
     force: list[float],
+    shape: dict[str, list[float]],
 ) -> SolverResult:
     """Return the contract's record of a solved state."""
     return SolverResult(
@@ -156,6 +180,7 @@ def _result(
             **extra,
         },
         curve={"displacement_mm": [0.0, *displacement], "force_n": [0.0, *force]},
+        shape=shape,
     )
 
 

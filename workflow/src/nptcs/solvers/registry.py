@@ -101,10 +101,11 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
     ------
     InputError
         When a solver does not see a factor of the study (it would return a constant), lacks a
-        value that it needs, or has faulty options.
+        value that it needs, has faulty options, or cannot give what the study makes of it.
     """
-    for name in study.solvers:
-        solver = load(module_of(name, options[name]))
+    solvers = {name: load(module_of(name, options[name])) for name in study.solvers}
+    _check_responses(study, solvers)
+    for name, solver in solvers.items():
         read_options(solver, options[name])
         varied = {factor.name for factor in study.factors}
         if unseen := sorted(varied - solver.factors):
@@ -122,3 +123,22 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
                 column=f"studies.{study.name}.fixed",
                 remedy="give a value under `fixed`, or make it a factor",
             )
+
+
+def _check_responses(study: Study, solvers: Mapping[str, Solver]) -> None:
+    """Refuse a surface over single spokes, and table 10 beside nothing but tyres."""
+    spokes = [name for name, solver in solvers.items() if not solver.loads_tyre]
+    if spokes and study.terms:
+        raise InputError(
+            "solvers of single spokes give no vertical stiffness, to which a surface could be "
+            "fitted",
+            column=f"studies.{study.name}.solvers",
+            value=", ".join(spokes),
+            remedy="leave `terms` out, or give the spokes a study of their own",
+        )
+    if study.published_spoke_stiffness and not spokes:
+        raise InputError(
+            "no solver of this study computes single spokes",
+            column=f"studies.{study.name}.published_spoke_stiffness",
+            remedy="leave the key out, or run fe_spoke",
+        )

@@ -34,7 +34,7 @@ class Cases(pa.DataFrameModel):
     solver: Series[str]
     status: Series[str] = pa.Field(isin=["ok", "diverged", "timeout", "licence", "error"])
     message: Series[str]
-    load_n: Series[float] = pa.Field(gt=0)
+    load_n: Series[float] = pa.Field(nullable=True, gt=0, description="Empty for single spokes")
     vertical_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)
     displacement_mm: Series[float] = pa.Field(nullable=True, gt=0)
     wall_time_s: Series[float] = pa.Field(ge=0)
@@ -83,6 +83,6 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
         for record in records
     ]
     table = pd.DataFrame(rows)
-    numbers = [*values, *RESPONSES, *extra]
+    numbers = [*values, "load_n", *RESPONSES, *extra]
     table[numbers] = table[numbers].astype(float)
     return table

@@ -2,13 +2,16 @@
 
 import pandera.pandas as pa
 
+from nptcs.tables.against_published import AgainstPublished, StiffnessByLevel, StiffnessErrors
 from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
+from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.problems import Problems
 from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 
@@ -22,6 +25,12 @@ TABLES: dict[str, type[pa.DataFrameModel]] = {
     "STUDY_surface.csv": SurfaceTable,
     "surface_quality.csv": SurfaceQuality,
     "impact.csv": Impact,
+    "spoke_stiffness.csv": SpokeLines,
+    "spoke_curves.csv": SpokeCurves,
+    "stiffness_against_published.csv": AgainstPublished,
+    "stiffness_errors.csv": StiffnessErrors,
+    "stiffness_by_level.csv": StiffnessByLevel,
+    "neutral_line.csv": NeutralLine,
     "lca_validation.csv": LcaValidation,
     "lca_against_fem.csv": LcaAgainstFem,
     "lca_shape.csv": LcaShape,

@@ -23,6 +23,14 @@ class Impact(pa.DataFrameModel):
     difference_percent: Series[float] = pa.Field(
         nullable=True, description="(|impact| - published) / published"
     )
+    rank: Series[pd.Int64Dtype] = pa.Field(
+        nullable=True,
+        ge=1,
+        description="By |impact|, among the solver's factors that have a printed value",
+    )
+    published_rank: Series[pd.Int64Dtype] = pa.Field(
+        nullable=True, ge=1, description="By the printed impact, among the same factors"
+    )
 
     class Config:
         """Exactly these columns."""
@@ -45,7 +53,8 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
     Returns
     -------
     DataFrame
-        As `Impact`. A printed value stands beside ours only where the range is the same.
+        As `Impact`. A printed value stands beside ours only where the range is the same; only
+        these factors are ranked, over all studies, for each solver and rule.
     """
     printed = published.rename(
         columns={"gradient": "published_gradient", "impact": "published_impact"}
@@ -54,4 +63,13 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
     other_range = ~np.isclose(table["range"], table.pop("range_printed").astype(float))
     table.loc[other_range, ["published_gradient", "published_impact"]] = np.nan
     table["difference_percent"] = 100 * (table["impact"].abs() / table["published_impact"] - 1)
+    size = pd.DataFrame(
+        {
+            "rank": table["impact"].abs().where(table["published_impact"].notna()),
+            "published_rank": table["published_impact"],
+        }
+    )
+    ranks = size.groupby([table["solver"], table["rule"]]).rank(ascending=False, method="min")
+    for name in ("rank", "published_rank"):
+        table[name] = ranks[name].astype("Int64")
     return table[list(Impact.to_schema().columns)]

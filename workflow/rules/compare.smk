@@ -1,0 +1,84 @@
+# Computed results beside the paper's finite elements: section 4.3.1, tables 5 and 7, figure 14.
+from nptcs.tables.against_published import PUBLISHED
+
+COMPARED_STUDIES = [
+    study.name for study in CONFIG.studies if PUBLISHED in study.solvers
+]
+LINE_STUDIES = [study.name for study in CONFIG.studies if study.neutral_line_cases]
+PRINTED_SPOKES = {
+    study.name: study.published_spoke_stiffness
+    for study in CONFIG.studies
+    if study.published_spoke_stiffness
+}
+
+
+rule spoke_stiffness:
+    input:
+        records=[
+            path
+            for study in CONFIG.studies
+            for solver in study.solvers
+            if solver not in tyre_solvers(study.name)
+            for path in batches(study.name, solver)
+        ],
+        published=list(PRINTED_SPOKES.values()),
+    output:
+        lines="results/tables/spoke_stiffness.csv",
+        curves="results/tables/spoke_curves.csv",
+    log:
+        "results/logs/spoke_stiffness.log",
+    params:
+        job={
+            "studies": list(PRINTED_SPOKES),
+            "code": code_of("spoke_stiffness"),
+        },
+    script:
+        "../scripts/spoke_stiffness.py"
+
+
+rule against_published:
+    input:
+        cases="results/tables/cases.csv",
+        designs=expand("results/4_design/{study}.csv", study=COMPARED_STUDIES),
+    output:
+        table="results/tables/stiffness_against_published.csv",
+        errors="results/tables/stiffness_errors.csv",
+        levels="results/tables/stiffness_by_level.csv",
+    log:
+        "results/logs/against_published.log",
+    params:
+        job={
+            "studies": {
+                name: {
+                    "factors": [f.name for f in CONFIG.study(name).factors],
+                    "solvers": [s for s in tyre_solvers(name) if s != PUBLISHED],
+                    "calibration_cases": CONFIG.study(name).calibration_cases,
+                }
+                for name in COMPARED_STUDIES
+            },
+            "code": code_of("against_published"),
+        },
+    script:
+        "../scripts/against_published.py"
+
+
+rule neutral_line:
+    input:
+        records=[
+            path
+            for name in LINE_STUDIES
+            for solver in tyre_solvers(name)
+            for path in batches(name, solver)
+        ],
+        designs=expand("results/4_design/{study}.csv", study=LINE_STUDIES),
+    output:
+        lines="results/tables/neutral_line.csv",
+    log:
+        "results/logs/neutral_line.log",
+    params:
+        job={
+            "cases": [CONFIG.study(name).neutral_line_cases for name in LINE_STUDIES],
+            "code": code_of("neutral_line"),
+        },
+    script:
+        "../scripts/neutral_line.py"
