@@ -17,7 +17,6 @@ from nptcs.fe.calculix import total_forces
 from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 
-
 # a section of its own: what follows must not move with the calibrated one
 SECTION = SpokeGeometry(
     leg_angle_deg=26.433,
