@@ -4,8 +4,9 @@ from pathlib import Path
 
 import pytest
 import yaml
+from matplotlib.figure import Figure
 
-from nptcs.commands import deck, fe_calibrate
+from nptcs.commands import deck, fe_calibrate, fe_picture
 from nptcs.errors import InputError
 from nptcs.fe.calibration import PUBLISHED_PLY
 
@@ -124,3 +125,20 @@ def test_calibration_refuses_more_than_five_cases_and_unknown_ones(tables):
         )
     with pytest.raises(InputError, match="not in the tables"):
         fe_calibrate.build_problem(parse(fe_calibrate, "fe-calibrate", *tables, "--cases", 33))
+
+
+def test_the_picture_of_a_spoke_is_of_the_design_that_was_asked_for(tmp_path, monkeypatch):
+    drawn = []
+
+    def draw(model):
+        drawn.append(model.design)
+        return Figure()
+
+    monkeypatch.setattr("nptcs.fe.spoke_picture.spoke_figure", draw)
+    out = tmp_path / "spoke.svg"
+    words = ["fe-picture", out, "--spoke", "--spacing", 20, "--angle", 30, "--spoke-c10", 2]
+    arguments = parse(fe_picture, *words)
+    assert arguments.run(arguments) == 0
+    assert (drawn[0].spacing_mm, drawn[0].angle_deg, drawn[0].c10_mpa) == (20.0, 30.0, 2.0)
+    assert drawn[0].thickness_mm == 1.8
+    assert "<svg" in out.read_text()

@@ -1,10 +1,13 @@
+from dataclasses import replace
+
 import numpy as np
 import pytest
 
 from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.pictures import section_cells, tyre_figure
+from nptcs.fe.pictures import FINE, ring_stress, tyre_figure
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
+from nptcs.fe.spoke_picture import section_stress, spoke_figure
 from nptcs.fe.spoke_table import SpokeTable
 from nptcs.fe.tyre import LoadPath, TyreModel, TyreState
 
@@ -17,35 +20,73 @@ def spoke(published_ply):
     )
 
 
-def test_cells_cover_the_section_and_show_a_uniform_stretch(spoke):
-    position = spoke.mesh.positions
-    corners, strain = section_cells(spoke, np.zeros_like(position))
-    assert strain == pytest.approx(0.0, abs=1e-12)
-    x, z = corners[..., 0], corners[..., 1]
-    area = 0.5 * np.sum(x * np.roll(z, -1, axis=1) - z * np.roll(x, -1, axis=1))
-    heights, thickness = spoke.design.geometry.section()
-    slope = np.cos(np.radians(spoke.design.geometry.leg_angle_deg))
-    assert area == pytest.approx(2.0 * np.trapezoid(thickness, heights) / slope)
-    stretched = np.zeros_like(position)
-    stretched[:, 2] = 0.1 * position[:, 2]
-    _, strain = section_cells(spoke, stretched)
-    assert strain == pytest.approx(0.5 * (1.1**2 - 1.0))
+def test_cells_cover_the_section(spoke):
+    section = section_stress(spoke, spoke.rest())
+    assert section.mises_mpa == pytest.approx(0.0, abs=1e-12)
+    assert section.fibre_mpa == pytest.approx(0.0, abs=1e-6)
+    cells = np.concatenate([section.rubber, section.plate])
+    x, z = cells[..., 0], cells[..., 1]
+    area = 0.5 * np.abs(np.sum(x * np.roll(z, -1, axis=1) - z * np.roll(x, -1, axis=1), axis=1))
+    geometry = spoke.design.geometry
+    heights, thickness = geometry.section()
+    slope = np.cos(np.radians(geometry.leg_angle_deg))
+    assert area.sum() == pytest.approx(2.0 * np.trapezoid(thickness, heights) / slope)
+    # the plates stand where the section says, seen from the rim
+    assert section.plate[..., 1].min() == pytest.approx(geometry.plate_foot_gap_mm)
+    assert np.ptp(section.height_mm) < geometry.height_mm - 2.0 * geometry.plate_foot_gap_mm
+    assert np.all(np.diff(section.height_mm) > 0.0)
+
+
+def test_a_uniform_stretch_is_a_uniform_stress(spoke):
+    """Axial stretch 1.1 between rim and band at constant volume: σ = 2 C10 (λ² - 1/λ)."""
+    rest = spoke.rest()
+    factors = np.array([1.1**-0.5, 1.1**-0.5, 1.1])
+    stretched = replace(rest, displacement=spoke.mesh.positions * (factors - 1.0))
+    section = section_stress(spoke, stretched)
+    # the period's last strip reaches back to its first nodes: only x and z are free of that
+    assert section.mises_mpa == pytest.approx(2.0 * (1.1**2 - 1.0 / 1.1), rel=1e-6)
+    assert section.rubber[..., 1].max() == pytest.approx(1.1 * spoke.design.geometry.height_mm)
+
+
+def test_plates_bend_when_the_spoke_is_pressed(spoke):
+    """The plies' faces are strained with opposite sign in the middle of a leg."""
+    section = section_stress(spoke, spoke.move(spoke.rest(), np.array([-2.0, 0.0, 0.0])))
+    middle = np.abs(section.fibre_mpa).max(axis=1).argmax()
+    plus, minus = section.fibre_mpa[middle]
+    assert plus * minus < 0.0
+
+
+def test_the_spoke_is_drawn_pulled_and_pressed(spoke):
+    figure = spoke_figure(spoke)
+    pulled, pressed, fibres = figure.axes[:3]
+    assert pulled.get_title().startswith("+4 mm, +")
+    assert pressed.get_title().startswith("-20 mm, -")
+    assert [line.get_label() for line in fibres.lines[:4]] == [
+        "+4 mm, ply +45°",
+        "+4 mm, ply -45°",
+        "-20 mm, ply +45°",
+        "-20 mm, ply -45°",
+    ]
 
 
 def test_the_tyre_is_drawn_with_all_its_spokes(spoke):
+    dimensions = TyreGeometry(spoke_count=12)
     nothing = SpokeTable(
         np.array([-9.0] * 3), np.array([9.0] * 3), np.zeros((1, 3), dtype=int), np.zeros(1), 1, 0
     )
     tyre = TyreModel(
-        TyreGeometry(), nothing, 7.0, 5.0, 2000.0, TyreMesh(gap_elements=1), GroundContact()
+        dimensions, nothing, 7.0, 5.0, 2000.0, TyreMesh(gap_elements=1), GroundContact()
     )
     still = np.zeros_like(tyre.mesh.positions)
     state = TyreState(still, 0.0, tyre.spoke_motion(still), LoadPath())
     figure = tyre_figure(tyre, state, spoke)
     whole = figure.axes[0]
-    spokes = whole.collections[0].get_paths()
-    cells, _ = section_cells(spoke, np.zeros_like(spoke.mesh.positions))
-    assert len(spokes) == 60 * len(cells)
-    feet = np.concatenate([path.vertices for path in spokes])
+    drawn = whole.collections[0].get_paths()
+    section = section_stress(spoke, spoke.rest(), FINE)
+    ring, stress = ring_stress(tyre, state)
+    assert stress == pytest.approx(0.0, abs=1e-12)
+    assert len(drawn) == 12 * len(section.rubber) + len(ring)
+    feet = np.concatenate([path.vertices for path in drawn])
     assert np.hypot(*feet.T).min() == pytest.approx(215.9, abs=0.5)
-    assert np.hypot(*feet.T).max() == pytest.approx(300.0, abs=0.5)
+    assert np.hypot(*feet.T).max() == pytest.approx(dimensions.outer_diameter_mm / 2, abs=0.05)
+    assert len(whole.collections[1].get_paths()) == 12 * len(section.plate)

@@ -1,19 +1,34 @@
-"""``nptcs fe-picture``: solve one tyre and draw it deformed."""
+"""``nptcs fe-picture``: solve one tyre or its spoke and draw it deformed."""
 
 from __future__ import annotations
 
 import argparse
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from nptcs.config.tyre import TyreGeometry
+    from nptcs.fe.spoke import SpokeDesign, SpokeModel
+    from nptcs.fe.tyre import TyreModel, TyreState
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = subparsers.add_parser(
         "fe-picture",
-        help="draw a finite element tyre under load",
+        help="draw a finite element tyre under load, or its spoke",
         description="Solve one tyre with fe_tyre and the published ply constants, and draw it "
-        "with all its spokes. The defaults are the published fiducial design.",
+        "with all its spokes; or its single spoke, pulled by 4 mm and pressed by 20 mm, with the "
+        "stress in rubber and fibres. The defaults are the published fiducial design.",
     )
     parser.add_argument("output", metavar="FIGURE", help=".png, .svg or .pdf")
+    parser.add_argument("--spoke", action="store_true", help="draw the single spoke")
+    add_design(parser)
+    parser.set_defaults(run=run)
+
+
+def add_design(parser: argparse.ArgumentParser) -> None:
+    """Declare the options of a design."""
     for name, value, unit in (
         ("spacing", 15.0, "mm"),
         ("thickness", 1.8, "mm"),
@@ -25,18 +40,24 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         parser.add_argument(
             f"--{name}", type=float, default=value, help=f"{unit} (default: %(default)s)"
         )
-    parser.set_defaults(run=run)
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Solve and draw."""
+@dataclass(frozen=True)
+class SolvedTyre:
+    """A loaded tyre and the model of its spokes."""
+
+    dimensions: TyreGeometry
+    tyre: TyreModel
+    state: TyreState
+    spoke: SpokeModel
+
+
+def design_of(arguments: argparse.Namespace) -> SpokeDesign:
+    """Return the spoke that the options describe."""
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.fe.calibration import PUBLISHED_PLY
-    from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-    from nptcs.fe.pictures import tyre_figure
-    from nptcs.fe.spoke import SpokeModel
-    from nptcs.files import atomic_path
+    from nptcs.fe.case import spoke_design
 
     values = {
         "spacing_mm": arguments.spacing,
@@ -44,14 +65,37 @@ def run(arguments: argparse.Namespace) -> int:
         "angle_deg": arguments.angle,
         "spoke_c10_mpa": arguments.spoke_c10,
     }
-    model, dimensions = FeModel(), TyreGeometry()
-    design = spoke_design(model, dimensions, PUBLISHED_PLY, values)
+    return spoke_design(FeModel(), TyreGeometry(), PUBLISHED_PLY, values)
+
+
+def solved(arguments: argparse.Namespace) -> SolvedTyre:
+    """Load the tyre that the options describe."""
+    from nptcs.config.fe import FeModel
+    from nptcs.config.tyre import TyreGeometry
+    from nptcs.fe.case import loaded_tyre, spoke_table, tyre_model
+    from nptcs.fe.spoke import SpokeModel
+
+    model, dimensions, design = FeModel(), TyreGeometry(), design_of(arguments)
     tyre = tyre_model(model, dimensions, spoke_table(model, design), arguments.band_c10)
     state = loaded_tyre(tyre, model, arguments.load)
-    figure = tyre_figure(tyre, state, SpokeModel(design))
-    with atomic_path(arguments.output) as temporary:
-        figure.savefig(temporary, dpi=150)
     print(
         f"{arguments.load:g} N at {state.rise_mm:.3f} mm: {arguments.load / state.rise_mm:.2f} N/mm"
     )
+    return SolvedTyre(dimensions, tyre, state, SpokeModel(design))
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Solve and draw."""
+    from nptcs.fe.pictures import tyre_figure
+    from nptcs.fe.spoke import SpokeModel
+    from nptcs.fe.spoke_picture import spoke_figure
+    from nptcs.files import atomic_path
+
+    if arguments.spoke:
+        figure = spoke_figure(SpokeModel(design_of(arguments)))
+    else:
+        case = solved(arguments)
+        figure = tyre_figure(case.tyre, case.state, case.spoke)
+    with atomic_path(arguments.output) as temporary:
+        figure.savefig(temporary, dpi=150)
     return 0

@@ -1,19 +1,15 @@
 """Calibration of the spoke's section, which the paper only draws.
 
-Targets: the spoke's stiffness of table 10 and a few named cases of table 5. A tyre costs ten times
-as much as a spoke, so the tyre's stiffness is followed by a surrogate in the spoke's stiffness,
-
-    ln K = ln K₀ + β (Δ ln k_t + Δ ln k_c) / 2 ,
-
-that is corrected by a computed tyre for each case at the start of each round (space mapping). The
-spoke's sensitivities are computed anew in each round, with coarser steps.
+Targets: the spoke's stiffness of table 10 and a few named cases of table 5. The stiffness of spokes
+and tyres is computed on the campaign's mesh; only its sensitivities, which each step needs for all
+dimensions, come from a coarser mesh and table.
 """
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping
 from concurrent.futures import ProcessPoolExecutor
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import partial
 from typing import Any
 
@@ -21,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
-from nptcs.config.fe import FeModel, SpokeGeometry
+from nptcs.config.fe import FeModel, SpokeGeometry, SpokeMesh, SpokeTableOptions
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
 from nptcs.fe.spoke import SpokeError, SpokeModel
@@ -30,17 +26,17 @@ from nptcs.fe.tyre import TyreError
 
 Array = NDArray[np.float64]
 
-# dimensions that are fitted, and how far they may go (mm, degrees)
+# dimensions that are fitted and how far they may go (mm, degrees): plates end inside the block
 LIMITS = {
     "leg_angle_deg": (15.0, 35.0),
     "leg_thickness_mm": (2.5, 6.0),
     "block_thickness_mm": (8.0, 15.0),
-    "block_half_length_mm": (4.0, 10.0),
+    "block_half_length_mm": (5.8, 10.0),
     "block_ramp_mm": (3.0, 8.0),
     "foot_thickness_mm": (5.0, 14.0),
     "foot_taper_mm": (5.0, 11.0),
     "plate_foot_gap_mm": (1.5, 5.0),
-    "plate_mid_gap_mm": (1.5, 6.0),
+    "plate_mid_gap_mm": (1.5, 5.5),
 }
 FREE = tuple(LIMITS)
 # table 2 of the paper
@@ -55,28 +51,31 @@ PUBLISHED_PLY = {
     "g13_mpa": 3147.0,
     "g23_mpa": 2300.0,
 }
-# where the calibration of the defaults began: found on a coarser mesh, the tyres by the surrogate
+# where the calibration of the defaults began
 START = FeModel(
     geometry=SpokeGeometry(
-        leg_angle_deg=30.4,
-        leg_thickness_mm=2.86,
-        block_thickness_mm=12.2,
-        block_half_length_mm=6.08,
-        block_ramp_mm=5.1,
-        foot_thickness_mm=13.9,
-        foot_taper_mm=9.3,
-        plate_foot_gap_mm=4.5,
-        plate_mid_gap_mm=5.8,
+        leg_angle_deg=29.64,
+        leg_thickness_mm=3.14,
+        block_thickness_mm=10.5,
+        block_half_length_mm=5.85,
+        block_ramp_mm=4.75,
+        foot_thickness_mm=13.1,
+        foot_taper_mm=10.8,
+        plate_foot_gap_mm=4.95,
+        plate_mid_gap_mm=5.45,
     )
 )
-# K_tyre ∝ k_spoke^0.53 over the published tables
-EXPONENT = 0.53
+COARSE = {
+    "spoke_mesh": SpokeMesh(rows=(1, 1, 2, 1, 1, 1), gap_columns=1),
+    "table": SpokeTableOptions(u_r_mm=(-30.0, 8.0), samples=(6, 3, 3), degrees=(8, 4)),
+    "load_steps": 4,
+}
 STEP = 0.03
 LARGEST_STEP = 0.15
 HALVINGS = 3
 # points of the tension and compression curves: of the fit itself, and of its sensitivities
-FINE = (8, 10)
-COARSE = (2, 4)
+POINTS = (8, 10)
+FEW_POINTS = (2, 4)
 
 
 @dataclass(frozen=True)
@@ -149,19 +148,24 @@ def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float
 Mapper = Callable[[Callable[..., Any], Iterable[Any]], Iterable[Any]]
 
 
-def _spokes(problem: Problem, steps: tuple[int, int], points: list[Array], mapper: Mapper) -> Array:
-    """Return ln (k_t, k_c) for each point and each target: array (points, targets, 2)."""
-    cases = [target.values for target in problem.spokes]
-    cases += [target.values for target in problem.tyres]
-    jobs = [(point, values) for point in points for values in cases]
-    rows = list(mapper(partial(_spoke_job, problem, steps), jobs))
-    return np.array(rows).reshape(len(points), len(cases), 2)
+def _stiffness(
+    problem: Problem, points: tuple[int, int], sections: list[Array], mapper: Mapper
+) -> tuple[Array, Array]:
+    """Compute ln (k_t, k_c), array (sections, spokes, 2), and ln K, array (sections, tyres)."""
+    tyre_jobs = [(free, target.values) for free in sections for target in problem.tyres]
+    spoke_jobs = [(free, target.values) for free in sections for target in problem.spokes]
+    tyres = list(mapper(partial(_tyre_job, problem), tyre_jobs))
+    spokes = list(mapper(partial(_spoke_job, problem, points), spoke_jobs))
+    return (
+        np.array(spokes).reshape(len(sections), len(problem.spokes), 2),
+        np.array(tyres).reshape(len(sections), len(problem.tyres)),
+    )
 
 
 def _spoke_job(
-    problem: Problem, steps: tuple[int, int], job: tuple[Array, Mapping[str, float]]
+    problem: Problem, points: tuple[int, int], job: tuple[Array, Mapping[str, float]]
 ) -> Array:
-    return log_spoke_stiffness(problem, steps, *job)
+    return log_spoke_stiffness(problem, points, *job)
 
 
 def _tyre_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> float:
@@ -171,7 +175,9 @@ def _tyre_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> float
 def calibrate(
     problem: Problem, rounds: int, workers: int, report: Callable[[Round], None]
 ) -> FeModel:
-    """Find the section by rounds of Gauss–Newton steps.
+    """Find the section by rounds of damped Gauss–Newton steps.
+
+    A round that makes the misfit worse is taken back and tried again with more damping.
 
     Parameters
     ----------
@@ -180,33 +186,39 @@ def calibrate(
     workers : int
         Processes.
     report : callable
-        Called with each round's state before its step, and with the last one.
+        Called with the state of the first section and of each round.
 
     Returns
     -------
     FeModel
-        The model with the calibrated section.
+        The model with the best section of all rounds.
     """
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
-    free, step = start.copy(), np.zeros_like(start)
+    best, step, smallest, damping = start, np.zeros_like(start), np.inf, problem.damping
     with ProcessPoolExecutor(workers) as pool:
         for last in range(rounds + 1):
-            free, tyres = _reach(problem, free, step, pool.map)
-            spokes = _spokes(problem, FINE, [free], pool.map)[0]
+            free, spokes, tyres = _reach(problem, best, step, pool.map)
             report(Round(free.copy(), np.exp(spokes), np.exp(tyres)))
+            misfit = _misfit(problem, spokes, tyres, free - start)
+            better = float(misfit @ misfit) < smallest
+            damping = damping / 2.0 if better else 4.0 * damping
+            if better:
+                best, smallest, best_misfit = free, float(misfit @ misfit), misfit
             if last < rounds:
-                slopes = _sensitivities(problem, free, pool.map)
-                step = _step(problem, slopes, spokes, tyres, free, start)
-    return problem.with_section(free)
+                if better:
+                    slopes = _sensitivities(problem, best, pool.map)
+                step = _step(problem, slopes, best_misfit, best, damping)
+    return problem.with_section(best)
 
 
-def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[Array, Array]:
-    """Take a step, halved while a tyre of the new section cannot be loaded; ln K of the tyres."""
+def _reach(
+    problem: Problem, free: Array, step: Array, mapper: Mapper
+) -> tuple[Array, Array, Array]:
+    """Take a step, halved while the new section cannot be loaded; the section and what it gives."""
     for _ in range(HALVINGS + 1):
-        moved = free + step
-        jobs = [(moved, target.values) for target in problem.tyres]
         try:
-            return moved, np.array(list(mapper(partial(_tyre_job, problem), jobs)))
+            spokes, tyres = _stiffness(problem, POINTS, [free + step], mapper)
+            return free + step, spokes[0], tyres[0]
         except (SpokeError, TyreError) as error:
             failure = error
             step = step / 2.0
@@ -214,35 +226,39 @@ def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[
 
 
 def _sensitivities(problem: Problem, free: Array, mapper: Mapper) -> Array:
-    """∂ ln (k_t, k_c) / ∂ ln (dimension): array (targets, 2, dimensions)."""
-    points = [free, *(free + STEP * np.eye(len(FREE)))]
-    values = _spokes(problem, COARSE, points, mapper)
-    slopes: Array = np.moveaxis((values[1:] - values[0]) / STEP, 0, 2)
+    """Derive ln (k_t, k_c) of the spokes, then ln K, by the logarithms of the dimensions."""
+    coarse = replace(problem, model=problem.model.model_copy(update=COARSE))
+    sections = [free, *(free + STEP * np.eye(len(FREE)))]
+    spokes, tyres = _stiffness(coarse, FEW_POINTS, sections, mapper)
+    values = np.concatenate([spokes.reshape(len(sections), -1), tyres], axis=1)
+    slopes: Array = (values[1:] - values[0]).T / STEP
     return slopes
 
 
-def _step(
-    problem: Problem, slopes: Array, spokes: Array, tyres: Array, free: Array, start: Array
-) -> Array:
-    """Weighted least squares; the prior pulls towards the first section, damping to the last."""
-    count = len(problem.spokes)
+def _misfit(problem: Problem, spokes: Array, tyres: Array, moved: Array) -> Array:
+    """Weighted differences of the logarithms; the prior pulls towards the first section."""
     wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
     target = np.log([t.stiffness_n_per_mm for t in problem.tyres])
-    misfit = [
-        problem.spoke_weight * (spokes[:count] - wanted).ravel(),
+    parts = [
+        problem.spoke_weight * (spokes - wanted).ravel(),
         problem.tyre_weight * (tyres - target),
-        problem.prior * (free - start),
-        np.zeros(len(FREE)),
+        problem.prior * moved,
     ]
+    return np.concatenate(parts)
+
+
+def _step(problem: Problem, slopes: Array, misfit: Array, free: Array, damping: float) -> Array:
+    """Least squares within the limits."""
+    count = 2 * len(problem.spokes)
     jacobian = [
-        problem.spoke_weight * slopes[:count].reshape(-1, len(FREE)),
-        problem.tyre_weight * EXPONENT * slopes[count:].mean(axis=1),
+        problem.spoke_weight * slopes[:count],
+        problem.tyre_weight * slopes[count:],
         problem.prior * np.eye(len(FREE)),
-        problem.damping * np.eye(len(FREE)),
+        damping * np.eye(len(FREE)),
     ]
     low, high = np.log(np.array(list(LIMITS.values()))).T
     room = np.maximum(free - low, 1e-6), np.maximum(high - free, 1e-6)
     bounds = -np.minimum(room[0], LARGEST_STEP), np.minimum(room[1], LARGEST_STEP)
-    found = lsq_linear(np.concatenate(jacobian), -np.concatenate(misfit), bounds)
-    step: Array = found.x
+    wanted = np.concatenate([-misfit, np.zeros(len(FREE))])
+    step: Array = lsq_linear(np.concatenate(jacobian), wanted, bounds).x
     return step

@@ -84,6 +84,23 @@ def folded_order(columns: int) -> Index:
     return order
 
 
+def solve_indefinite(band: Array, rhs: Array) -> Array:
+    """Solve with a symmetric lower band that need not be positive definite.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the matrix is singular.
+    """
+    width, size = len(band) - 1, band.shape[1]
+    upper = np.zeros((width, size))
+    for distance in range(1, width + 1):
+        upper[width - distance, distance:] = band[distance, : size - distance]
+    whole = np.concatenate([upper, band])
+    solution: Array = solve_banded((width, width), whole, rhs, check_finite=False)
+    return solution
+
+
 class BandedCholesky:
     """Factorisation of a symmetric positive definite banded matrix (lower band).
 

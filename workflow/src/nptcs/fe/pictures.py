@@ -1,4 +1,4 @@
-"""Pictures of the deformed tyre and its spokes."""
+"""Picture of the deformed tyre with all its spokes and the stress of its rubber."""
 
 from __future__ import annotations
 
@@ -11,65 +11,62 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Circle
 from numpy.typing import NDArray
 
+from nptcs.fe.bricks import RING_ORDERS
+from nptcs.fe.fields import lattice, rubber_at
+from nptcs.fe.lagrange import tensor_shape
 from nptcs.fe.spoke import SpokeModel
+from nptcs.fe.spoke_picture import COLOURS, corners, section_stress
 from nptcs.fe.tyre import TyreModel, TyreState
 
 Array = NDArray[np.float64]
-COLOURS = "viridis"
+
+# drawn cells along each side of an element
+FINE = 4
 
 
-def section_cells(model: SpokeModel, displacement: Array) -> tuple[Array, Array]:
-    """Deformed cells of the section through the middle of a plate, and their strain.
-
-    Returns
-    -------
-    corners : array (cells, 4, 2)
-        x and z, mm, rim at z = 0.
-    strain : array (cells,)
-        Largest principal Green–Lagrange strain at the cell's centre.
-    """
-    across = 2 * (model.design.mesh.plate_columns + model.design.mesh.gap_columns)
-    shape = (-1, across, model.mesh.nodes_per_row // across, 3)
-    plane = model.design.mesh.plate_columns
-    here = model.mesh.positions.reshape(shape)[:, plane][..., [0, 2]]
-    there = here + displacement.reshape(shape)[:, plane][..., [0, 2]]
-    before, after = (
-        np.stack([g[:-1, :-1], g[:-1, 1:], g[1:, 1:], g[1:, :-1]], axis=2).reshape(-1, 4, 2)
-        for g in (here, there)
-    )
-    reference, current = (
-        np.stack([cell[:, 1] + cell[:, 2], cell[:, 2] + cell[:, 3]], axis=2)
-        - np.stack([cell[:, 0] + cell[:, 3], cell[:, 0] + cell[:, 1]], axis=2)
-        for cell in (before, after)
-    )
-    gradient = current @ np.linalg.inv(reference)
-    green = 0.5 * (gradient.swapaxes(1, 2) @ gradient - np.eye(2))
-    return after, np.linalg.eigvalsh(green)[:, 1].astype(float)
+def ring_stress(tyre: TyreModel, state: TyreState) -> tuple[Array, Array]:
+    """Deformed cells (cells, 4, 2) of band and tread, mm, and their von Mises stress, MPa."""
+    points = lattice(FINE + 1, 2)
+    quads, stresses = [], []
+    for block in tyre.rubbers:
+        orders = RING_ORDERS[block.nodes.shape[1]]
+        shape, _ = tensor_shape(orders, points)
+        position = tyre.mesh.positions[block.nodes]
+        moved = position + state.displacement[block.nodes]
+        fields = rubber_at(block, orders, position, state.displacement, points)
+        quads.append(corners(np.einsum("gn,eni->egi", shape, moved)).reshape(-1, 4, 2))
+        stresses.append(corners(fields.mises).mean(axis=2).ravel())
+    return np.concatenate(quads), np.concatenate(stresses)
 
 
 def tyre_figure(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> Figure:
     """Draw the loaded tyre, every spoke solved again at its own motion.
 
-    Colour: the largest principal strain in the section through a plate's middle.
+    Colour: von Mises stress of the rubber, the spokes in the section through a plate's middle.
     """
-    cells, strains = [], []
+    cells: list[Array] = []
+    plates: list[Array] = []
+    stresses = []
     last = spoke.rest()
     inner = float(tyre.mesh.radii[0])
     height = spoke.design.geometry.height_mm
     for angle, motion in zip(tyre.mesh.spoke_angle, state.motion, strict=True):
         last = spoke.move(last, motion)
-        corners, strain = section_cells(spoke, last.displacement)
-        radius = corners[..., 1] + inner - height
+        section = section_stress(spoke, last, FINE)
         out = np.array([np.sin(angle), -np.cos(angle)])
         along = np.array([np.cos(angle), np.sin(angle)])
-        cells.append(radius[..., None] * out + corners[..., :1] * along)
-        strains.append(strain)
-    shade = Normalize(0.0, float(np.quantile(np.concatenate(strains), 0.99)))
-    figure = Figure(figsize=(13.0, 6.5), layout="constrained")
-    whole, near = figure.subplots(1, 2)
-    ring = _ring_cells(tyre, state)
+        for quads, kept in ((section.rubber, cells), (section.plate, plates)):
+            kept.append((quads[..., 1:] + inner - height) * out + quads[..., :1] * along)
+        stresses.append(section.mises_mpa)
+    spokes = np.concatenate(stresses)
+    ring, band = ring_stress(tyre, state)
+    shade = Normalize(0.0, float(np.quantile(spokes, 0.995)))
+    figure = Figure(figsize=(15.0, 6.5), layout="constrained")
+    whole, near = figure.subplots(1, 2, width_ratios=(1.0, 1.35))
     for axes in (whole, near):
-        _draw(axes, np.concatenate(cells), np.concatenate(strains), ring, shade)
+        _draw(axes, np.concatenate([*cells, ring]), np.concatenate([spokes, band]), shade)
+        dark = PolyCollection(list(np.concatenate(plates)), color="0.15", linewidths=0.2)
+        axes.add_collection(dark)
         ground = -float(tyre.mesh.radii[-1]) + state.rise_mm
         axes.axhline(ground, color="black", linewidth=1.0)
         axes.add_patch(Circle((0.0, 0.0), inner - height, fill=False, color="black"))
@@ -80,24 +77,20 @@ def tyre_figure(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> Figure:
     near.set_ylim(ground - 5.0, ground + 140.0)
     load = state.path.force_n[-1]
     whole.set_title(f"{load:.0f} N, {state.rise_mm:.2f} mm")
-    bar = figure.colorbar(ScalarMappable(shade, COLOURS), ax=[whole, near], shrink=0.8)
-    bar.set_label("largest principal strain")
+    bar = figure.colorbar(ScalarMappable(shade, COLOURS), ax=[whole, near], extend="max")
+    bar.set_label("rubber: von Mises stress (MPa); plates dark")
     return figure
 
 
-def _ring_cells(tyre: TyreModel, state: TyreState) -> Array:
-    moved = (tyre.mesh.positions + state.displacement).reshape(-1, len(tyre.mesh.radii), 2)
-    ahead = np.roll(moved, -1, axis=0)
-    cells: Array = np.stack(
-        [moved[:, :-1], ahead[:, :-1], ahead[:, 1:], moved[:, 1:]], axis=2
-    ).reshape(-1, 4, 2)
-    return cells
-
-
-def _draw(axes: Axes, cells: Array, strains: Array, ring: Array, shade: Normalize) -> None:
-    spokes = PolyCollection(list(cells), array=strains, cmap=COLOURS, norm=shade, linewidths=0.0)
-    axes.add_collection(spokes)
+def _draw(axes: Axes, cells: Array, stresses: Array, shade: Normalize) -> None:
     axes.add_collection(
-        PolyCollection(list(ring), facecolor="0.75", edgecolor="0.5", linewidth=0.2)
+        PolyCollection(
+            list(cells),
+            array=stresses,
+            cmap=COLOURS,
+            norm=shade,
+            edgecolors="face",
+            linewidths=0.2,
+        )
     )
     axes.autoscale_view()

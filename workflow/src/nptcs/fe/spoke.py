@@ -126,7 +126,7 @@ class SpokeModel:
         moved[:, 2] = u_r + self._arm * np.sin(phi)
         return moved
 
-    def _motion_slope(self, phi: float) -> tuple[Array, Array]:
+    def band_motion_slope(self, phi: float) -> tuple[Array, Array]:
         """∂u/∂(u_r, u_θ, φ) (top dofs, 3) and ∂²u/∂φ² (top dofs,)."""
         slope = np.zeros((len(self._arm), 3, 3))
         slope[:, 2, 0] = 1.0
@@ -230,6 +230,17 @@ class SpokeModel:
                 block.update_pressure(step)
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
 
+    def _top_product(self, responses: list[Response], slope: Array) -> Array:
+        """Tangent times displacements of the top nodes (top dofs, n): array (all dofs, n)."""
+        whole = np.zeros((self._count, slope.shape[1]))
+        whole[self._top_dofs] = slope
+        product = np.zeros_like(whole)
+        for dofs, edge, response in zip(self._dofs, self._edge, responses, strict=True):
+            if len(edge):
+                local = np.matmul(response.tangent[edge], whole[dofs[edge]])
+                np.add.at(product, dofs[edge], local)
+        return product
+
     def _condense(
         self,
         motion: Array,
@@ -240,14 +251,8 @@ class SpokeModel:
         energy: float,
     ) -> SpokeState:
         """Condense onto the band: force and tangent of the three motions."""
-        slope, curve = self._motion_slope(float(motion[2]))
-        whole = np.zeros((self._count, 3))
-        whole[self._top_dofs] = slope
-        product = np.zeros((self._count, 3))
-        for dofs, edge, response in zip(self._dofs, self._edge, responses, strict=True):
-            if len(edge):
-                local = np.matmul(response.tangent[edge], whole[dofs[edge]])
-                np.add.at(product, dofs[edge], local)
+        slope, curve = self.band_motion_slope(float(motion[2]))
+        product = self._top_product(responses, slope)
         sensitivity = -factor.solve(product[self._free])
         reaction = force[self._top_dofs]
         tangent = slope.T @ product[self._top_dofs] + product[self._free].T @ sensitivity

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
-from nptcs.fe.spoke import SpokeModel
+from nptcs.fe.spoke import SpokeModel, SpokeState
 
 Array = NDArray[np.float64]
 
@@ -44,6 +44,14 @@ def fit_through_origin(displacement_mm: Array, force_n: Array) -> OriginFit:
     return OriginFit(slope, 1.0 - misfit / total, 1.0 - misfit / spread)
 
 
+def walk(model: SpokeModel, end_mm: float, steps: int) -> list[SpokeState]:
+    """Equilibria from rest to a radial displacement of the band, which is held from turning."""
+    history = [model.rest()]
+    for u_r in np.linspace(0.0, end_mm, steps + 1)[1:]:
+        history.append(model.follow(history, np.array([u_r, 0.0, 0.0])))
+    return history
+
+
 def pull(model: SpokeModel, end_mm: float, steps: int) -> tuple[Array, Array]:
     """Force (N) on the band against its radial displacement (mm), the band held from turning.
 
@@ -59,13 +67,12 @@ def pull(model: SpokeModel, end_mm: float, steps: int) -> tuple[Array, Array]:
     displacement_mm, force_n : arrays (steps + 1,)
         Both in the direction of the motion, the unloaded spoke first.
     """
-    places = np.linspace(0.0, end_mm, steps + 1)
-    history = [model.rest()]
-    for u_r in places[1:]:
-        history.append(model.follow(history, np.array([u_r, 0.0, 0.0])))
-    forces = np.array([state.force[0] for state in history])
+    states = walk(model, end_mm, steps)
     sign = np.sign(end_mm)
-    return sign * places, sign * forces
+    return (
+        sign * np.array([state.motion[0] for state in states]),
+        sign * np.array([state.force[0] for state in states]),
+    )
 
 
 @dataclass(frozen=True)

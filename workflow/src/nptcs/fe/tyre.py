@@ -123,15 +123,19 @@ class TyreModel:
         motion: Array = np.einsum("skn,sn->sk", self.foot_operator, local)
         return motion
 
-    def _trial(self, displacement: Array, rise: float) -> _Trial:
-        responses = [block.respond(displacement) for block in self._bodies]
-        _, push, stiff = self.table.evaluate(self.spoke_motion(displacement))
+    def spoke_response(self, displacement: Array) -> Response:
+        """Energy of the spokes, and their forces and tangents on the unknowns of their feet."""
+        energy, push, stiff = self.table.evaluate(self.spoke_motion(displacement))
         lift = self.foot_operator.transpose(0, 2, 1)
-        spokes = Response(
-            0.0,
+        return Response(
+            float(energy.sum()),
             np.matmul(lift, push[..., None])[..., 0],
             np.matmul(lift, np.matmul(stiff, self.foot_operator)),
         )
+
+    def _trial(self, displacement: Array, rise: float) -> _Trial:
+        responses = [block.respond(displacement) for block in self._bodies]
+        spokes = self.spoke_response(displacement)
         ground = self.ground.respond(displacement, rise)
         forces = [*[r.force for r in responses], spokes.force]
         tangents = [*[r.tangent for r in responses], spokes.tangent, ground.tangent]
@@ -243,11 +247,10 @@ class TyreModel:
 
     def energy(self, state: TyreState) -> dict[str, float]:
         """Energy of each part at a state, N mm."""
-        spokes, _, _ = self.table.evaluate(state.motion)
         return {
             "rubber": sum(block.respond(state.displacement).energy for block in self.rubbers),
             "wires": sum(wire.respond(state.displacement).energy for wire in self.wires),
-            "spokes": float(spokes.sum()),
+            "spokes": self.spoke_response(state.displacement).energy,
             "contact": self.ground.energy(state.displacement, state.rise_mm),
         }
 
