@@ -25,6 +25,16 @@ def solve_job(wildcards):
     }
 
 
+def solve_cores(wildcards):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    return batch_cores(CONFIG.campaign.cores_per_batch, options)
+
+
+def solve_tokens(wildcards, threads):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    return batch_tokens(threads, options)
+
+
 rule solve:
     input:
         design="results/4_design/{study}.csv",
@@ -34,7 +44,9 @@ rule solve:
         records="results/5_solve/{study}/{solver}/batch_{batch}.jsonl",
     log:
         "results/logs/solve/{study}_{solver}_{batch}.log",
-    threads: CONFIG.campaign.cores_per_batch
+    threads: solve_cores
+    resources:
+        licence_tokens=solve_tokens,
     params:
         job=solve_job,
         store="results/5_solve/records",

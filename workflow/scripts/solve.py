@@ -7,10 +7,12 @@ from typing import Any
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore, write_records
 from nptcs.campaign.runner import run_cases
+from nptcs.campaign.schedule import cases_side_by_side
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.console import clear_errors
 from nptcs.materials import PlyCard
+from nptcs.solvers.registry import load, module_of, read_options
 from nptcs.tables.cases import Design
 from nptcs.tables.io import read_table
 
@@ -27,7 +29,13 @@ def report_progress(record: CaseRecord, reused: bool, done: int, total: int) -> 
 
 
 def solve(
-    job: dict[str, Any], design: str, ply: str | None, store: str, cores: int, records: str
+    job: dict[str, Any],
+    design: str,
+    ply: str | None,
+    store: str,
+    cores: int,
+    tokens: int,
+    records: str,
 ) -> None:
     cases = read_table(design, Design).iloc[job["batch"] - 1 :: job["batches"]]
     constants = PlyCard.model_validate_json(Path(ply).read_text("utf-8")).values() if ply else None
@@ -39,7 +47,9 @@ def solve(
         cases,
         constants,
     )
-    write_records(records, run_cases(jobs, RecordStore(store), cores, report_progress))
+    options = read_options(load(module_of(job["solver"], job["options"])), job["options"])
+    at_a_time = cases_side_by_side(cores, tokens, options)
+    write_records(records, run_cases(jobs, RecordStore(store), at_a_time, report_progress))
 
 
 if __name__ == "__main__":
@@ -50,5 +60,6 @@ if __name__ == "__main__":
             next(iter(snakemake.input.get("ply", [])), None),
             snakemake.params.store,
             snakemake.threads,
+            snakemake.resources.licence_tokens,
             snakemake.output.records,
         )

@@ -1,12 +1,16 @@
 import argparse
 import json
+from pathlib import Path
 
 import pytest
+import yaml
 from matplotlib.figure import Figure
 
 from nptcs.commands import deck, fe_calibrate, fe_picture
 from nptcs.errors import InputError
 from nptcs.fe.calibration import PUBLISHED_PLY
+
+ROOT = Path(__file__).resolve().parents[3]
 
 
 def parse(module, *words):
@@ -41,6 +45,41 @@ def test_deck_of_a_case(tmp_path, card, design, capsys):
     assert arguments.run(arguments) == 0
     assert "\n2.5, " in out.read_text()
     assert "ccx spoke" in capsys.readouterr().out
+
+
+def test_abaqus_deck_of_a_case(tmp_path, card, design, reader, capsys):
+    config = {
+        "studies": yaml.safe_load((ROOT / "config" / "small.yaml").read_text())["studies"],
+        "tyre": {"spoke_count": 48},
+        "solvers": {"abaqus": {"mesh": {"around": 96}, "cpus": 4}},
+    }
+    (tmp_path / "config.yaml").write_text(yaml.safe_dump(config))
+    out = tmp_path / "tyre.inp"
+    words = ["deck", design, "plate_001", "-o", out, "--card", card, "--ply", "cfrp"]
+    words += ["--solver", "abaqus", "--spoke-c10", 2.5, "--band-c10", 4.5, "--load", 4000]
+    arguments = parse(deck, *words, "--config", tmp_path / "config.yaml")
+    assert arguments.run(arguments) == 0
+    written = reader.read_deck(out.read_text())
+    assert sum(name.startswith("SPOKE") for name in written.instances) == 48
+    assert len(written.parts["BAND"].elements) == 96 * 31 * 3
+    assert reader.material(written, "BAND-RUBBER")["HYPERELASTIC"].data[0][0] == "4.5"
+    assert written.named("CLOAD")[0].data[0][2] == "-4000."
+    assert "abaqus job=tyre" in capsys.readouterr().out
+
+
+def test_abaqus_deck_needs_the_bands_rubber(tmp_path, card, design):
+    words = ["deck", design, "plate_001", "-o", tmp_path / "x.inp", "--card", card]
+    arguments = parse(deck, *words, "--ply", "cfrp", "--solver", "abaqus", "--spoke-c10", 2.5)
+    with pytest.raises(InputError, match="shear_band_c10_mpa"):
+        arguments.run(arguments)
+    assert not (tmp_path / "x.inp").exists()
+
+
+def test_deck_refuses_a_configuration_that_is_none(tmp_path, card, design):
+    words = ["deck", design, "plate_001", "-o", tmp_path / "x.inp", "--card", card]
+    arguments = parse(deck, *words, "--ply", "cfrp", "--config", tmp_path / "none.yaml")
+    with pytest.raises(InputError, match="no YAML file"):
+        arguments.run(arguments)
 
 
 @pytest.mark.parametrize(

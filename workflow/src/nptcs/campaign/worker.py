@@ -4,15 +4,18 @@ from __future__ import annotations
 
 import math
 import os
+import signal
 import threading
 import time
 import traceback
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection
+from types import FrameType
 
 from nptcs.campaign.record import CaseJob
 from nptcs.config.tyre import TyreGeometry
 from nptcs.solvers.contract import CaseInputs, SolverResult, Status
+from nptcs.solvers.external import end_all
 from nptcs.solvers.registry import load, read_options
 
 
@@ -41,6 +44,7 @@ def solve(job: CaseJob) -> SolverResult:
 
 def run(job: CaseJob, channel: Connection) -> None:
     """Solve a case and send ``(result, wall time in s)`` back through the pipe."""
+    signal.signal(signal.SIGTERM, _leave)
     threading.Thread(target=_leave_with_parent, daemon=True).start()
     start = time.perf_counter()
     result = solve(job)
@@ -48,9 +52,15 @@ def run(job: CaseJob, channel: Connection) -> None:
     channel.close()
 
 
+def _leave(number: int, frame: FrameType | None) -> None:
+    """Leave in order, so that a solver can end the commands that it has started."""
+    raise SystemExit(128 + number)
+
+
 def _leave_with_parent() -> None:
     """End this process when the campaign that started it is gone, however it went."""
     parent = parent_process()
     if parent is not None:
         parent.join()
+        end_all()
         os._exit(1)

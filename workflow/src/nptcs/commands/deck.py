@@ -3,49 +3,115 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
+from typing import TYPE_CHECKING
+
+if TYPE_CHECKING:
+    from nptcs.config.tyre import TyreGeometry
+    from nptcs.solvers.contract import CaseInputs
+
+SOLVERS = ("abaqus", "calculix")
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = subparsers.add_parser(
         "deck",
-        help="write the CalculiX deck of a case's spoke",
-        description="Write a complete CalculiX deck of one spoke of a design table: one axial "
-        "period with meshed plies, pulled by 4 mm and then pressed by 20 mm.",
+        help="write the Abaqus or CalculiX deck of a case",
+        description="Write a complete, commented input deck of a case of a design table. Abaqus: "
+        "the paper's whole tyre, loaded on a rigid plane. CalculiX: one axial period of a spoke "
+        "with meshed plies, pulled by 4 mm and then pressed by 20 mm. docs/methods/decks.md "
+        "describes both.",
     )
     parser.add_argument("design", metavar="DESIGN.csv", help="design table with a column case_id")
     parser.add_argument("case", metavar="CASE", help="its case_id")
     parser.add_argument("-o", "--output", metavar="OUT.inp", required=True)
+    parser.add_argument("--solver", choices=SOLVERS, default="calculix", help="default: calculix")
     parser.add_argument("--card", metavar="CARD.json", required=True, help="material card")
     parser.add_argument("--ply", required=True, help="name of a ply of the card")
     parser.add_argument(
-        "--spoke-c10", type=float, help="spokes' C10 (MPa), where the table has none"
+        "--config", metavar="CONFIG.yaml", help="take tyre and solver options from here"
     )
-    for name, unit in (("spacing", "mm"), ("thickness", "mm"), ("angle", "degrees")):
-        parser.add_argument(
-            f"--{name}", type=float, help=f"plates' {name} ({unit}), where the table has none"
-        )
+    parser.add_argument(
+        "--load", type=float, default=5000.0, help="load on the tyre (N; Abaqus only; 5000)"
+    )
+    for name, what in (
+        ("spoke-c10", "spokes' C10 (MPa)"),
+        ("band-c10", "C10 of shear band and tread (MPa; Abaqus only)"),
+        ("spacing", "plates' spacing (mm)"),
+        ("thickness", "plates' thickness (mm)"),
+        ("angle", "plates' fibre angle (degrees)"),
+    ):
+        parser.add_argument(f"--{name}", type=float, help=f"{what}, where the table has none")
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Write the deck."""
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.files import write_text
+
+    write = {"abaqus": _abaqus, "calculix": _calculix}[arguments.solver]
+    inputs = _inputs(arguments)
+    write_text(arguments.output, write(inputs))
+    command = {"abaqus": "abaqus job={0} input={0} interactive", "calculix": "ccx {0}"}
+    name = Path(arguments.output).stem
+    print(f"{arguments.output}: run it with {command[arguments.solver].format(name)}")
+    return 0
+
+
+def _abaqus(inputs: CaseInputs) -> str:
+    from nptcs.fe.abaqus import tyre_deck
+    from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
+
+    values = checked_values(inputs, TYRE_FACTORS)
+    ply = ply_constants(inputs)
+    return tyre_deck(inputs.options, inputs.tyre, ply, values, inputs.load_n, inputs.case_id)
+
+
+def _calculix(inputs: CaseInputs) -> str:
     from nptcs.fe.calculix import spoke_deck, true_thickness
     from nptcs.fe.case import spoke_design
-    from nptcs.files import write_text
-    from nptcs.solvers.calculix import CalculixOptions
-    from nptcs.solvers.contract import CaseInputs
-    from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values
+    from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
 
-    tyre, options = TyreGeometry(), CalculixOptions()
-    inputs = CaseInputs(arguments.case, _values(arguments), 0.0, tyre, options)
     values = checked_values(inputs, SPOKE_FACTORS)
-    design = spoke_design(options, tyre, _ply(Path(arguments.card), arguments.ply), values)
-    write_text(arguments.output, spoke_deck(true_thickness(design), [4.0, -20.0]))
-    print(f"{arguments.output}: run it with ccx {Path(arguments.output).stem}")
-    return 0
+    design = spoke_design(inputs.options, inputs.tyre, ply_constants(inputs), values)
+    return spoke_deck(true_thickness(design), [4.0, -20.0])
+
+
+def _inputs(arguments: argparse.Namespace) -> CaseInputs:
+    """Collect what a solver may know of the case."""
+    from nptcs.solvers.contract import CaseInputs
+    from nptcs.solvers.registry import MODULES, load, read_options
+
+    tyre, options = _configuration(arguments.config, arguments.solver)
+    solver = load(MODULES[arguments.solver])
+    return CaseInputs(
+        case_id=arguments.case,
+        values=_values(arguments),
+        load_n=arguments.load,
+        tyre=tyre,
+        options=read_options(solver, options),
+        ply=_ply(Path(arguments.card), arguments.ply),
+    )
+
+
+def _configuration(file: str | None, solver: str) -> tuple[TyreGeometry, Mapping[str, object]]:
+    """Read the tyre and the solver's options; without a file, the defaults."""
+    import yaml
+
+    from nptcs.config.root import read_config
+    from nptcs.config.tyre import TyreGeometry
+    from nptcs.errors import InputError
+
+    if file is None:
+        return TyreGeometry(), {}
+    try:
+        content = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
+    except (OSError, yaml.YAMLError) as error:
+        raise InputError(f"no YAML file: {error}", "name a configuration", file=file) from error
+    config = read_config(content, file)
+    return config.tyre, config.solvers.get(solver, {})
 
 
 def _values(arguments: argparse.Namespace) -> dict[str, float]:
@@ -71,6 +137,7 @@ def _values(arguments: argparse.Namespace) -> dict[str, float]:
         )
     given = {
         "spoke_c10_mpa": arguments.spoke_c10,
+        "shear_band_c10_mpa": arguments.band_c10,
         "spacing_mm": arguments.spacing,
         "thickness_mm": arguments.thickness,
         "angle_deg": arguments.angle,

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import subprocess
 import tempfile
 from pathlib import Path
 
@@ -14,6 +13,7 @@ from nptcs.fe.calculix import complaints, spoke_deck, total_forces, true_thickne
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM, fit_through_origin
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.external import CommandStopped, run_command, time_for_command
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
 
 STEPS = 4
@@ -44,30 +44,19 @@ def solve(inputs: CaseInputs) -> SolverResult:
     with tempfile.TemporaryDirectory(prefix="nptcs-ccx-") as folder:
         (Path(folder) / "spoke.inp").write_text(deck, encoding="ascii")
         try:
-            run = subprocess.run(
-                [*options.command, "spoke"],
-                cwd=folder,
-                capture_output=True,
-                text=True,
-                timeout=options.timeout_s,
-                check=False,
+            ended = run_command(
+                [*options.command, "spoke"], Path(folder), time_for_command(options.timeout_s)
             )
-        except subprocess.TimeoutExpired:
-            return SolverResult(
-                status=Status.TIMEOUT, message=f"no end after {options.timeout_s:g} s"
-            )
-        except FileNotFoundError:
-            return SolverResult(
-                status=Status.ERROR, message=f"command not found: {options.command[0]}"
-            )
-        if found := complaints(run.stdout + run.stderr):
+        except CommandStopped as stopped:
+            return SolverResult(status=stopped.status, message=str(stopped))
+        if found := complaints(ended.output):
             return SolverResult(status=Status.ERROR, message=found)
         answer = Path(folder) / "spoke.dat"
         force = total_forces(answer.read_text()) if answer.exists() else np.empty((0, 3))
-    if run.returncode != 0 or len(force) < 2 * STEPS:
+    if ended.code != 0 or len(force) < 2 * STEPS:
         return SolverResult(
             status=Status.DIVERGED,
-            message=f"ccx ended with code {run.returncode} after {len(force)} of {2 * STEPS} steps",
+            message=f"ccx ended with code {ended.code} after {len(force)} of {2 * STEPS} steps",
         )
     radial = force[:, 2] * design.periods
     return _result(pulled, radial[:STEPS], pressed, -radial[STEPS:])

@@ -43,6 +43,14 @@ class SolverOptions(Strict):
         """Name the CSV files that the solver reads: a key for the solver → path."""
         return {}
 
+    def cores_per_case(self) -> int:
+        """Return the cores that the solver of one case keeps busy."""
+        return 1
+
+    def tokens_per_case(self) -> int:
+        """Return the licence tokens that one case takes; 0 for a solver without a licence."""
+        return 0
+
 
 @dataclass(frozen=True)
 class CaseInputs:

@@ -17,6 +17,7 @@ from nptcs.errors import InputError
 from nptcs.solvers.contract import Solver, SolverOptions
 
 MODULES = {
+    "abaqus": "nptcs.solvers.abaqus",
     "calculix": "nptcs.solvers.calculix",
     "fe_spoke": "nptcs.solvers.fe_spoke",
     "fe_tyre": "nptcs.solvers.fe_tyre",

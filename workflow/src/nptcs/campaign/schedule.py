@@ -1,0 +1,48 @@
+"""How many cases of a batch run side by side, and what they take together."""
+
+from __future__ import annotations
+
+from nptcs.errors import InputError
+from nptcs.solvers.contract import SolverOptions
+
+
+def batch_cores(cores_per_batch: int, options: SolverOptions) -> int:
+    """Return the cores that a batch asks for: at least those of one case."""
+    return max(cores_per_batch, options.cores_per_case())
+
+
+def batch_tokens(cores: int, options: SolverOptions) -> int:
+    """Return the licence tokens of all cases that a batch runs side by side on its cores."""
+    return options.tokens_per_case() * max(1, cores // options.cores_per_case())
+
+
+def cases_side_by_side(cores: int, tokens: int, options: SolverOptions) -> int:
+    """Return the cases that a batch may run at a time.
+
+    Parameters
+    ----------
+    cores : int
+        Cores that the batch was given; fewer than it asked for where ``-j`` is small.
+    tokens : int
+        Licence tokens that it was given; Snakemake cuts what a job asks for to the limit of
+        ``--resources licence_tokens=N``.
+    options : SolverOptions
+
+    Raises
+    ------
+    InputError
+        If the cores or tokens are too few for one case.
+    """
+    per_case = {"cores": options.cores_per_case(), "licence tokens": options.tokens_per_case()}
+    given = {"cores": cores, "licence tokens": tokens}
+    remedies = {
+        "cores": "raise -j, or lower `cpus`",
+        "licence tokens": "raise --resources licence_tokens=N, or lower `cpus` or `licence_tokens`",
+    }
+    for name, needed in per_case.items():
+        if given[name] < needed:
+            raise InputError(
+                f"one case takes {needed} {name}, this run has {given[name]}", remedies[name]
+            )
+    by_tokens = tokens // per_case["licence tokens"] if per_case["licence tokens"] else cores
+    return min(cores // per_case["cores"], by_tokens)
