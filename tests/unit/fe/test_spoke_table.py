@@ -13,6 +13,7 @@ OPTIONS = SpokeTableOptions(
     u_r_mm=(-6.0, 3.0), u_theta_mm=(-2.0, 2.0), phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
     degrees=(6, 4), narrowing=1.0,
 )  # fmt: skip
+SAMPLE_FIELDS = ("motion", "energy", "force", "tangent")
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 
 
@@ -62,9 +63,18 @@ def test_leaving_the_table_is_an_error_that_names_the_spoke():
 
 
 def test_more_terms_than_data_are_refused():
-    few = OPTIONS.model_copy(update={"degrees": (30, 4)})
+    few = OPTIONS.model_copy(update={"degrees": (6, 12)})
     with pytest.raises(ValueError, match="lower degrees"):
         fit(grid_samples(), few)
+
+
+def test_a_table_that_ends_early_has_a_lower_degree():
+    samples = grid_samples()
+    kept = samples.motion[:, 0] > -4.0
+    short = SpokeSamples(*(getattr(samples, name)[kept] for name in SAMPLE_FIELDS))
+    table = fit(short, OPTIONS)
+    assert table.exponents[:, 0].max() == 4
+    assert table.low[0] > -4.0
 
 
 def spoke_design(**change):
