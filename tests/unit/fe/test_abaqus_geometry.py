@@ -111,7 +111,9 @@ def test_band_and_tread_have_the_radii_of_table_3(deck, reader):
 def test_plates_lie_inside_the_rubber_of_their_own_spoke(deck, reader):
     spoke, plates = reader.corners(deck.parts["SPOKE"]), reader.places(deck.parts["PLATES"])
     assert reader.held(spoke, plates).sum() == len(plates)
-    aside = plates[np.isclose(plates[:, 1], -(215.9 + 20.0), atol=2.0)] + np.array([1.5, 0.0, 0.0])
+    section = AbaqusModel().geometry
+    beside = 0.5 * section.leg_thickness_mm / np.cos(np.radians(section.leg_angle_deg)) + 0.2
+    aside = plates[np.isclose(plates[:, 1], -(215.9 + 20.0), atol=2.0)] + [beside, 0.0, 0.0]
     assert reader.held(spoke, aside).sum() == 0 < len(aside)  # the check can fail
     hosts = {
         block.data[0][0]: block.parameters["HOST ELSET"]
