@@ -260,7 +260,8 @@ class SpokeModel:
         tangent[2, 2] += force[self._top_dofs] @ curve
         last = step.reshape(-1)[self._free]
         reaction = slope.T @ force[self._top_dofs] + product[self._free].T @ last
-        energy = sum(response.energy for response in responses) + 0.5 * last @ force[self._free]
+        energy = sum(response.energy for response in responses)
+        energy += 0.5 * float(last @ force[self._free])
         for block in self.rubbers:
             block.update_pressure(step)
         return SpokeState(
