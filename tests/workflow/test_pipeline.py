@@ -62,7 +62,7 @@ def test_computed_results_stand_beside_the_paper_s(finished):
     rows = finished.rows("stiffness_against_published.csv")
     by_fe = [row for row in rows if row["solver"] == "fe_tyre"]
     assert [row["published_stiffness_n_per_mm"] for row in by_fe] == ["536.71", "591.18"]
-    assert all(abs(float(row["difference_percent"])) < 20 for row in by_fe)
+    assert all(abs(float(row["difference_percent"])) < 10 for row in by_fe)
     assert {(row["study"], row["solver"]) for row in finished.rows("stiffness_errors.csv")} == {
         ("rubber", "lca"),
         ("band", "lca"),

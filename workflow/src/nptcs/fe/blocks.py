@@ -207,9 +207,6 @@ class RubberBlock:
         self._mismatch = mismatch - own
         energy = float(np.sum(self.weight * law.energy))
         energy += float(np.sum(self.pressure * (mismatch - 0.5 * own)))
-        energy += 0.5 * float(
-            np.einsum("em,emk,ek->", self._mismatch, self._inverse_mass, self._mismatch)
-        )
         lift = np.matmul(self._coupling, self._inverse_mass)
         tangent += np.matmul(lift, self._coupling.swapaxes(1, 2))
         force += np.einsum("enm,em->en", lift, self._mismatch)

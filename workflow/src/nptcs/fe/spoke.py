@@ -17,8 +17,6 @@ from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
 Array = NDArray[np.float64]
 
 MAX_ITERATIONS = 14
-# work of the last step, as a part of the energy: what is left after it is of second order
-LAST_WORK = 1e-6
 SMALLEST_CUT = 1.0 / 16.0
 
 
@@ -222,8 +220,8 @@ class SpokeModel:
             energy = sum(response.energy for response in responses)
             if not np.isfinite(work):
                 raise FloatingPointError("the iteration has left the range of numbers")
-            if work < LAST_WORK * max(abs(energy), 1e-6):
-                return self._condense(motion, displacement, step, responses, force, factor)
+            if work < 1e-9 * max(abs(energy), 1e-6):
+                return self._condense(motion, displacement, responses, force, factor, energy)
             largest = float(np.abs(step).max())
             if largest > 30.0:
                 raise FloatingPointError(f"an iteration moves a node by {largest:.0f} mm")
@@ -247,28 +245,23 @@ class SpokeModel:
         self,
         motion: Array,
         displacement: Array,
-        step: Array,
         responses: list[Response],
         force: Array,
         factor: BandedCholesky,
+        energy: float,
     ) -> SpokeState:
-        """Condense onto the band: energy and force after the last step, tangent before it."""
+        """Condense onto the band: force and tangent of the three motions."""
         slope, curve = self.band_motion_slope(float(motion[2]))
         product = self._top_product(responses, slope)
         sensitivity = -factor.solve(product[self._free])
+        reaction = force[self._top_dofs]
         tangent = slope.T @ product[self._top_dofs] + product[self._free].T @ sensitivity
-        tangent[2, 2] += force[self._top_dofs] @ curve
-        last = step.reshape(-1)[self._free]
-        reaction = slope.T @ force[self._top_dofs] + product[self._free].T @ last
-        energy = sum(response.energy for response in responses)
-        energy += 0.5 * float(last @ force[self._free])
-        for block in self.rubbers:
-            block.update_pressure(step)
+        tangent[2, 2] += reaction @ curve
         return SpokeState(
             motion=np.array(motion, dtype=float),
-            displacement=displacement + step,
+            displacement=displacement,
             energy=self.scale * energy,
-            force=self.scale * reaction,
+            force=self.scale * (slope.T @ reaction),
             tangent=self.scale * 0.5 * (tangent + tangent.T),
             sensitivity=sensitivity,
             pressures=[block.pressure.copy() for block in self.rubbers],
