@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
@@ -173,18 +173,28 @@ class SpokeModel:
             done = min(done + step, 1.0)
         return state
 
-    def follow(self, history: Sequence[SpokeState], motion: Array) -> SpokeState:
-        """Continue a row of equilibria on a straight line of motions.
+    def walk(self, start: SpokeState, motions: Array) -> Iterator[SpokeState]:
+        """Go from an equilibrium through a row of motions (n, 3), and give each state.
 
         The guess extrapolates the cubic through the last two states and their derivatives; where
         it does not converge, `move` goes on from the last state.
+
+        Raises
+        ------
+        SpokeError
+            As `move`.
         """
-        if len(history) < 2:
-            return self.move(history[-1], motion)
+        before, last = None, start
+        for motion in motions:
+            state = None if before is None else self._follow(before, last, motion)
+            before, last = last, state or self.move(last, motion)
+            yield last
+
+    def _follow(self, before: SpokeState, last: SpokeState, motion: Array) -> SpokeState | None:
         try:
-            return self._equilibrium(motion, self._cubic_guess(history, motion), history[-1])
+            return self._equilibrium(motion, self._cubic_guess(before, last, motion), last)
         except (FloatingPointError, np.linalg.LinAlgError):
-            return self.move(history[-1], motion)
+            return None
 
     def _linear_guess(self, state: SpokeState, motion: Array) -> Array:
         guess = state.displacement.copy()
@@ -192,15 +202,17 @@ class SpokeModel:
         guess[self.mesh.top] = self.band_motion(motion)
         return guess
 
-    def _cubic_guess(self, history: Sequence[SpokeState], motion: Array) -> Array:
-        before, last = history[-2:]
-        way = last.motion - before.motion
-        t = float((motion - before.motion) @ way / (way @ way))
+    def _cubic_guess(self, before: SpokeState, last: SpokeState, motion: Array) -> Array:
+        """Extrapolate the cubic through two states on the parabola through the three motions."""
+        way, whole = last.motion - before.motion, motion - before.motion
+        t = float(whole @ way / (way @ way))
+        bend = (whole - t * way) / (t * (t - 1.0))
         values = (1.0 - t) ** 2 * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t)
         slopes = t * (1.0 - t) ** 2, t * t * (t - 1.0)
         guess = values[0] * before.displacement + values[1] * last.displacement
         inner = guess.reshape(-1)[self._free]
-        inner += slopes[0] * (before.sensitivity @ way) + slopes[1] * (last.sensitivity @ way)
+        inner += slopes[0] * (before.sensitivity @ (way - bend))
+        inner += slopes[1] * (last.sensitivity @ (way + bend))
         guess[self.mesh.top] = self.band_motion(motion)
         return guess
 
