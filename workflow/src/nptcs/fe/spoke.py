@@ -9,8 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.fe.block_tridiagonal import BlockCholesky, BlockPattern
 from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
-from nptcs.fe.matrices import BandedCholesky, BandedPattern, element_dofs
+from nptcs.fe.matrices import element_dofs
 from nptcs.fe.spoke_blocks import plate_blocks, rubber_block
 from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
 
@@ -107,7 +108,7 @@ class SpokeModel:
         numbers = np.arange(self._count) - row
         numbers[:row] = -1
         numbers[self._count - row :] = -1
-        self._pattern = BandedPattern([numbers[d] for d in self._dofs], self._count - 2 * row, True)
+        self._pattern = BlockPattern([numbers[d] for d in self._dofs], row, self._count - 2 * row)
         self._top_dofs = np.arange(self._count - row, self._count)
         self._arm = self.mesh.positions[self.mesh.top, 0]
         self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
@@ -224,7 +225,7 @@ class SpokeModel:
             block.pressure = np.zeros_like(block.pressure) if near is None else near.pressures[i]
         for _ in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
-            factor = BandedCholesky(self._pattern.assemble([r.tangent for r in responses]))
+            factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
             free = force[self._free]
             step = np.zeros_like(displacement)
             step.reshape(-1)[self._free] = -factor.solve(free)
@@ -259,7 +260,7 @@ class SpokeModel:
         displacement: Array,
         responses: list[Response],
         force: Array,
-        factor: BandedCholesky,
+        factor: BlockCholesky,
         energy: float,
     ) -> SpokeState:
         """Condense onto the band: force and tangent of the three motions."""
