@@ -72,7 +72,7 @@ def test_the_spoke_is_drawn_pulled_and_pressed(spoke):
 def test_the_tyre_is_drawn_with_all_its_spokes(spoke):
     dimensions = TyreGeometry(spoke_count=12)
     nothing = SpokeTable(
-        np.array([-9.0] * 3), np.array([9.0] * 3), np.zeros((1, 3), dtype=int), np.zeros(1), 1, 0
+        84.1, np.full(3, -9.0), np.full(3, 9.0), np.zeros((1, 3), dtype=int), np.zeros(1), 1, 0
     )
     tyre = TyreModel(
         dimensions, nothing, 7.0, 5.0, 2000.0, TyreMesh(gap_elements=1), GroundContact()

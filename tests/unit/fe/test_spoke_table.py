@@ -6,57 +6,84 @@ from hypothesis import strategies as st
 from nptcs.config.fe import FeModel, SpokeGeometry, SpokeMesh, SpokeTableOptions
 from nptcs.fe.cache import read_table, shared_table, table_key
 from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.fe.chord import carried, chord_of, motion_of
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
 
 OPTIONS = SpokeTableOptions(
-    u_r_mm=(-6.0, 3.0), u_theta_mm=(-2.0, 2.0), phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
+    chord_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
     degrees=(6, 4), narrowing=1.0,
 )  # fmt: skip
-SAMPLE_FIELDS = ("motion", "energy", "force", "tangent")
+SAMPLE_FIELDS = ("chord", "energy", "force", "tangent")
+HEIGHT = SpokeGeometry().height_mm
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 
 
-def manufactured(motion):
-    """E = u² (1 + v/10) + 300 φ² + 2 u φ, with its derivatives."""
-    u, v, phi = motion.T
-    energy = u**2 * (1 + v / 10) + 300 * phi**2 + 2 * u * phi
-    force = np.stack([2 * u * (1 + v / 10) + 2 * phi, u**2 / 10, 600 * phi + 2 * u], axis=1)
-    tangent = np.zeros((len(motion), 3, 3))
-    tangent[:, 0, 0] = 2 * (1 + v / 10)
-    tangent[:, 0, 1] = tangent[:, 1, 0] = u / 5
+def manufactured(chord):
+    """E = s² (1 + 40 β²) + 300 φ² + 2 s φ + 5000 β², with its derivatives."""
+    s, beta, phi = chord.T
+    energy = s**2 * (1 + 40 * beta**2) + 300 * phi**2 + 2 * s * phi + 5000 * beta**2
+    force = np.stack(
+        [
+            2 * s * (1 + 40 * beta**2) + 2 * phi,
+            80 * s**2 * beta + 10000 * beta,
+            600 * phi + 2 * s,
+        ],
+        axis=1,
+    )
+    tangent = np.zeros((len(chord), 3, 3))
+    tangent[:, 0, 0] = 2 * (1 + 40 * beta**2)
+    tangent[:, 0, 1] = tangent[:, 1, 0] = 160 * s * beta
+    tangent[:, 1, 1] = 80 * s**2 + 10000
     tangent[:, 2, 2] = 600
     tangent[:, 0, 2] = tangent[:, 2, 0] = 2
-    return SpokeSamples(motion, energy, force, tangent)
+    return SpokeSamples(chord, energy, force, tangent)
 
 
 def grid_samples():
+    """States with β ≥ 0, as `sample` computes them."""
+    sides = chebyshev_nodes(-OPTIONS.inclination_rad, OPTIONS.inclination_rad, OPTIONS.samples[1])
     lines = [
-        chebyshev_nodes(*limits, count)
-        for limits, count in zip(
-            (OPTIONS.u_r_mm, OPTIONS.u_theta_mm, OPTIONS.phi_rad), OPTIONS.samples, strict=True
-        )
+        chebyshev_nodes(*OPTIONS.chord_mm, OPTIONS.samples[0]),
+        sides[sides > -1e-12],
+        chebyshev_nodes(*OPTIONS.phi_rad, OPTIONS.samples[2]),
     ]
     return manufactured(np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 3))
 
 
-TABLE = fit(grid_samples(), OPTIONS)
+TABLE = fit(grid_samples(), OPTIONS, HEIGHT)
+CHORDS = st.tuples(st.floats(-6.0, 3.0), st.floats(-0.045, 0.045), st.floats(-0.04, 0.04))
 
 
-@given(st.floats(-6.0, 3.0), st.floats(-2.0, 2.0), st.floats(-0.04, 0.04))
+@given(CHORDS)
 @settings(max_examples=40, deadline=None)
-def test_a_polynomial_energy_is_recovered_everywhere(u_r, u_theta, phi):
-    motion = np.array([[u_r, u_theta, phi]])
+def test_a_polynomial_energy_is_recovered_everywhere(chord):
+    chord = np.array([chord])
+    motion, first, second = motion_of(chord, HEIGHT)
     energy, force, tangent = TABLE.evaluate(motion)
-    wanted = manufactured(motion)
+    wanted = manufactured(chord)
     assert energy == pytest.approx(wanted.energy, abs=1e-8)
-    assert force == pytest.approx(wanted.force, abs=1e-6)
-    assert tangent == pytest.approx(wanted.tangent, abs=1e-4)
+    assert carried(force, tangent, first, second)[0] == pytest.approx(wanted.force, abs=1e-6)
+    assert carried(force, tangent, first, second)[1] == pytest.approx(wanted.tangent, abs=1e-4)
+
+
+@given(CHORDS)
+@settings(max_examples=20, deadline=None)
+def test_forces_and_tangents_are_derivatives_by_the_motion(chord):
+    motion = motion_of(0.9 * np.array([chord]), HEIGHT)[0]
+    _, force, tangent = TABLE.evaluate(motion)
+    for axis, step in enumerate((1e-4, 1e-4, 1e-6)):
+        shift = step * np.eye(3)[axis]
+        ahead, behind = TABLE.evaluate(motion + shift), TABLE.evaluate(motion - shift)
+        slope = (ahead[0] - behind[0]) / (2 * step)
+        assert slope == pytest.approx(force[:, axis], rel=1e-6, abs=1e-4)
+        curve = (ahead[1] - behind[1]) / (2 * step)
+        assert curve == pytest.approx(tangent[:, axis], rel=1e-6, abs=1e-3)
 
 
 def test_leaving_the_table_is_an_error_that_names_the_spoke():
     motion = np.array([[0.0, 0.0, 0.0], [-7.0, 0.0, 0.0]])
-    with pytest.raises(TableRangeError, match=r"spoke 1: u_r \(mm\) = -7"):
+    with pytest.raises(TableRangeError, match=r"spoke 1: change of chord \(mm\) = -7"):
         TABLE.evaluate(motion)
     with pytest.raises(TableRangeError):
         TABLE.evaluate(np.array([[np.nan, 0.0, 0.0]]))
@@ -65,14 +92,14 @@ def test_leaving_the_table_is_an_error_that_names_the_spoke():
 def test_more_terms_than_data_are_refused():
     few = OPTIONS.model_copy(update={"degrees": (6, 12)})
     with pytest.raises(ValueError, match="lower degrees"):
-        fit(grid_samples(), few)
+        fit(grid_samples(), few, HEIGHT)
 
 
 def test_a_table_that_ends_early_has_a_lower_degree():
     samples = grid_samples()
-    kept = samples.motion[:, 0] > -4.0
+    kept = samples.chord[:, 0] > -4.0
     short = SpokeSamples(*(getattr(samples, name)[kept] for name in SAMPLE_FIELDS))
-    table = fit(short, OPTIONS)
+    table = fit(short, OPTIONS, HEIGHT)
     assert table.exponents[:, 0].max() == 4
     assert table.low[0] > -4.0
 
@@ -94,12 +121,32 @@ def spoke_design(**change):
 
 def test_the_table_of_a_spoke_predicts_states_between_its_samples():
     model = SpokeModel(spoke_design())
-    table = fit(sample(model, OPTIONS), OPTIONS)
+    table = fit(sample(model, OPTIONS), OPTIONS, HEIGHT)
     for motion in ([-4.1, 1.3, 0.02], [1.9, -0.7, -0.03]):
         state = model.move(model.rest(), np.array(motion))
         energy, force, _ = table.evaluate(np.array([motion]))
         assert energy[0] == pytest.approx(state.energy, rel=2e-3)
         assert force[0, 0] == pytest.approx(state.force[0], rel=5e-3)
+
+
+def test_a_half_turn_leaves_the_spoke_as_it_is():
+    """States at β and -β: rim and band change places, with coupled plies as with any."""
+    model = SpokeModel(spoke_design(angle_deg=30.0))
+    chord = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
+    motions = motion_of(chord, HEIGHT)[0]
+    assert chord_of(motions, HEIGHT)[0] == pytest.approx(chord, abs=1e-12)
+    assert abs(motions[0, 1] + motions[1, 1]) > 1.0
+    states = [model.move(model.rest(), motion) for motion in motions]
+    assert states[0].energy == pytest.approx(states[1].energy, rel=1e-9)
+    force = np.array([state.force for state in states])
+    tangent = np.array([state.tangent for state in states])
+    force, tangent = carried(force, tangent, *motion_of(chord, HEIGHT)[1:])
+    mirror = np.array([1.0, -1.0, 1.0])
+    # the iteration ends when the energy is right to 1e-9: forces to the root of it
+    assert force[1] == pytest.approx(mirror * force[0], rel=1e-4)
+    size = np.sqrt(np.diag(tangent[0]))
+    mirrored = np.outer(mirror, mirror) * tangent[0]
+    assert np.abs((tangent[1] - mirrored) / np.outer(size, size)).max() < 1e-4
 
 
 def test_equal_spokes_share_one_file(tmp_path, monkeypatch):

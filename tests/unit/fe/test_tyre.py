@@ -12,20 +12,21 @@ from nptcs.fe.tyre_mesh import band_radii, build_ring
 
 TYRE = TyreGeometry()
 MESH = TyreMesh(gap_elements=2)
+HEIGHT = 84.1
 
 
 def springs(k_r=20.0, k_theta=1.0, k_phi=3000.0, low=-40.0):
-    """Linear springs as a table: E = k_r u²/2 + k_θ v²/2 + k_φ φ²/2, in Chebyshev terms."""
-    limits = np.array([[low, -low], [-15.0, 15.0], [-0.3, 0.3]])
+    """Springs as a table: E = k_r s²/2 + k_θ (H β)²/2 + k_φ φ²/2, in Chebyshev terms."""
+    limits = np.array([[low, -low], [-0.3, 0.3], [-0.3, 0.3]])
     exponents, coefficients = [(0, 0, 0)], [0.0]
-    for axis, k in enumerate((k_r, k_theta, k_phi)):
+    for axis, k in enumerate((k_r, HEIGHT**2 * k_theta, k_phi)):
         # x² = (T2 + 1)/2
         scale = 0.5 * k * limits[axis, 1] ** 2 / 2.0
         exponents.append(tuple(2 * int(i == axis) for i in range(3)))
         coefficients.append(scale)
         coefficients[0] += scale
     return SpokeTable(
-        limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 1.0, 0.0
+        HEIGHT, limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 1.0, 0.0
     )
 
 

@@ -66,11 +66,11 @@ def pressed(spoke):
 @pytest.fixture(scope="module")
 def tyre():
     """A tyre on springs: what its file must hold does not depend on the table."""
-    unit = np.array([12.0, 10.0, 0.2])
+    unit = np.array([12.0, 0.2, 0.2])
     exponents = np.array([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)])
     # k x²/2 = k h²/4 (T2(x/h) + 1)
-    terms = np.array([60.0, 20.0, 2e4]) * unit**2 / 4.0
-    table = SpokeTable(-unit, unit, exponents, np.array([terms.sum(), *terms]), 1.0, 0.0)
+    terms = np.array([60.0, 1.4e5, 2e4]) * unit**2 / 4.0
+    table = SpokeTable(84.1, -unit, unit, exponents, np.array([terms.sum(), *terms]), 1.0, 0.0)
     width = SpokeGeometry().foot_width_mm()
     model = TyreModel(TYRE, table, width, 5.0, 2000.0, TyreMesh(gap_elements=4), GroundContact())
     return model, model.load([200.0])

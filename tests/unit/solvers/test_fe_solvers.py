@@ -20,7 +20,7 @@ VALUES = {
 }
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 TABLE = SpokeTableOptions(
-    u_r_mm=(-12.0, 5.0), u_theta_mm=(-5.0, 5.0), phi_rad=(-0.08, 0.08), samples=(4, 3, 3),
+    chord_mm=(-12.0, 5.0), inclination_rad=0.1, phi_rad=(-0.08, 0.08), samples=(4, 3, 3),
     degrees=(6, 4),
 )  # fmt: skip
 TYRE_OPTIONS = {"spoke_mesh": COARSE, "table": TABLE, "tyre_mesh": TyreMesh(gap_elements=1)}

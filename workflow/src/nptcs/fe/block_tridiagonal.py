@@ -76,10 +76,9 @@ class BlockPattern:
         if np.any((beside > 1) | ((beside == 1) & (column < self.row))):
             raise ValueError("an element joins rows that do not meet in a block")
         inside = (block * self._wide + column) * self._wide + line
-        start = self._blocks * self._wide**2
-        return np.where(
-            beside == 0, inside, start + (block * self.row + column - self.row) * self._wide + line
-        )
+        outside = (block * self.row + column - self.row) * self._wide + line
+        target: Index = np.where(beside == 0, inside, self._blocks * self._wide**2 + outside)
+        return target
 
     def assemble(self, tangents: Sequence[Array]) -> BlockMatrix:
         """Sum element tangents (elements, dofs, dofs)."""
@@ -89,7 +88,7 @@ class BlockPattern:
         wide, blocks = self._wide, self._blocks
         start = blocks * wide**2
         count = start + (blocks - 1) * self.row * wide
-        whole = np.bincount(self._targets, values, minlength=count)
+        whole: Array = np.bincount(self._targets, values, minlength=count).astype(float, copy=False)
         diagonal = whole[:start].reshape(blocks, wide, wide)
         fill = np.arange(self.size - (blocks - 1) * wide, wide)
         diagonal[-1, fill, fill] = 1.0

@@ -19,9 +19,9 @@ from numpy.typing import NDArray
 
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.blocks import Response, RubberBlock
 from nptcs.fe.lagrange import line_shape
-from nptcs.fe.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeTable
 from nptcs.fe.tyre import LoadPath, TyreModel, TyreState, foot_operators
