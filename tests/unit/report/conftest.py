@@ -191,6 +191,7 @@ def files(sheet):
         for s in sheet
     ]
     rows.append(("notes.txt", "not named", "", "", "no row names it", 3, "1" * 64))
+    rows.append(("README.md", "note", "", "", "a README is a note", 3, "2" * 64))
     return pd.DataFrame(rows, columns=list(TABLES["files.csv"].to_schema().columns))
 
 
