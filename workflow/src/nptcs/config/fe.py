@@ -111,32 +111,38 @@ class SpokeMesh(Strict):
 class SpokeTableOptions(Strict):
     """Range and sampling of the spoke's energy table."""
 
-    u_r_mm: tuple[float, float] = Field(
+    chord_mm: tuple[float, float] = Field(
         (-40.0, 8.0),
-        description="Radial displacement of the band, outward positive; a spoke that loses its "
-        "stability before the lower end has a shorter table",
+        description="Change of the distance from the rim's foot to the band's, about u_r; a spoke "
+        "that loses its stability before the lower end has a shorter table",
     )
-    u_theta_mm: tuple[float, float] = Field(
-        (-11.0, 11.0), description="Circumferential displacement of the band"
+    inclination_rad: float = Field(
+        0.18,
+        gt=0,
+        lt=0.8,
+        description="Largest inclination of that line from the mean direction of the two feet, to "
+        "either side: β = atan(u_θ / (height + u_r)) + φ/2",
     )
     phi_rad: tuple[float, float] = Field((-0.15, 0.15), description="Rotation of the band")
     narrowing: float = Field(
         0.6,
         gt=0,
         le=1,
-        description="Part of the ranges of u_θ and φ that is left at the lowest u_r, linear from "
-        "u_r = 0: the most compressed spokes stand on the ground and hardly turn",
+        description="Part of the ranges of β and φ that is left at the lowest chord, linear from "
+        "the unloaded one: the most compressed spokes stand on the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
-        (10, 3, 3), description="Numbers of states computed along u_r, u_θ and φ"
+        (10, 3, 3),
+        description="Numbers of states along the chord, β and φ; for β < 0 they are known from the "
+        "spoke's symmetry",
     )
     degrees: tuple[int, int] = Field(
-        (13, 5), description="Polynomial degree in u_r, and total degree in u_θ and φ"
+        (13, 5), description="Polynomial degree in the chord, and total degree in β and φ"
     )
 
     @model_validator(mode="after")
     def _ranges_hold_rest(self) -> Self:
-        for name in ("u_r_mm", "u_theta_mm", "phi_rad"):
+        for name in ("chord_mm", "phi_rad"):
             low, high = getattr(self, name)
             if not low < 0.0 < high:
                 raise ValueError(f"{name} must run from a negative to a positive number")

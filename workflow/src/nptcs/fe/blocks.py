@@ -181,36 +181,60 @@ class RubberBlock:
         self._mass = np.einsum("gm,gk,eg->emk", shape, shape, self.weight)
         self._inverse_mass = self.bulk_mpa * np.linalg.inv(self._mass)
         self._left = _by_node(self.gradient)
-        self._columns = np.ascontiguousarray(self.gradient.swapaxes(2, 3))
 
     def respond(self, displacement: Array) -> Response:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
         dim, directions = displacement.shape[1], self.gradient.shape[3]
-        elements, points = self.weight.shape
         deformation = deformation_gradient(self.gradient, displacement[self.nodes], None)
-        volume = np.linalg.det(deformation)
-        if not np.all(volume > 0.0):
-            raise FloatingPointError("an element of rubber has turned inside out")
         pressure = self.pressure @ self.pressure_shape.T
-        law = neo_hookean(self.c10_mpa, deformation, volume, pressure)
-        piola = (law.stress * self.weight[..., None, None])[..., :dim, :directions]
-        moduli = law.moduli[:, :, :directions, :dim, :dim, :directions]
-        moduli = moduli * self.weight[..., None, None, None, None]
-        tangent = _tangent(self._left, self._columns, moduli)
-        force = _internal_force(self._left, piola)
-        cofactor = (law.cofactor * self.weight[..., None, None])[..., :dim, :directions]
-        spread = self.pressure_shape[:, None, None, :] * cofactor.swapaxes(2, 3)[..., None]
-        coupling = np.matmul(self._left, spread.reshape(elements, points * directions, -1))
-        self._coupling = coupling.reshape(elements, force.shape[1], -1)
-        mismatch = (self.weight * (volume - 1.0)) @ self.pressure_shape
+        law = neo_hookean(self.c10_mpa, deformation, pressure)
+        inverse = law.inverse[..., :dim, :directions]
+        turned = self._products(inverse)
+        moved = self._products(deformation[..., :dim, :directions])
+        # shared with the forces: P = a F + (p J - a I1/3) G, each with the points' weights
+        weighted = self.weight * np.stack([law.scale, law.third, law.pull])
+        scale, third, pull = weighted[..., None]
+        force = np.sum(scale * moved + (pull - third) * turned, axis=1)
+        modes = self.weight[..., None] * law.volume[..., None] * self.pressure_shape
+        self._coupling = np.matmul(turned.swapaxes(1, 2), modes)
+        mismatch = (self.weight * (law.volume - 1.0)) @ self.pressure_shape
         own = np.einsum("emk,ek->em", self._mass, self.pressure) / self.bulk_mpa
         self._mismatch = mismatch - own
         energy = float(np.sum(self.weight * law.energy))
         energy += float(np.sum(self.pressure * (mismatch - 0.5 * own)))
         lift = np.matmul(self._coupling, self._inverse_mass)
-        tangent += np.matmul(lift, self._coupling.swapaxes(1, 2))
         force += np.einsum("enm,em->en", lift, self._mismatch)
+        # half of what is symmetric under the exchange of the two unknowns
+        right = (third / 3.0 + pull / 2.0) * turned - (2.0 / 3.0 * scale) * moved
+        left = np.concatenate([turned, 0.5 * lift.swapaxes(1, 2)], axis=1)
+        right = np.concatenate([right, self._coupling.swapaxes(1, 2)], axis=1)
+        half = np.matmul(left.swapaxes(1, 2), right)
+        tangent = half + half.swapaxes(1, 2)
+        self._add_crossed(tangent, (third - pull) * turned, turned, dim)
+        self._add_isotropic(tangent, weighted[0], dim)
         return Response(energy, force, tangent)
+
+    def _products(self, tensor: Array) -> Array:
+        """∂N_a/∂X_J T_iJ, array (elements, points, nodes × dim)."""
+        product: Array = np.matmul(self.gradient, tensor.swapaxes(-1, -2))
+        return product.reshape(*product.shape[:2], -1)
+
+    def _add_crossed(self, tangent: Array, left: Array, right: Array, dim: int) -> None:
+        """Add Σ left_aj right_bi to K_aibj."""
+        shape = (len(tangent), -1, dim, tangent.shape[2] // dim, dim)
+        crossed = np.matmul(left.swapaxes(1, 2), right)
+        target = tangent.reshape(shape)
+        target += crossed.reshape(shape).swapaxes(2, 4)
+
+    def _add_isotropic(self, tangent: Array, scale: Array, dim: int) -> None:
+        """Add Σ a ∂N_a/∂X_J ∂N_b/∂X_J to K_aibi; `scale` (elements, points) carries the weights."""
+        directions = self.gradient.shape[3]
+        both = np.matmul(
+            self._left * np.repeat(scale, directions, axis=1)[:, None], self._left.swapaxes(1, 2)
+        )
+        target = tangent.reshape(len(tangent), -1, dim, tangent.shape[2] // dim, dim)
+        for i in range(dim):
+            target[:, :, i, :, i] += both
 
     def update_pressure(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: κ M⁻¹ (r_p + Gᵀ du)."""
@@ -221,61 +245,65 @@ class RubberBlock:
 
 @dataclass(frozen=True)
 class NeoHooke:
-    """The neo-Hookean law at a set of points.
+    """The neo-Hookean law C10 (Ī1 - 3) + p (J - 1) at a set of points, with G = F⁻ᵀ.
 
-    Parameters
-    ----------
-    stress : array (…, 3, 3)
-        First Piola–Kirchhoff stress P_iJ, MPa.
-    moduli : array (…, J, i, j, L)
-        ∂P_iJ/∂F_jL, MPa.
-    cofactor : array (…, 3, 3)
-        J F⁻ᵀ.
-    energy : array (…)
-        C10 (Ī1 - 3), N mm per mm³.
-    """
+    With a = 2 C10 J^(-2/3) stress and moduli are
 
-    stress: Array
-    moduli: Array
-    cofactor: Array
-    energy: Array
-
-
-def neo_hookean(c10_mpa: float, deformation: Array, volume: Array, pressure: Array) -> NeoHooke:
-    """Stress and moduli of C10 (Ī1 - 3) + p (J - 1).
-
-    With G = F⁻ᵀ and a = 2 C10 J^(-2/3):
-
-        P = a (F - I1/3 G) + p J G
+        P = a F + (p J - a I1/3) G
         ∂P_iJ/∂F_jL = a [δ_ij δ_JL - 2/3 (F_iJ G_jL + G_iJ F_jL) + 2/9 I1 G_iJ G_jL]
                       + p J G_iJ G_jL + (a I1/3 - p J) G_iL G_jJ
 
     Parameters
     ----------
-    c10_mpa : float
-    deformation : array (…, 3, 3)
-        F.
     volume : array (…)
-        J = det F.
-    pressure : array (…)
-        p, MPa (positive in tension).
+        J.
+    inverse : array (…, 3, 3)
+        G.
+    scale, third, pull : array (…)
+        a, a I1/3 and p J, MPa.
+    energy : array (…)
+        C10 (Ī1 - 3), N mm per mm³.
     """
-    inverse = np.linalg.inv(deformation).swapaxes(-1, -2)
+
+    volume: Array
+    inverse: Array
+    scale: Array
+    third: Array
+    pull: Array
+    energy: Array
+
+
+def neo_hookean(c10_mpa: float, deformation: Array, pressure: Array) -> NeoHooke:
+    """Evaluate the law at deformation gradients F (…, 3, 3) and pressures p (…) in MPa.
+
+    Raises
+    ------
+    FloatingPointError
+        If a volume is not positive.
+    """
+    cofactor = cofactors(deformation)
+    volume = np.sum(deformation[..., 0, :] * cofactor[..., 0, :], axis=-1)
+    if not np.all(volume > 0.0):
+        raise FloatingPointError("an element of rubber has turned inside out")
     trace = np.sum(deformation**2, axis=(-1, -2))
-    scale = 2.0 * c10_mpa * volume ** (-2.0 / 3.0)
-    third = scale * trace / 3.0
-    pull = pressure * volume
-    stress = scale[..., None, None] * deformation + (pull - third)[..., None, None] * inverse
-    # Σ: G (2/9 a I1 + pJ) G - 2/3 a (F G + G F) = G_iJ X_jL + Y_iJ G_jL
-    second = (2.0 / 3.0 * scale)[..., None, None] * deformation
-    first = (2.0 / 3.0 * third + pull)[..., None, None] * inverse - second
-    columns, other = inverse.swapaxes(-1, -2), second.swapaxes(-1, -2)
-    moduli = columns[..., :, :, None, None] * first[..., None, None, :, :]
-    moduli -= other[..., :, :, None, None] * inverse[..., None, None, :, :]
-    swap = (third - pull)[..., None, None] * inverse
-    moduli += columns[..., :, None, :, None] * swap[..., None, :, None, :]
+    unit = volume ** (-2.0 / 3.0)
+    scale = 2.0 * c10_mpa * unit
+    return NeoHooke(
+        volume=volume,
+        inverse=cofactor / volume[..., None, None],
+        scale=scale,
+        third=scale * trace / 3.0,
+        pull=pressure * volume,
+        energy=c10_mpa * (unit * trace - 3.0),
+    )
+
+
+def cofactors(matrix: Array) -> Array:
+    """Cofactors of matrices (…, 3, 3): det M M⁻ᵀ."""
+    found = np.empty_like(matrix)
     for i in range(3):
+        above, below = matrix[..., (i + 1) % 3, :], matrix[..., (i + 2) % 3, :]
         for j in range(3):
-            moduli[..., j, i, i, j] += scale
-    energy = c10_mpa * (volume ** (-2.0 / 3.0) * trace - 3.0)
-    return NeoHooke(stress, moduli, volume[..., None, None] * inverse, energy)
+            k, m = (j + 1) % 3, (j + 2) % 3
+            found[..., i, j] = above[..., k] * below[..., m] - above[..., m] * below[..., k]
+    return found

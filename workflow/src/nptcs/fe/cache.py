@@ -61,6 +61,7 @@ def write_table(path: Path, table: SpokeTable) -> None:
     with atomic_path(path) as temporary, temporary.open("wb") as stream:
         np.savez(
             stream,
+            height_mm=np.array(table.height_mm),
             low=table.low,
             high=table.high,
             exponents=table.exponents,
@@ -74,6 +75,7 @@ def read_table(path: Path) -> SpokeTable:
     """Read a table that `write_table` wrote."""
     with np.load(path) as data:
         return SpokeTable(
+            float(data["height_mm"]),
             data["low"],
             data["high"],
             data["exponents"],

@@ -44,7 +44,9 @@ def spoke_design(
 @threadpool_limits.wrap(limits=1)
 def spoke_table(model: FeModel, design: SpokeDesign) -> SpokeTable:
     """Compute the energy table of one spoke."""
-    return fit(sample(SpokeModel(design), model.table), model.table)
+    return fit(
+        sample(SpokeModel(design), model.table), model.table, design.geometry.height_mm
+    )
 
 
 def tyre_model(

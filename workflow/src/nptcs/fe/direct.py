@@ -21,7 +21,7 @@ from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.blocks import Response, RubberBlock
 from nptcs.fe.lagrange import line_shape
-from nptcs.fe.matrices import BandedCholesky, solve_indefinite
+from nptcs.fe.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeTable
 from nptcs.fe.tyre import LoadPath, TyreModel, TyreState, foot_operators
@@ -183,13 +183,13 @@ class MeshedSpoke(SpokeModel):
         _, slope = foot.move(q)
         product = self._top_product(responses, slope)
         rhs = -np.column_stack([force[self._free], product[self._free]])
-        band = self._pattern.assemble([r.tangent for r in responses])
+        tangents = [r.tangent for r in responses]
         stable = True
         try:
-            solved = BandedCholesky(band).solve(rhs)
+            solved = BlockCholesky(self._pattern.assemble(tangents)).solve(rhs)
         except np.linalg.LinAlgError:
             stable = False
-            solved = solve_indefinite(band, rhs)
+            solved = solve_indefinite(self._pattern.assemble(tangents), rhs)
         step, sensitivity = solved[:, 0], solved[:, 1:]
         reaction = force[self._top_dofs]
         inner = product[self._free]

@@ -69,13 +69,14 @@ def rubber_at(
 
 
 def _law(block: RubberBlock, deformation: Array, modes: Array) -> RubberFields:
-    volume = np.linalg.det(deformation)
     mean = block.pressure @ modes.T
-    law = neo_hookean(block.c10_mpa, deformation, volume, mean)
-    cauchy = law.stress @ deformation.swapaxes(-1, -2) / volume[..., None, None]
-    deviator = cauchy - mean[..., None, None] * np.eye(3)
+    law = neo_hookean(block.c10_mpa, deformation, mean)
+    # σ - p = (a F Fᵀ - a I1/3) / J
+    deviator = law.scale[..., None, None] * (deformation @ deformation.swapaxes(-1, -2))
+    deviator -= law.third[..., None, None] * np.eye(3)
+    deviator /= law.volume[..., None, None]
     return RubberFields(
-        energy_density=law.energy + mean * (volume - 1.0) - mean**2 / (2.0 * block.bulk_mpa),
+        energy_density=law.energy + mean * (law.volume - 1.0) - mean**2 / (2.0 * block.bulk_mpa),
         mises=np.sqrt(1.5 * np.sum(deviator**2, axis=(-1, -2))),
         pressure=-mean,
     )

@@ -2,15 +2,16 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.fe.block_tridiagonal import BlockCholesky, BlockPattern
 from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
-from nptcs.fe.matrices import BandedCholesky, BandedPattern, element_dofs
+from nptcs.fe.matrices import element_dofs
 from nptcs.fe.spoke_blocks import plate_blocks, rubber_block
 from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
 
@@ -107,7 +108,7 @@ class SpokeModel:
         numbers = np.arange(self._count) - row
         numbers[:row] = -1
         numbers[self._count - row :] = -1
-        self._pattern = BandedPattern([numbers[d] for d in self._dofs], self._count - 2 * row, True)
+        self._pattern = BlockPattern([numbers[d] for d in self._dofs], row, self._count - 2 * row)
         self._top_dofs = np.arange(self._count - row, self._count)
         self._arm = self.mesh.positions[self.mesh.top, 0]
         self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
@@ -173,18 +174,28 @@ class SpokeModel:
             done = min(done + step, 1.0)
         return state
 
-    def follow(self, history: Sequence[SpokeState], motion: Array) -> SpokeState:
-        """Continue a row of equilibria on a straight line of motions.
+    def walk(self, start: SpokeState, motions: Array) -> Iterator[SpokeState]:
+        """Go from an equilibrium through a row of motions (n, 3), and give each state.
 
         The guess extrapolates the cubic through the last two states and their derivatives; where
         it does not converge, `move` goes on from the last state.
+
+        Raises
+        ------
+        SpokeError
+            As `move`.
         """
-        if len(history) < 2:
-            return self.move(history[-1], motion)
+        before, last = None, start
+        for motion in motions:
+            state = None if before is None else self._follow(before, last, motion)
+            before, last = last, state or self.move(last, motion)
+            yield last
+
+    def _follow(self, before: SpokeState, last: SpokeState, motion: Array) -> SpokeState | None:
         try:
-            return self._equilibrium(motion, self._cubic_guess(history, motion), history[-1])
+            return self._equilibrium(motion, self._cubic_guess(before, last, motion), last)
         except (FloatingPointError, np.linalg.LinAlgError):
-            return self.move(history[-1], motion)
+            return None
 
     def _linear_guess(self, state: SpokeState, motion: Array) -> Array:
         guess = state.displacement.copy()
@@ -192,15 +203,17 @@ class SpokeModel:
         guess[self.mesh.top] = self.band_motion(motion)
         return guess
 
-    def _cubic_guess(self, history: Sequence[SpokeState], motion: Array) -> Array:
-        before, last = history[-2:]
-        way = last.motion - before.motion
-        t = float((motion - before.motion) @ way / (way @ way))
+    def _cubic_guess(self, before: SpokeState, last: SpokeState, motion: Array) -> Array:
+        """Extrapolate the cubic through two states on the parabola through the three motions."""
+        way, whole = last.motion - before.motion, motion - before.motion
+        t = float(whole @ way / (way @ way))
+        bend = (whole - t * way) / (t * (t - 1.0))
         values = (1.0 - t) ** 2 * (1.0 + 2.0 * t), t * t * (3.0 - 2.0 * t)
         slopes = t * (1.0 - t) ** 2, t * t * (t - 1.0)
         guess = values[0] * before.displacement + values[1] * last.displacement
         inner = guess.reshape(-1)[self._free]
-        inner += slopes[0] * (before.sensitivity @ way) + slopes[1] * (last.sensitivity @ way)
+        inner += slopes[0] * (before.sensitivity @ (way - bend))
+        inner += slopes[1] * (last.sensitivity @ (way + bend))
         guess[self.mesh.top] = self.band_motion(motion)
         return guess
 
@@ -212,7 +225,7 @@ class SpokeModel:
             block.pressure = np.zeros_like(block.pressure) if near is None else near.pressures[i]
         for _ in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
-            factor = BandedCholesky(self._pattern.assemble([r.tangent for r in responses]))
+            factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
             free = force[self._free]
             step = np.zeros_like(displacement)
             step.reshape(-1)[self._free] = -factor.solve(free)
@@ -247,7 +260,7 @@ class SpokeModel:
         displacement: Array,
         responses: list[Response],
         force: Array,
-        factor: BandedCholesky,
+        factor: BlockCholesky,
         energy: float,
     ) -> SpokeState:
         """Condense onto the band: force and tangent of the three motions."""

@@ -46,10 +46,10 @@ def fit_through_origin(displacement_mm: Array, force_n: Array) -> OriginFit:
 
 def walk(model: SpokeModel, end_mm: float, steps: int) -> list[SpokeState]:
     """Equilibria from rest to a radial displacement of the band, which is held from turning."""
-    history = [model.rest()]
-    for u_r in np.linspace(0.0, end_mm, steps + 1)[1:]:
-        history.append(model.follow(history, np.array([u_r, 0.0, 0.0])))
-    return history
+    motions = np.zeros((steps, 3))
+    motions[:, 0] = np.linspace(0.0, end_mm, steps + 1)[1:]
+    rest = model.rest()
+    return [rest, *model.walk(rest, motions)]
 
 
 def pull(model: SpokeModel, end_mm: float, steps: int) -> tuple[Array, Array]:

@@ -1,26 +1,28 @@
 """The spoke as a super-element: a polynomial energy of the band's motion (u_r, u_θ, φ).
 
 The polynomial is fitted to energies, forces and condensed tangents of finite element states
-together, so that forces and tangents in the tyre are exact derivatives of one energy.
+together, so that forces and tangents in the tyre are exact derivatives of one energy. Its variables
+are those of `chord`: it is even in β, and only states with β ≥ 0 are computed.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import product
+from itertools import chain, product
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from nptcs.config.fe import SpokeTableOptions
+from nptcs.fe.chord import carried, chord_of, motion_of
 from nptcs.fe.spoke import SpokeError, SpokeModel, SpokeState
 
 Array = NDArray[np.float64]
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-NAMES = ("u_r (mm)", "u_θ (mm)", "φ (rad)")
+NAMES = ("change of chord (mm)", "inclination β (rad)", "φ (rad)")
 
 
 class TableRangeError(ValueError):
@@ -29,9 +31,9 @@ class TableRangeError(ValueError):
 
 @dataclass(frozen=True)
 class SpokeSamples:
-    """States of a spoke: motion (n, 3), energy (n,), force (n, 3), tangent (n, 3, 3)."""
+    """States of a spoke at chords (n, 3): energy (n,), its derivatives (n, 3) and (n, 3, 3)."""
 
-    motion: Array
+    chord: Array
     energy: Array
     force: Array
     tangent: Array
@@ -39,22 +41,25 @@ class SpokeSamples:
 
 @dataclass(frozen=True)
 class SpokeTable:
-    """Energy of one spoke, E(u_r, u_θ, φ) in N mm.
+    """Energy of one spoke, E(s, β, φ) in N mm.
 
     Parameters
     ----------
+    height_mm : float
+        Length of the unloaded chord.
     low, high : arrays (3,)
-        Range of u_r (mm), u_θ (mm), φ (rad).
+        Range of s (mm), β (rad), φ (rad).
     exponents : array (terms, 3)
         Chebyshev degree of each term in each direction.
     coefficients : array (terms,)
         N mm.
     narrowing : float
-        Part of the ranges of u_θ and φ that is left at the lowest u_r, linear from u_r = 0.
+        Part of the ranges of β and φ that is left at the lowest s, linear from s = 0.
     force_residual_n : float
-        Root mean square misfit of the radial force at the sampled states.
+        Root mean square misfit of the force along the chord at the sampled states.
     """
 
+    height_mm: float
     low: Array
     high: Array
     exponents: NDArray[np.int64]
@@ -70,9 +75,10 @@ class SpokeTable:
         TableRangeError
             If a motion lies outside the table.
         """
-        self._check(motion)
+        chord, first, second = chord_of(motion, self.height_mm)
+        self._check(chord)
         scale = 2.0 / (self.high - self.low)
-        local = (motion - self.low) * scale - 1.0
+        local = (chord - self.low) * scale - 1.0
         lines = _lines(local, self.exponents)
         energy = _term(lines, (0, 0, 0)) @ self.coefficients
         force = np.empty((len(motion), 3))
@@ -82,17 +88,17 @@ class SpokeTable:
         for i, j in SECOND:
             value = _term(lines, _order(i, j)) @ self.coefficients * scale[i] * scale[j]
             tangent[:, i, j] = tangent[:, j, i] = value
-        return energy, force, tangent
+        return energy, *carried(force, tangent, first, second)
 
-    def _check(self, motion: Array) -> None:
-        part = side_part(motion[:, 0], self.low[0], self.narrowing)
+    def _check(self, chord: Array) -> None:
+        part = side_part(chord[:, 0], self.low[0], self.narrowing)
         shrink = np.stack([np.ones_like(part), part, part], axis=1)
         low, high = self.low * shrink, self.high * shrink
-        outside = (motion < low) | (motion > high) | ~np.isfinite(motion)
+        outside = (chord < low) | (chord > high) | ~np.isfinite(chord)
         if outside.any():
             spoke, axis = np.argwhere(outside)[0]
             raise TableRangeError(
-                f"spoke {spoke}: {NAMES[axis]} = {motion[spoke, axis]:.4g} is outside the table's "
+                f"spoke {spoke}: {NAMES[axis]} = {chord[spoke, axis]:.4g} is outside the table's "
                 f"range {low[spoke, axis]:.4g} … {high[spoke, axis]:.4g} there"
             )
 
@@ -130,9 +136,9 @@ def chebyshev_nodes(low: float, high: float, count: int) -> Array:
     return 0.5 * (low + high) + 0.5 * (high - low) * unit
 
 
-def side_part(u_r: Array, lowest: float, narrowing: float) -> Array:
-    """Part of the ranges of u_θ and φ that the table covers at these u_r."""
-    part: Array = 1.0 - (1.0 - narrowing) * np.clip(u_r / lowest, 0.0, 1.0)
+def side_part(s: Array, lowest: float, narrowing: float) -> Array:
+    """Part of the ranges of β and φ that the table covers at these s."""
+    part: Array = 1.0 - (1.0 - narrowing) * np.clip(s / lowest, 0.0, 1.0)
     return part
 
 
@@ -146,65 +152,72 @@ def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
     SpokeError
         If a state in tension or of the unloaded radius is not found.
     """
+    height = model.design.geometry.height_mm
     rows = list(_rows(model, options))
-    lowest = max(min(state.motion[0] for state in row) for row in rows)
-    states = [state for row in rows for state in row if state.motion[0] >= lowest - 1e-9]
+    chords = [chord_of(np.array([state.motion for state in row]), height)[0] for row in rows]
+    lowest = max(float(chord[:, 0].min()) for chord in chords)
+    kept = np.concatenate(chords)[:, 0] >= lowest - 1e-9
+    states = [state for state, keep in zip(chain(*rows), kept, strict=True) if keep]
+    chord = np.concatenate(chords)[kept]
+    force = np.array([state.force for state in states])
+    tangent = np.array([state.tangent for state in states])
     return SpokeSamples(
-        motion=np.array([state.motion for state in states]),
-        energy=np.array([state.energy for state in states]),
-        force=np.array([state.force for state in states]),
-        tangent=np.array([state.tangent for state in states]),
+        chord,
+        np.array([state.energy for state in states]),
+        *carried(force, tangent, *motion_of(chord, height)[1:]),
     )
 
 
 def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeState]]:
-    """For each (u_θ, φ): straight rows from u_r = 0 to both ends, each state from the last two."""
-    radial = chebyshev_nodes(*options.u_r_mm, options.samples[0])
-    sides = [
-        chebyshev_nodes(*limits, count)
-        for limits, count in zip(
-            (options.u_theta_mm, options.phi_rad), options.samples[1:], strict=True
-        )
-    ]
+    """For each (β, φ): rows from s = 0 to both ends, each state from the last two."""
+    lengths = chebyshev_nodes(*options.chord_mm, options.samples[0])
+    turns = chebyshev_nodes(-options.inclination_rad, options.inclination_rad, options.samples[1])
+    rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
     rest = model.rest()
-    for u_theta, phi in product(*sides):
-        start = model.move(rest, np.array([0.0, u_theta, phi]))
-        states = list(_row(model, options, start, radial[radial > 0.0]))
+    for turn, phi in product(turns[turns > -1e-12], rotations):
+        motions = _row(model, options, turn, phi, np.array([0.0]))
+        start = model.move(rest, motions[0])
+        states = [start, *model.walk(start, _row(model, options, turn, phi, lengths[lengths > 0]))]
         try:
-            for state in _row(model, options, start, radial[radial < 0.0][::-1]):
+            down = _row(model, options, turn, phi, lengths[lengths < 0][::-1])
+            for state in model.walk(start, down):
                 states.append(state)
         except SpokeError:
             # the spoke buckles: `sample` ends the table at the last level that all rows reach
             pass
-        yield states
+        yield states[1:]
 
 
 def _row(
-    model: SpokeModel, options: SpokeTableOptions, start: SpokeState, heights: Array
-) -> Iterator[SpokeState]:
-    history = [start]
-    parts = side_part(heights, options.u_r_mm[0], options.narrowing)
-    for u_r, part in zip(heights, parts, strict=True):
-        motion = np.array([u_r, part * start.motion[1], part * start.motion[2]])
-        history.append(model.follow(history, motion))
-        yield history[-1]
+    model: SpokeModel, options: SpokeTableOptions, turn: float, phi: float, lengths: Array
+) -> Array:
+    """Motions (n, 3) of a row at these changes of the chord."""
+    part = side_part(lengths, options.chord_mm[0], options.narrowing)
+    chord = np.stack([lengths, part * turn, part * phi], axis=1)
+    return motion_of(chord, model.design.geometry.height_mm)[0]
 
 
-def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
+def fit(samples: SpokeSamples, options: SpokeTableOptions, height_mm: float) -> SpokeTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
     All data enter in units of energy: forces times the half range, tangents times its square. A
-    table that ends early has fewer levels of u_r, and for them a lower degree.
+    table that ends early has fewer levels of s, and for them a lower degree.
     """
-    low, high = np.array([options.u_r_mm, options.u_theta_mm, options.phi_rad]).T
-    low[0] = samples.motion[:, 0].min()
-    narrowing = float(side_part(low[:1], options.u_r_mm[0], options.narrowing)[0])
+    sides = (-options.inclination_rad, options.inclination_rad)
+    low, high = np.array([options.chord_mm, sides, options.phi_rad]).T
+    low[0] = samples.chord[:, 0].min()
+    narrowing = float(side_part(low[:1], options.chord_mm[0], options.narrowing)[0])
     half = 0.5 * (high - low)
-    local = (samples.motion - low) / half - 1.0
+    local = (samples.chord - low) / half - 1.0
     radial, side = options.degrees
-    radial = min(radial, 2 * len(np.unique(samples.motion[:, 0])) - 2)
+    radial = min(radial, 2 * len(np.unique(samples.chord[:, 0].round(6))) - 2)
     exponents = np.array(
-        [(i, j, k) for i in range(radial + 1) for j in range(side + 1) for k in range(side + 1 - j)]
+        [
+            (i, j, k)
+            for i in range(radial + 1)
+            for j in range(0, side + 1, 2)
+            for k in range(side + 1 - j)
+        ]
     )
     lines = _lines(local, exponents)
     design = [_term(lines, (0, 0, 0))]
@@ -219,9 +232,11 @@ def fit(samples: SpokeSamples, options: SpokeTableOptions) -> SpokeTable:
     coefficients, _, rank, _ = np.linalg.lstsq(matrix, target, rcond=1e-12)
     if rank < len(exponents):
         raise ValueError(
-            f"{len(exponents)} terms cannot be found from {len(samples.motion)} states "
+            f"{len(exponents)} terms cannot be found from {len(samples.chord)} states "
             f"(rank {rank}): lower degrees or take more samples"
         )
     force = _term(lines, _order(0)) @ coefficients / half[0]
     residual = float(np.sqrt(np.mean((force - samples.force[:, 0]) ** 2)))
-    return SpokeTable(low, high, exponents, coefficients.astype(float), narrowing, residual)
+    return SpokeTable(
+        height_mm, low, high, exponents, coefficients.astype(float), narrowing, residual
+    )

@@ -115,7 +115,7 @@ class TyreModel:
         column, row = np.divmod(np.arange(len(ring.positions)), rows)
         node = folded_order(len(ring.theta))[column] * rows + row
         self._place = (2 * node[:, None] + np.arange(2)).ravel()
-        self._pattern = BandedPattern([self._place[d] for d in self._dofs], self._count, False)
+        self._pattern = BandedPattern([self._place[d] for d in self._dofs], self._count)
 
     def spoke_motion(self, displacement: Array) -> Array:
         """(u_r, u_θ, φ) of each spoke's foot, array (spokes, 3)."""

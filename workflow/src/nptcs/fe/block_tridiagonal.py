@@ -1,0 +1,174 @@
+"""The spoke's symmetric matrix as a chain of dense blocks, and its factorisations.
+
+Unknowns come in rows of equal length, and an element joins three rows that follow each other,
+beginning with an even one (its lower corners). A block holds an odd row and the even one after it;
+of one block only the last row meets the next. Dense LAPACK on these blocks does half the work of a
+banded factorisation, which treats every row as if it met the next three
+(``docs/decisions/0003-fe-kernel.md``).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+from scipy.linalg.blas import dsyrk, dtrsm
+from scipy.linalg.lapack import dpotrf
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+
+@dataclass
+class BlockMatrix:
+    """Lower half of a symmetric block-tridiagonal matrix, every block transposed.
+
+    Parameters
+    ----------
+    diagonal : array (blocks, 2 row, 2 row)
+        Upper triangles: their transposes are what LAPACK calls lower.
+    below : array (blocks - 1, row, 2 row)
+        Second row of each block by all of the next block.
+    size : int
+        Unknowns; the last block is filled up with ones on the diagonal.
+    """
+
+    diagonal: Array
+    below: Array
+    size: int
+
+
+class BlockPattern:
+    """Where each entry of the element tangents goes.
+
+    Parameters
+    ----------
+    dofs : sequence of arrays (elements, dofs of an element)
+        Number of each unknown, or -1 where it is not solved for.
+    row : int
+        Unknowns of one row.
+    size : int
+        Number of unknowns.
+    """
+
+    def __init__(self, dofs: Sequence[Index], row: int, size: int) -> None:
+        self.row, self.size = row, size
+        self._wide = 2 * row
+        self._blocks = -(-size // self._wide)
+        self._keep: list[Index] = []
+        targets: list[Index] = []
+        for block in dofs:
+            shape = (*block.shape, block.shape[1])
+            low = np.broadcast_to(block[:, :, None], shape).ravel()
+            high = np.broadcast_to(block[:, None, :], shape).ravel()
+            keep = np.flatnonzero((high >= 0) & (low >= high))
+            self._keep.append(keep)
+            targets.append(self._target(low[keep], high[keep]))
+        self._targets = np.concatenate(targets)
+
+    def _target(self, low: Index, high: Index) -> Index:
+        """Place of entry (low, high), low ≥ high, in the diagonal blocks and those below."""
+        block, column = np.divmod(high, self._wide)
+        lower, line = np.divmod(low, self._wide)
+        beside = lower - block
+        if np.any((beside > 1) | ((beside == 1) & (column < self.row))):
+            raise ValueError("an element joins rows that do not meet in a block")
+        inside = (block * self._wide + column) * self._wide + line
+        start = self._blocks * self._wide**2
+        return np.where(
+            beside == 0, inside, start + (block * self.row + column - self.row) * self._wide + line
+        )
+
+    def assemble(self, tangents: Sequence[Array]) -> BlockMatrix:
+        """Sum element tangents (elements, dofs, dofs)."""
+        values = np.concatenate(
+            [part.ravel()[keep] for part, keep in zip(tangents, self._keep, strict=True)]
+        )
+        wide, blocks = self._wide, self._blocks
+        start = blocks * wide**2
+        count = start + (blocks - 1) * self.row * wide
+        whole = np.bincount(self._targets, values, minlength=count)
+        diagonal = whole[:start].reshape(blocks, wide, wide)
+        fill = np.arange(self.size - (blocks - 1) * wide, wide)
+        diagonal[-1, fill, fill] = 1.0
+        return BlockMatrix(diagonal, whole[start:].reshape(-1, self.row, wide), self.size)
+
+
+class BlockCholesky:
+    """Factorisation of a positive definite block-tridiagonal matrix, which it overwrites.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If the matrix is not positive definite: the state is unstable.
+    """
+
+    def __init__(self, matrix: BlockMatrix) -> None:
+        row = matrix.below.shape[1]
+        self._size = matrix.size
+        self._own: list[Array] = []
+        self._next: list[Array] = []
+        for number, block in enumerate(matrix.diagonal):
+            if number:
+                corner = self._own[-1][row:, row:]
+                link = dtrsm(1.0, corner, matrix.below[number - 1].T, side=1, lower=1, trans_a=1)
+                block = dsyrk(-1.0, link, beta=1.0, c=block.T, lower=1, overwrite_c=1)
+                self._next.append(link)
+            else:
+                block = block.T
+            factor, failed = dpotrf(block, lower=1, clean=0, overwrite_a=1)
+            if failed:
+                raise np.linalg.LinAlgError("the matrix is not positive definite")
+            self._own.append(factor)
+
+    def solve(self, rhs: Array) -> Array:
+        """Solve for one or several right-hand sides (size, …)."""
+        parts = _split(rhs, len(self._own), len(self._own[0]))
+        row = len(self._own[0]) // 2
+        for number, factor in enumerate(self._own):
+            if number:
+                parts[number] = parts[number] - self._next[number - 1] @ parts[number - 1][row:]
+            parts[number] = dtrsm(1.0, factor, parts[number], lower=1)
+        for number in range(len(parts) - 1, -1, -1):
+            if number < len(parts) - 1:
+                parts[number][row:] -= self._next[number].T @ parts[number + 1]
+            parts[number] = dtrsm(1.0, self._own[number], parts[number], lower=1, trans_a=1)
+        return np.concatenate(parts)[: self._size].reshape(rhs.shape)
+
+
+def solve_indefinite(matrix: BlockMatrix, rhs: Array) -> Array:
+    """Solve with a symmetric matrix that need not be positive definite.
+
+    Raises
+    ------
+    numpy.linalg.LinAlgError
+        If a block is singular once those before it are eliminated.
+    """
+    wide = matrix.diagonal.shape[1]
+    row = wide // 2
+    parts = _split(rhs, len(matrix.diagonal), wide)
+    whole = [np.triu(block) + np.triu(block, 1).T for block in matrix.diagonal]
+    links = [link.T for link in matrix.below]
+    lifted: list[Array] = []
+    for number, link in enumerate(links):
+        spread = np.zeros((wide, wide))
+        spread[:, row:] = link
+        lift = np.linalg.solve(whole[number], spread.T).T
+        whole[number + 1] -= lift[:, row:] @ link.T
+        parts[number + 1] = parts[number + 1] - lift @ parts[number]
+        lifted.append(lift)
+    parts[-1] = np.linalg.solve(whole[-1], parts[-1])
+    for number in range(len(links) - 1, -1, -1):
+        parts[number] = np.linalg.solve(whole[number], parts[number])
+        parts[number] -= lifted[number].T @ parts[number + 1]
+    return np.concatenate(parts)[: matrix.size].reshape(rhs.shape)
+
+
+def _split(rhs: Array, blocks: int, wide: int) -> list[Array]:
+    """Right-hand sides (size, …) in pieces (2 row, n), filled up with zeros."""
+    flat = rhs.reshape(len(rhs), -1)
+    padded = np.zeros((blocks * wide, flat.shape[1]))
+    padded[: len(flat)] = flat
+    return list(padded.reshape(blocks, wide, -1))
