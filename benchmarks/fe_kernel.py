@@ -35,7 +35,7 @@ def milliseconds(call: Callable[[], object]) -> float:
 def own_kernel() -> None:
     """Assembly of the package, and its band against SuperLU on the same matrix."""
     design = SpokeDesign(
-        SpokeGeometry(), SpokeMesh(), 15.0, 5.0, 1.8, 45.0, 1.0, PUBLISHED_PLY, 215.0
+        SpokeGeometry(), SpokeMesh(), 215.0 / 15, 5.0, 1.8, 45.0, 1.0, PUBLISHED_PLY, 15
     )
     model = SpokeModel(design)
     rest = np.zeros_like(model.mesh.positions)

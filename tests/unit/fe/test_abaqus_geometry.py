@@ -11,7 +11,7 @@ from scipy.sparse.linalg import spsolve
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.abaqus_mesh import plate_count, spoke_part
+from nptcs.fe.abaqus_mesh import spoke_part
 from nptcs.fe.blocks import RubberBlock
 from nptcs.fe.calculix import total_forces
 from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
@@ -50,7 +50,7 @@ def test_default_mesh_has_the_counts_of_table_4(deck):
 
 @pytest.mark.parametrize(("spacing", "count"), [(10.0, 22), (15.0, 15), (20.0, 11)])
 def test_plates_are_whole_and_inside_the_width(spacing, count, reader, small_deck):
-    assert plate_count(TyreGeometry(), spacing) == count
+    assert TyreGeometry().plates_across(spacing) == count
     part = small_deck(spacing_mm=spacing).parts["PLATES"]
     z = np.sort(np.unique(np.round(reader.corners(part).mean(axis=1)[:, 2], 6)))
     assert len(z) == count
@@ -230,13 +230,13 @@ def test_the_decks_spoke_is_as_stiff_as_the_packages_own(small_deck, reader, spo
     design = SpokeDesign(
         geometry=SECTION,
         mesh=SpokeMesh(),
-        spacing_mm=15.0,
+        pitch_mm=215.0 / 15,
         plate_width_mm=5.0,
         thickness_mm=1.8,
         angle_deg=30.0,
         c10_mpa=3.0,
         ply=ply,
-        width_mm=215.0,
+        plates=15,
     )
     ours = SpokeModel(design).rest().tangent[0, 0]
     assert spoke_solver.radial_stiffness(deck, reader) == pytest.approx(ours, rel=0.1)
@@ -276,13 +276,13 @@ def test_the_spokes_mesh_is_sound_in_another_solver(tmp_path, ply):
     design = SpokeDesign(
         geometry=model.geometry,
         mesh=SpokeMesh(rows=(1, 2, 4, 2, 1, 1), bulk_to_shear_ratio=ratio),
-        spacing_mm=10.0,
+        pitch_mm=width,
         plate_width_mm=0.01,
         thickness_mm=1e-6,
         angle_deg=0.0,
         c10_mpa=1.0,
         ply=ply,
-        width_mm=width,
+        plates=1,
     )
     spoke = SpokeModel(design)
     ours = spoke.move(spoke.rest(), np.array([u_r, 0.0, 0.0])).force[0]

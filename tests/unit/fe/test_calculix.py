@@ -33,13 +33,13 @@ def small_design(ply, angle=30.0):
     design = SpokeDesign(
         geometry=SECTION,
         mesh=SpokeMesh(rows=(1, 1, 2, 1, 1, 1), bulk_to_shear_ratio=100.0),
-        spacing_mm=10.0,
+        pitch_mm=10.0,
         plate_width_mm=5.0,
         thickness_mm=1.2,
         angle_deg=angle,
         c10_mpa=1.0,
         ply=ply,
-        width_mm=215.0,
+        plates=21,
     )
     return true_thickness(design)
 

@@ -139,6 +139,6 @@ def test_the_picture_of_a_spoke_is_of_the_design_that_was_asked_for(tmp_path, mo
     words = ["fe-picture", out, "--spoke", "--spacing", 20, "--angle", 30, "--spoke-c10", 2]
     arguments = parse(fe_picture, *words)
     assert arguments.run(arguments) == 0
-    assert (drawn[0].spacing_mm, drawn[0].angle_deg, drawn[0].c10_mpa) == (20.0, 30.0, 2.0)
+    assert (drawn[0].plates, drawn[0].angle_deg, drawn[0].c10_mpa) == (11, 30.0, 2.0)
     assert drawn[0].thickness_mm == 1.8
     assert "<svg" in out.read_text()

@@ -14,13 +14,13 @@ def design(ply, **change):
     values = {
         "geometry": SpokeGeometry(),
         "mesh": COARSE,
-        "spacing_mm": 15.0,
+        "pitch_mm": 15.0,
         "plate_width_mm": 5.0,
         "thickness_mm": 1.8,
         "angle_deg": 45.0,
         "c10_mpa": 1.0,
         "ply": ply,
-        "width_mm": 215.0,
+        "plates": 14,
     }
     return SpokeDesign(**{**values, **change})
 
@@ -82,7 +82,7 @@ def test_stiffness_scales_with_all_moduli(ply, model):
 
 def test_more_and_thicker_plates_along_the_leg_stiffen(ply, model):
     base = model.rest().tangent[0, 0]
-    assert SpokeModel(design(ply, spacing_mm=10.0)).rest().tangent[0, 0] > 1.02 * base
+    assert SpokeModel(design(ply, pitch_mm=10.0, plates=21)).rest().tangent[0, 0] > 1.02 * base
     assert SpokeModel(design(ply, angle_deg=0.0)).rest().tangent[0, 0] > 1.01 * base
     assert SpokeModel(design(ply, thickness_mm=2.4)).rest().tangent[0, 0] > 1.005 * base
     assert SpokeModel(design(ply, angle_deg=90.0)).rest().tangent[0, 0] < 0.995 * base

@@ -81,13 +81,13 @@ def spoke_design(**change):
     values = {
         "geometry": SpokeGeometry(),
         "mesh": COARSE,
-        "spacing_mm": 15.0,
+        "pitch_mm": 15.0,
         "plate_width_mm": 5.0,
         "thickness_mm": 1.8,
         "angle_deg": 45.0,
         "c10_mpa": 1.0,
         "ply": PUBLISHED_PLY,
-        "width_mm": 215.0,
+        "plates": 14,
     }
     return SpokeDesign(**{**values, **change})
 
@@ -130,7 +130,7 @@ def test_every_part_of_the_design_is_in_the_key():
         {"ply": other_ply},
         {"geometry": SpokeGeometry(block_thickness_mm=12.5)},
         {"mesh": SpokeMesh()},
-        {"width_mm": 200.0},
+        {"plates": 13},
     ]
     keys = {table_key(spoke_design(**change), OPTIONS) for change in changes}
     keys.add(table_key(spoke_design(), SpokeTableOptions()))

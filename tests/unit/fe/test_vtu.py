@@ -54,7 +54,7 @@ def volumes(grid):
 def spoke(published_ply):
     coarse = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
     return SpokeModel(
-        SpokeDesign(SpokeGeometry(), coarse, 15.0, 5.0, 1.8, 45.0, 1.0, published_ply, 215.0)
+        SpokeDesign(SpokeGeometry(), coarse, 15.0, 5.0, 1.8, 45.0, 1.0, published_ply, 14)
     )
 
 
@@ -82,7 +82,7 @@ def test_the_energy_in_a_spokes_file_is_the_models(tmp_path, spoke, pressed):
     grid, points, cells, fields = read(tmp_path / "spoke.vtu")
     drawn = volumes(grid)
     assert drawn == pytest.approx(cells["reference_volume_mm3"], rel=1e-6)
-    energy = spoke.design.periods * np.sum(drawn * cells["strain_energy_density_mpa"])
+    energy = spoke.design.plates * np.sum(drawn * cells["strain_energy_density_mpa"])
     assert energy == pytest.approx(pressed.energy, rel=1e-6)
     assert fields["u_r_mm"] == pytest.approx([-4.0])
     rubber = cells["material"] == MATERIALS["spoke rubber"]
@@ -123,7 +123,7 @@ def test_the_energy_in_a_tyres_file_is_the_models(tmp_path, tyre, spoke):
     model, state = tyre
     write_vtu(tmp_path / "tyre.vtu", tyre_bricks(model, TYRE, state, spoke), {"load_n": 200.0})
     grid, points, cells, _ = read(tmp_path / "tyre.vtu")
-    energy = spoke.design.periods * (
+    energy = spoke.design.plates * (
         cells["reference_volume_mm3"] * cells["strain_energy_density_mpa"]
     )
     parts = model.energy(state)

@@ -33,7 +33,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     require_vtk()
     case = solved(arguments)
-    periods = case.spoke.design.periods
+    periods = float(case.spoke.design.plates)
     bricks = tyre_bricks(case.tyre, case.dimensions, case.state, case.spoke)
     write_vtu(
         arguments.folder / "tyre.vtu",

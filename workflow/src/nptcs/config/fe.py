@@ -132,7 +132,7 @@ class SpokeTableOptions(Strict):
         "the unloaded one: the most compressed spokes stand on the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
-        (10, 3, 3),
+        (9, 3, 3),
         description="Numbers of states along the chord, β and φ; for β < 0 they are known from the "
         "spoke's symmetry",
     )

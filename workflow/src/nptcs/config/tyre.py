@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import floor
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -35,6 +36,10 @@ class TyreGeometry(Strict):
     wire_pitch_mm: float = Field(2.0, gt=0, description="Spacing of the wires, section 3.2")
     wire_modulus_mpa: float = Field(80000.0, gt=0, description="Young's modulus of the wire")
     wire_poisson_ratio: float = Field(0.3, gt=-1, lt=0.5, description="Poisson's ratio of the wire")
+
+    def plates_across(self, spacing_mm: float) -> int:
+        """Plates of one leg: as many as lie inside the width at this spacing (table 4: 15)."""
+        return floor((self.tread_width_mm - self.plate_width_mm) / spacing_mm + 1e-9) + 1
 
     @model_validator(mode="after")
     def _radii_in_order(self) -> Self:

@@ -8,7 +8,6 @@ the spoke's own axes of `nptcs.fe.spoke_mesh` (circumference, tyre's axis, radiu
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import floor
 
 import numpy as np
 from numpy.typing import NDArray
@@ -47,12 +46,6 @@ class Part:
     elements: Index
     node_sets: dict[str, Index]
     element_sets: dict[str, Index]
-
-
-def plate_count(tyre: TyreGeometry, spacing_mm: float) -> int:
-    """Plates of one leg: as many as lie inside the width at this spacing (15 at 15 mm, table 4)."""
-    room = (tyre.tread_width_mm - tyre.plate_width_mm) / spacing_mm
-    return floor(room + 1e-9) + 1
 
 
 def check_radii(geometry: SpokeGeometry, tyre: TyreGeometry) -> None:
@@ -124,7 +117,7 @@ def plates_part(
     low, high = geometry.plate_foot_gap_mm, geometry.height_mm / 2.0 - geometry.plate_mid_gap_mm
     along, across = mesh.plate
     slope = np.tan(np.radians(geometry.leg_angle_deg))
-    count = plate_count(tyre, spacing_mm)
+    count = tyre.plates_across(spacing_mm)
     middles = spacing_mm * (np.arange(count) - (count - 1) / 2.0)
     places = np.linspace(-0.5, 0.5, across + 1) * tyre.plate_width_mm
     heights = np.linspace(low, high, along + 1)

@@ -11,7 +11,6 @@ from nptcs.fe.abaqus_mesh import (
     Part,
     band_part,
     plate_axes,
-    plate_count,
     plates_part,
     spoke_part,
     wires_part,
@@ -49,7 +48,7 @@ def plates_lines(
 ) -> list[str]:
     """Write the part of one spoke's reinforcement plates."""
     part = plates_part(model.geometry, model.mesh, tyre, spacing_mm)
-    count = plate_count(tyre, spacing_mm)
+    count = tyre.plates_across(spacing_mm)
     lines = [
         THIN_RULE,
         *comment(

@@ -211,7 +211,7 @@ def tyre_bricks(
         If a spoke has no equilibrium there.
     """
     first = -spoke.design.plate_width_mm / 2.0
-    parts = [ring_bricks(tyre, dimensions, state, first, first + spoke.design.spacing_mm)]
+    parts = [ring_bricks(tyre, dimensions, state, first, first + spoke.design.pitch_mm)]
     rim = float(tyre.mesh.radii[0]) - spoke.design.geometry.height_mm
     last = spoke.rest()
     for number, (angle, motion) in enumerate(zip(tyre.mesh.spoke_angle, state.motion, strict=True)):

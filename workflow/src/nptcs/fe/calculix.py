@@ -60,7 +60,7 @@ class BrickMesh:
 def brick_mesh(design: SpokeDesign) -> BrickMesh:
     """Mesh one period of a spoke with 20-node bricks, each ply its own layer."""
     rows, x, has_plate = section_grid(design.geometry, design.mesh)
-    y = axial_grid(design.mesh, design.spacing_mm, design.plate_width_mm)
+    y = axial_grid(design.mesh, design.pitch_mm, design.plate_width_mm)
     inner = 2 * design.mesh.columns
     split = np.array([0.25, 0.5, 0.75])
     between = x[:, [inner]] + (x[:, [inner + 1]] - x[:, [inner]]) * split
@@ -116,7 +116,7 @@ def deck(design: SpokeDesign, mesh: BrickMesh, element: str, u_r_mm: Sequence[fl
     """Write the deck of a mesh of bricks of one CalculiX element type."""
     lines = [
         "** One axial period of a spoke of a non-pneumatic tyre. Units: N, mm, MPa.",
-        f"** The whole spoke carries {design.periods:.6g} times the forces printed here.",
+        f"** The whole spoke carries {design.plates} times the forces printed here.",
         "** x along the circumference, y along the axis (periodic), z along the radius.",
         "*NODE, NSET=NALL",
     ]

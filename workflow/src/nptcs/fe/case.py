@@ -28,16 +28,17 @@ def spoke_design(
     values : mapping
         ``spacing_mm``, ``thickness_mm``, ``angle_deg``, ``spoke_c10_mpa``.
     """
+    plates = tyre.plates_across(values["spacing_mm"])
     return SpokeDesign(
         geometry=model.geometry,
         mesh=model.spoke_mesh,
-        spacing_mm=values["spacing_mm"],
+        pitch_mm=tyre.tread_width_mm / plates,
         plate_width_mm=tyre.plate_width_mm,
         thickness_mm=values["thickness_mm"],
         angle_deg=values["angle_deg"],
         c10_mpa=values["spoke_c10_mpa"],
         ply=dict(ply),
-        width_mm=tyre.tread_width_mm,
+        plates=plates,
     )
 
 

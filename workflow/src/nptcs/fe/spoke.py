@@ -27,22 +27,20 @@ class SpokeError(RuntimeError):
 
 @dataclass(frozen=True)
 class SpokeDesign:
-    """What makes one spoke differ from another; two equal designs share their results."""
+    """What makes one spoke differ from another; two equal designs share their results.
+
+    The width is shared out evenly: `plates` periods of `pitch_mm`, with a plate in each.
+    """
 
     geometry: SpokeGeometry
     mesh: SpokeMesh
-    spacing_mm: float
+    pitch_mm: float
     plate_width_mm: float
     thickness_mm: float
     angle_deg: float
     c10_mpa: float
     ply: Mapping[str, float]
-    width_mm: float
-
-    @property
-    def periods(self) -> float:
-        """Plates across the tyre: the factor from one period to the whole spoke."""
-        return self.width_mm / self.spacing_mm
+    plates: int
 
 
 @dataclass
@@ -86,7 +84,7 @@ class SpokeModel:
     def __init__(self, design: SpokeDesign) -> None:
         self.design = design
         self.mesh = build_period(
-            design.geometry, design.mesh, design.spacing_mm, design.plate_width_mm
+            design.geometry, design.mesh, design.pitch_mm, design.plate_width_mm
         )
         bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
         self.rubbers = [
@@ -112,7 +110,7 @@ class SpokeModel:
         self._top_dofs = np.arange(self._count - row, self._count)
         self._arm = self.mesh.positions[self.mesh.top, 0]
         self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
-        self.scale = self.design.periods
+        self.scale = float(design.plates)
 
     @property
     def blocks(self) -> list[RubberBlock | LinearBlock]:

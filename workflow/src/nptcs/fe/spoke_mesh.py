@@ -41,7 +41,7 @@ class PeriodMesh:
     rubber, layer, plate : ElementSet
         Rubber beside the plate's layer, rubber in that layer, and the plate itself.
     nodes_per_row : int
-    spacing_mm : float
+    pitch_mm : float
         Period along the axis.
     plate_axes : array (2, 3, 3)
         Local axes of the plates of the lower and the upper leg, as columns: along the leg, along
@@ -53,7 +53,7 @@ class PeriodMesh:
     layer: ElementSet
     plate: ElementSet
     nodes_per_row: int
-    spacing_mm: float
+    pitch_mm: float
     plate_axes: Array
 
     @property
@@ -114,15 +114,15 @@ def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array
     return rows, centre[:, None] + offsets, has_plate
 
 
-def axial_grid(mesh: SpokeMesh, spacing_mm: float, plate_width_mm: float) -> Array:
+def axial_grid(mesh: SpokeMesh, pitch_mm: float, plate_width_mm: float) -> Array:
     """Axial places of the node planes, from one edge of a plate to the same edge of the next."""
     half = plate_width_mm / 2.0
-    breaks = np.array([-half, half, spacing_mm - half])
+    breaks = np.array([-half, half, pitch_mm - half])
     return _midpoints(_subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))
 
 
 def build_period(
-    geometry: SpokeGeometry, mesh: SpokeMesh, spacing_mm: float, plate_width_mm: float
+    geometry: SpokeGeometry, mesh: SpokeMesh, pitch_mm: float, plate_width_mm: float
 ) -> PeriodMesh:
     """Mesh one axial period of a spoke.
 
@@ -130,7 +130,7 @@ def build_period(
     ----------
     geometry : SpokeGeometry
     mesh : SpokeMesh
-    spacing_mm : float
+    pitch_mm : float
         Axial distance from plate to plate.
     plate_width_mm : float
 
@@ -139,12 +139,12 @@ def build_period(
     ValueError
         If the plates touch.
     """
-    if spacing_mm <= plate_width_mm:
+    if pitch_mm <= plate_width_mm:
         raise ValueError(
-            f"spacing {spacing_mm} mm leaves no rubber beside {plate_width_mm} mm plates"
+            f"a pitch of {pitch_mm:g} mm leaves no rubber beside {plate_width_mm} mm plates"
         )
     rows, x, has_plate = section_grid(geometry, mesh)
-    y = axial_grid(mesh, spacing_mm, plate_width_mm)
+    y = axial_grid(mesh, pitch_mm, plate_width_mm)
     across = len(y) - 1
     columns = x.shape[1]
     positions = np.empty((len(rows), across, columns, 3))
@@ -166,7 +166,7 @@ def build_period(
         layer=grid.elements([(r, s, inner) for r, s in layer_all], 2),
         plate=grid.elements([(r, s, inner) for r, s in plate_all], 2),
         nodes_per_row=across * columns,
-        spacing_mm=spacing_mm,
+        pitch_mm=pitch_mm,
         plate_axes=np.stack([_leg_axes(-slope), _leg_axes(slope)]),
     )
 

@@ -173,10 +173,10 @@ def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeS
     lengths = chebyshev_nodes(*options.chord_mm, options.samples[0])
     turns = chebyshev_nodes(-options.inclination_rad, options.inclination_rad, options.samples[1])
     rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
-    rest = model.rest()
+    start = model.rest()
     for turn, phi in product(turns[turns > -1e-12], rotations):
         motions = _row(model, options, turn, phi, np.array([0.0]))
-        start = model.move(rest, motions[0])
+        start = model.move(start, motions[0])
         states = [start, *model.walk(start, _row(model, options, turn, phi, lengths[lengths > 0]))]
         try:
             down = _row(model, options, turn, phi, lengths[lengths < 0][::-1])

@@ -58,7 +58,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
             status=Status.DIVERGED,
             message=f"ccx ended with code {ended.code} after {len(force)} of {2 * STEPS} steps",
         )
-    radial = force[:, 2] * design.periods
+    radial = force[:, 2] * design.plates
     return _result(pulled, radial[:STEPS], pressed, -radial[STEPS:])
 
 
