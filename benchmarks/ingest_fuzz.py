@@ -351,7 +351,7 @@ def fuzz(
     outcome: Counter[str] = Counter()
     failures: list[str] = []
     with tempfile.TemporaryDirectory() as folder, warnings.catch_warnings():
-        warnings.simplefilter("error")
+        warnings.simplefilter("error")  # hides none: a warning of any library counts as a crash
         starts = bases(profiles, labdata)
         for number in range(inputs):
             base = starts[number % len(starts)]

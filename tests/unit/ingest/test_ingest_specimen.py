@@ -154,6 +154,9 @@ def test_every_file_is_accounted_for(tmp_path, profiles):
         export(tmp_path / name)
     (tmp_path / "c.csv").write_text("no numbers here")
     (tmp_path / ".hidden").write_text("x")
+    (tmp_path / "more").mkdir()
+    for note in ("README.md", "Readme.txt", "more/README", "readme.csv", "README.md.txt"):
+        (tmp_path / note).write_text("notes")
     sheet = tmp_path / "specimens.csv"
     rows = [
         "A,tension,cfrp,0,10,1,a.csv,yes,",
@@ -176,6 +179,11 @@ def test_every_file_is_accounted_for(tmp_path, profiles):
         "b.csv": "left out",
         "c.csv": "not understood",
         "d.csv": "not understood",
+        "README.md": "note",
+        "Readme.txt": "note",
+        "more/README": "note",
+        "readme.csv": "not named",
+        "README.md.txt": "not named",
         "specimens.csv": "sheet",
         "stray.csv": "not named",
         "gone.csv": "missing",
@@ -267,8 +275,11 @@ def test_new_sheet_pairs_by_name_and_leaves_open_what_it_cannot_know(tmp_path, c
         lines = ["count;exx [1];eyy [1]", *(f"{n};0.00{n};-0.000{n}" for n in range(1, 9))]
         (tmp_path / f"P-{number}_vic3d.csv").write_text("\n".join(lines))
     (tmp_path / "notes.txt").write_text("see the folder")
+    export(tmp_path / "README.txt", header=["An excerpt of P-1:"])
     assert run(new_sheet, str(tmp_path), "--formats", str(FORMATS)) == 0
-    assert "notes.txt: no table of numbers" in capsys.readouterr().out
+    printed = capsys.readouterr().out
+    assert "notes.txt: no table of numbers" in printed
+    assert "README" not in printed
     table = pd.read_csv(tmp_path / "specimens.csv", dtype=str).fillna("")
     assert list(table["specimen"]) == ["P-1", "P-2", "P-11"]
     assert list(table["strain_file"]) == ["P-1_vic3d.csv", "P-2_vic3d.csv", "P-11_vic3d.csv"]

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+import io
+import re
+import warnings
+import zipfile
 from datetime import datetime
 from pathlib import Path
 
@@ -9,6 +13,7 @@ import openpyxl
 import pytest
 
 from nptcs.errors import InputError
+from nptcs.ingest.workbooks import read_workbook
 
 HERE = Path(__file__).parent
 ROWS = [(0.1 * n, 1.5 * n, 0.0125 * n) for n in range(1, 9)]
@@ -86,3 +91,44 @@ def test_damaged_old_workbook_is_refused(read):
     content = (HERE / "data" / "zwick.xls").read_bytes()
     with pytest.raises(InputError, match="workbook cannot be read"):
         read(content[:1500], name="test.xls")
+
+
+@pytest.mark.parametrize(
+    ("offset", "value", "message"),
+    [(8, 1, "RuntimeError: .*encrypted"), (10, 99, "NotImplementedError: .*compression")],
+    ids=["encrypted", "packed in an unknown way"],
+)
+def test_a_workbook_that_cannot_be_unpacked_is_refused(read, tmp_path, offset, value, message):
+    content = bytearray(workbook(tmp_path, {"A": [NAMES, UNITS, *ROWS]}))
+    entry = content.find(b"PK\x01\x02")  # of the zip's directory
+    while entry >= 0:
+        content[entry + offset] = value
+        entry = content.find(b"PK\x01\x02", entry + 1)
+    with pytest.raises(InputError, match=f"workbook cannot be read: {message}"):
+        read(bytes(content), name="test.xlsx")
+
+
+def without_default_style(content):
+    """Leave the named styles out, as some programs do; openpyxl warns of it."""
+    out = io.BytesIO()
+    with zipfile.ZipFile(io.BytesIO(content)) as old, zipfile.ZipFile(out, "w") as new:
+        for name in old.namelist():
+            part = old.read(name)
+            new.writestr(name, re.sub(rb"<cellStyles.*</cellStyles>", b"", part, flags=re.S))
+    return out.getvalue()
+
+
+def test_warnings_of_the_library_are_notes_of_each_file(tmp_path):
+    content = without_default_style(workbook(tmp_path, {"A": [NAMES, UNITS, *ROWS]}))
+    for _ in range(2):
+        _, notes = read_workbook(tmp_path / "made.xlsx", content, frozenset())
+        assert notes == ("Workbook contains no default style, apply openpyxl's default",)
+
+
+def test_other_warnings_are_left_to_the_caller(tmp_path, monkeypatch):
+    def deprecated(raw):
+        warnings.warn("old call", DeprecationWarning, stacklevel=1)
+
+    monkeypatch.setattr("nptcs.ingest.workbooks._xlsx", deprecated)
+    with pytest.raises(DeprecationWarning, match="old call"):
+        read_workbook(tmp_path / "made.xlsx", b"PK\x03\x04", frozenset())

@@ -152,8 +152,8 @@ def card(synthetic=True):
 
 def as_table(rows, name):
     """Lay rows out as a result table; columns that are not given are empty."""
-    columns = list(TABLES[name].to_schema().columns)
-    return check(pd.DataFrame(rows).reindex(columns=columns), TABLES[name], name)
+    columns = list(TABLES[name].contract.to_schema().columns)
+    return check(pd.DataFrame(rows).reindex(columns=columns), TABLES[name].contract, name)
 
 
 def properties(sheet):
@@ -191,7 +191,8 @@ def files(sheet):
         for s in sheet
     ]
     rows.append(("notes.txt", "not named", "", "", "no row names it", 3, "1" * 64))
-    return pd.DataFrame(rows, columns=list(TABLES["files.csv"].to_schema().columns))
+    rows.append(("README.md", "note", "", "", "a README is a note", 3, "2" * 64))
+    return pd.DataFrame(rows, columns=list(TABLES["files.csv"].contract.to_schema().columns))
 
 
 def ranges():
@@ -254,18 +255,18 @@ def results(config):
         coefficients={name: part[1] for name, part in parts.items()},
         files=files(sheet),
         specimens=properties(sheet),
-        statistics=empty_table(TABLES["statistics.csv"]),
-        models=empty_table(TABLES["hyperelastic_models.csv"]),
+        statistics=empty_table(TABLES["statistics.csv"].contract),
+        models=empty_table(TABLES["hyperelastic_models.csv"].contract),
         ranges=ranges(),
         cases=pd.concat(cases.values(), ignore_index=True),
         quality=pd.concat([part[2] for part in parts.values()], ignore_index=True),
         impact=with_published(impacts, pd.read_csv(PUBLISHED / "table9_impact.csv")),
-        spoke_stiffness=empty_table(TABLES["spoke_stiffness.csv"]),
-        spoke_curves=empty_table(TABLES["spoke_curves.csv"]),
-        against_published=empty_table(TABLES["stiffness_against_published.csv"]),
-        stiffness_errors=empty_table(TABLES["stiffness_errors.csv"]),
-        stiffness_by_level=empty_table(TABLES["stiffness_by_level.csv"]),
-        neutral_line=empty_table(TABLES["neutral_line.csv"]),
+        spoke_stiffness=empty_table(TABLES["spoke_stiffness.csv"].contract),
+        spoke_curves=empty_table(TABLES["spoke_curves.csv"].contract),
+        against_published=empty_table(TABLES["stiffness_against_published.csv"].contract),
+        stiffness_errors=empty_table(TABLES["stiffness_errors.csv"].contract),
+        stiffness_by_level=empty_table(TABLES["stiffness_by_level.csv"].contract),
+        neutral_line=empty_table(TABLES["neutral_line.csv"].contract),
         lca_validation=lca_validation(
             spokes, table_11, pd.read_csv(PUBLISHED / "figure15_load_errors.csv"), tyre
         ),

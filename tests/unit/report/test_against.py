@@ -10,10 +10,10 @@ import pytest
 from nptcs.report import catalogue
 from nptcs.report.against import (
     against_section,
-    level_words,
+    level_facts,
     line_words,
     side_by_side,
-    spoke_words,
+    spoke_facts,
 )
 from nptcs.report.data import factor_labels
 from nptcs.report.figures_against import level_differences, main_effect, neutral_lines, parity
@@ -24,7 +24,7 @@ from nptcs.report.ranking import side_by_side as ranks_side_by_side
 from nptcs.report.ranking import verdicts
 from nptcs.report.sheets import sheets_of
 from nptcs.report.spokes import spoke_section, what_differs
-from nptcs.report.view import Listing, Plots, TableView, Text
+from nptcs.report.view import Facts, Listing, Plots, TableView, Text
 from nptcs.report.workbook import build_workbook
 
 SOLVERS = ["fe_tyre", "lca"]
@@ -85,24 +85,25 @@ def test_the_glance_gives_blind_and_calibrated_errors_apart(compared):
 
 
 def test_words_on_levels_give_signed_means_and_directions(compared):
-    words = level_words(compared)
-    spoke = next(text for text in words if "S-C" in text)
+    words = {fact.what: fact.result for fact in level_facts(compared)}
+    spoke = words["spoke C10 (S-C) [MPa], study rubber, solver fe_tyre"]
     assert "+2.0 % at 1, +1.0 % at 2, +0.0 % at 3, -1.0 % at 4, -2.0 % at 5" in spoke
     assert "every step has the published direction" in spoke
     # made-up differences jump by 3 % at 60 deg, against table 5's means: 263.42 falls to 256.52
-    angle = next(text for text in words if "fibre angle" in text)
+    angle = words["fibre angle A [deg], study plate, solver fe_tyre"]
     assert "other direction than published: 45 to 60 (+" in angle
     assert "published -6.90)" in angle
 
 
 def test_the_spokes_differences_stand_beside_those_of_the_tyres(compared):
-    (text,) = spoke_words(compared.spoke_stiffness)
+    (fact,) = spoke_facts(compared.spoke_stiffness)
+    text = fact.result
     first = compared.spoke_stiffness.iloc[0]
     assert f"tension {first['tension_difference_percent']:+.1f} % at 1, " in text
     assert "; compression +" in text
     assert "at 5" not in text  # it diverged
-    (listing,) = blocks(against_section(compared, sheets_of(compared)), Listing)[:1]
-    assert listing.items[-1] == text
+    (facts,) = blocks(against_section(compared, sheets_of(compared)), Facts)
+    assert facts.facts == (*level_facts(compared), fact)
 
 
 def test_parity_shows_every_case_and_the_bands(compared):

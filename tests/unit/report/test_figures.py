@@ -6,7 +6,7 @@ import pytest
 
 from nptcs.report.data import factor_labels
 from nptcs.report.figures_impact import impact_bars, ranked
-from nptcs.report.figures_lca import ring_shape
+from nptcs.report.figures_lca import load_displacement, ring_shape
 from nptcs.report.figures_materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
 from nptcs.report.figures_surface import STIFFNESS, contours, middle_level, slices
 from nptcs.report.style import to_svg
@@ -122,3 +122,16 @@ def test_the_ring_stands_on_the_ground(results):
     assert lowest == pytest.approx(shape["y_mm"].min())
     assert np.nanmin(drawn["tension"].get_ydata()) > lowest
     assert figure.axes[0].get_aspect() == 1
+
+
+def test_displacements_are_lines_by_rubber_with_the_printed_ones_on_them(results):
+    table = results.lca_validation
+    table = table[table["section"] == "sandwich"].sample(frac=1, random_state=1)
+    drawn = lines(load_displacement(table))
+    rubbers = [f"{c10:g}" for c10 in sorted(set(table["spoke_c10_mpa"]))]
+    assert set(rubbers) <= set(drawn)
+    assert len({drawn[c10].get_color() for c10 in rubbers}) == len(rubbers)
+    soft = table[table["spoke_c10_mpa"] == table["spoke_c10_mpa"].min()].sort_values("load_n")
+    np.testing.assert_array_equal(drawn[rubbers[0]].get_xdata(), soft["load_n"])
+    np.testing.assert_array_equal(drawn[rubbers[0]].get_ydata(), soft["displacement_mm"])
+    np.testing.assert_array_equal(drawn["_printed"].get_ydata(), table["published_displacement_mm"])

@@ -113,6 +113,19 @@ def test_every_problem_stands_at_the_top(faulty_html):
     assert "unsound" not in faulty_html[len(head) :]
 
 
+def test_stray_files_are_pointed_out_at_the_top_and_notes_are_not(page):
+    head, rest = page.text.split("Specimens and files", 1)
+    assert "No row of the sheet names these files of the folder: notes.txt " in head
+    assert "README" not in head
+    assert "README.md note" in rest
+
+
+def test_no_line_breaks_between_a_number_and_its_percent_sign(html):
+    facts = "".join(re.findall(r"<dd>(.*?)</dd>", html, re.S))
+    assert re.search(r"\d\u00a0%", facts)
+    assert " %" not in facts
+
+
 def test_synthetic_data_carry_the_badge_and_measured_ones_do_not(html, measured, undrawn):
     assert html.count('<span class="badge">SYNTHETIC DATA</span>') > 10
     assert "SYNTHETIC" not in render_report(measured)

@@ -8,7 +8,9 @@ import openpyxl
 import pandas as pd
 import pytest
 
-from nptcs.report.sheets import sheets_of
+from nptcs.report.catalogue import IMPACT, design_entry, surface_entry
+from nptcs.report.dictionary import dictionary_table
+from nptcs.report.sheets import Sheet, sheets_of
 from nptcs.report.workbook import build_workbook
 
 
@@ -92,3 +94,11 @@ def test_the_columns_are_explained(workbook):
 
 def test_the_same_results_give_the_same_bytes(content, results):
     assert build_workbook(results) == content
+
+
+def test_a_study_named_as_a_table_does_not_get_its_meanings():
+    table = pd.DataFrame({"rank": [1], "coefficient_natural": [1.0]})
+    sheets = [Sheet(entry, table) for entry in (IMPACT, design_entry("impact"))]
+    assert dictionary_table(sheets)["meaning"].astype(bool).tolist() == [True, False, False, False]
+    surface = dictionary_table([Sheet(surface_entry("impact"), table)])
+    assert surface["meaning"].astype(bool).tolist() == [False, True]

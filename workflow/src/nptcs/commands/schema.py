@@ -74,10 +74,11 @@ def tables_text() -> str:
         "`results/workbook.xlsx`; empty means not given.",
         "",
     ]
-    for file, contract in TABLES.items():
-        schema = contract.to_schema()
-        text = " ".join((contract.__doc__ or "").split())
-        lines += [f"## `{file}`", "", text, "", "| column | type | may be empty | meaning |"]
+    for file, table in TABLES.items():
+        schema = table.contract.to_schema()
+        text = " ".join((table.contract.__doc__ or "").split())
+        lines += [f"## `{file}`", "", f"{table.title}. Rule {table.rule}; from {table.source}."]
+        lines += ["", text, "", "| column | type | may be empty | meaning |"]
         lines += ["|---|---|---|---|"]
         for name, column in schema.columns.items():
             empty = "yes" if column.nullable else "no"

@@ -15,6 +15,9 @@ from nptcs.tables.curves import IngestRecord
 from nptcs.tables.files import Files
 from nptcs.tables.specimens import Specimen, files_named, read_sheet
 
+NOTES = ("readme", "readme.md", "readme.txt")
+"""Names, in any case, of files that are notes to the reader and no test data."""
+
 
 def raw_files(folder: Path) -> dict[str, Path]:
     """All files below a folder but hidden ones: relative name → path, in natural order."""
@@ -24,6 +27,11 @@ def raw_files(folder: Path) -> dict[str, Path]:
         if path.is_file() and not any(part.startswith(".") for part in path.parts[-3:])
     }
     return dict(sorted(found.items(), key=lambda item: natural_key(item[0])))
+
+
+def is_note(name: str) -> bool:
+    """Tell whether a file of the folder is a README, by its relative name."""
+    return name.rsplit("/", 1)[-1].casefold() in NOTES
 
 
 def natural_key(name: str) -> tuple[tuple[int, int, str], ...]:
@@ -113,6 +121,8 @@ def _status(
         return "sheet", ""
     if path is None:
         return "missing", f"named for {', '.join(ids)}, but not in the folder"
+    if not ids and is_note(name):
+        return "note", "a README is a note, no test data"
     if not ids:
         return "not named", "no row of the sheet names it"
     good = [id_ for id_ in ids if id_ in outcomes and outcomes[id_].status == "ok"]

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.ingest.columns import LOADS, STRAINS, Test
-from nptcs.ingest.folder import raw_files
+from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
 from nptcs.ingest.labels import LabelValue
 from nptcs.ingest.profiles import FormatProfile
@@ -47,6 +47,7 @@ def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Propos
     A file of strains only goes with the force file of the same name, role words such as
     ``_vic3d`` apart. Dimensions come from the files' headers. Test, material and fibre angle
     cannot be known from a file and stay empty: the sheet is refused until they are filled in.
+    A README is a note and is passed over.
 
     Raises
     ------
@@ -56,6 +57,8 @@ def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Propos
     proposal = Proposal()
     strains: dict[str, str] = {}
     for name, path in raw_files(folder).items():
+        if is_note(name):
+            continue
         try:
             inspection = inspect_file(path, profiles)
         except InputError as error:

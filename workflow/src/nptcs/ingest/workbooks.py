@@ -26,8 +26,7 @@ _DAMAGE = (
     AttributeError,
     EOFError,
     OSError,
-    NotImplementedError,
-    RuntimeError,
+    RuntimeError,  # zipfile: encrypted, or (its subclass NotImplementedError) packed unknown ways
 )
 """What openpyxl and xlrd raise for a damaged or encrypted file."""
 
@@ -42,7 +41,8 @@ def read_workbook(
 ) -> tuple[list[SheetSource], tuple[str, ...]]:
     """Read all sheets that hold anything, and the reader's warnings as notes."""
     with warnings.catch_warnings(record=True) as caught:
-        warnings.simplefilter("always")
+        # recorded, none hidden: each of openpyxl's becomes a note, also of the second such file
+        warnings.simplefilter("always", UserWarning)
         try:
             sheets = _xlsx(raw) if raw.startswith(ZIP) else _xls(raw)
         except _DAMAGE as error:

@@ -22,6 +22,8 @@ from nptcs.report.sheets import Sheets
 from nptcs.report.units import Heading
 from nptcs.report.view import (
     Block,
+    Fact,
+    Facts,
     Listing,
     Plot,
     Plots,
@@ -65,9 +67,9 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[Block]:
             "marks are cases that the solver was calibrated on.",
             tuple(_parity(results, study) for study in studies),
         ),
-        Listing(
-            "Where the differences lie",
-            (*level_words(results), *spoke_words(results.spoke_stiffness)),
+        Facts(
+            "Where the differences lie, as means at each level",
+            (*level_facts(results), *spoke_facts(results.spoke_stiffness)),
         ),
         Plots(
             "Main effects: mean stiffness over the cases at a level, published and computed.",
@@ -118,9 +120,9 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
     return plots
 
 
-def level_words(results: Results) -> list[str]:
+def level_facts(results: Results) -> list[Fact]:
     """Say how the signed difference runs with each factor, and which steps go the other way."""
-    sentences = []
+    facts = []
     for study in results.config.studies:
         labels = factor_labels(study)
         table = results.stiffness_by_level
@@ -131,17 +133,15 @@ def level_words(results: Results) -> list[str]:
                 f"{row.mean_difference_percent:+.1f} % at {row.level:g}"
                 for row in levels.itertuples()
             )
-            sentences.append(
-                f"{solver}, study {study.name}, {label.label} [{label.unit}]: mean difference "
-                f"{means}. {_trend(levels)}"
-            )
-    return sentences
+            what = f"{label.label} [{label.unit}], study {study.name}, solver {solver}"
+            facts.append(Fact(what, f"{means}; {_trend(levels)}", "stiffness_by_level.csv"))
+    return facts
 
 
-def spoke_words(lines: pd.DataFrame) -> list[str]:
+def spoke_facts(lines: pd.DataFrame) -> list[Fact]:
     """Say how single spokes differ from table 10: what a tyre of such spokes starts from."""
     compared = lines.dropna(subset=[f"{name}_difference_percent" for name in DIRECTIONS])
-    sentences = []
+    facts = []
     for (study, solver), rows in compared.groupby(["study", "solver"], sort=False):
         parts = [
             f"{name} "
@@ -153,11 +153,12 @@ def spoke_words(lines: pd.DataFrame) -> list[str]:
             )
             for name in DIRECTIONS
         ]
-        sentences.append(
-            f"Beside this, the single spokes of {solver} (study {study}) against table 10, by "
-            f"spoke C10 [MPa]: {'; '.join(parts)}."
+        what = (
+            f"Beside this, single spokes against table 10, by spoke C10 [MPa], study {study}, "
+            f"solver {solver}"
         )
-    return sentences
+        facts.append(Fact(what, "; ".join(parts), "spoke_stiffness.csv"))
+    return facts
 
 
 def _trend(levels: pd.DataFrame) -> str:
@@ -174,13 +175,13 @@ def _trend(levels: pd.DataFrame) -> str:
         if (ours[step + 1] - ours[step]) * (theirs[step + 1] - theirs[step]) < 0
     ]
     change = (
-        f"From lowest to highest level the mean changes by "
+        f"mean stiffness from lowest to highest level "
         f"{levels['computed_change_percent'].iloc[-1]:+.1f} %, published "
         f"{levels['published_change_percent'].iloc[-1]:+.1f} %"
     )
     if against:
-        return f"{change}; steps in the other direction than published: {joined(against)}."
-    return f"{change}; every step has the published direction."
+        return f"{change}; steps in the other direction than published: {joined(against)}"
+    return f"{change}; every step has the published direction"
 
 
 def _side_by_side(results: Results, study: Study) -> TableView:

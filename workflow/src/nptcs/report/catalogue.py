@@ -1,11 +1,17 @@
-"""Every table of the results: what it says, which rule made it, and from what."""
+"""Every table of the report and the workbook: what it says, which rule made it, and from what.
+
+Tables of ``results/tables`` are those of `nptcs.tables.catalogue`; here they get their headings.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, replace
 
+import pandera.pandas as pa
+
 from nptcs.report.units import Heading
+from nptcs.tables.catalogue import TABLES
 
 IMPACT_HEADINGS = {
     "gradient": Heading("gradient", "N/mm per unit of the factor"),
@@ -60,6 +66,8 @@ class Entry:
         What the rule made it from, and how.
     headings : mapping of str to Heading
         Headings of columns whose names do not state the unit.
+    contract : type of DataFrameModel, optional
+        Contract of its columns, which says what they mean.
     """
 
     sheet: str
@@ -68,19 +76,28 @@ class Entry:
     rule: str
     source: str
     headings: Mapping[str, Heading] = field(default_factory=dict)
+    contract: type[pa.DataFrameModel] | None = None
 
     def with_headings(self, headings: Mapping[str, Heading]) -> Entry:
         """Return the same entry for a view of it that has columns of its own."""
         return replace(self, headings={**self.headings, **headings})
 
 
-PROBLEMS = Entry(
-    "problems",
-    "Problems: everything that gave no result, and why",
-    "results/tables/problems.csv",
-    "problems",
-    "specimen sheet, ingest records, reduction, case records and surface fits",
-)
+def _entry(name: str, headings: Mapping[str, Heading] | None = None) -> Entry:
+    """Return the entry of a table of ``results/tables``; its sheet is named as its file."""
+    table = TABLES[name]
+    return Entry(
+        name.removesuffix(".csv"),
+        table.title,
+        f"results/tables/{name}",
+        table.rule,
+        table.source,
+        headings or {},
+        table.contract,
+    )
+
+
+PROBLEMS = _entry("problems.csv")
 SHEET = Entry(
     "specimen_sheet",
     "Specimen sheet: what the laboratory states of each specimen",
@@ -88,13 +105,7 @@ SHEET = Entry(
     "(input)",
     "written by the laboratory; the area is mean width × mean thickness",
 )
-FILES = Entry(
-    "files",
-    "Every file of the laboratory's folder and what became of it",
-    "results/tables/files.csv",
-    "account",
-    "the folder of the specimen sheet and the ingest records",
-)
+FILES = _entry("files.csv")
 CONDITIONING = Entry(
     "conditioning",
     "How each curve came about: strain source, conditioning, flags",
@@ -102,20 +113,8 @@ CONDITIONING = Entry(
     "ingest",
     "raw files, format profiles and the section `ingest` of the configuration",
 )
-SPECIMENS = Entry(
-    "specimens",
-    "Properties of each specimen",
-    "results/tables/specimens.csv",
-    "reduce, statistics",
-    "the specimens' curves, by the rule and the range in each row",
-)
-STATISTICS = Entry(
-    "statistics",
-    "Statistics of each group of specimens",
-    "results/tables/statistics.csv",
-    "statistics",
-    "the properties of the specimens that the sheet includes",
-)
+SPECIMENS = _entry("specimens.csv")
+STATISTICS = _entry("statistics.csv")
 PLY = Entry(
     "ply_constants",
     "Constants of the orthotropic ply",
@@ -134,109 +133,23 @@ RUBBERS = Entry(
         "strain_high": Heading("strain range to", "1"),
     },
 )
-MODELS = Entry(
-    "hyperelastic_models",
-    "Hyperelastic models compared",
-    "results/tables/hyperelastic_models.csv",
-    "calibrate_rubber, material_card",
-    "the rubber curves; the study's model is the one on the card",
-)
-RANGES = Entry(
-    "c10_against_range",
-    "C10 against the strain range of the fit",
-    "results/tables/c10_against_range.csv",
-    "calibrate_rubber, material_card",
-    "the rubber curves, neo-Hookean fits to growing ranges",
-)
-CASES = Entry(
-    "cases",
-    "Every case of every study: how it ended and its responses",
-    "results/tables/cases.csv",
-    "solve, cases",
-    "one record a case; wall time is that of the run that solved the case",
-)
-QUALITY = Entry(
-    "surface_quality",
-    "How well each response surface follows its cases",
-    "results/tables/surface_quality.csv",
-    "surface, sensitivity",
-    "the solved cases and the surfaces fitted to them",
-    QUALITY_HEADINGS,
-)
-IMPACT = Entry(
-    "impact",
-    "Average gradients and comprehensive impact values, by every rule",
-    "results/tables/impact.csv",
-    "sensitivity",
-    "the response surfaces; printed values are those of table 9",
-    IMPACT_HEADINGS,
-)
-SPOKE_STIFFNESS = Entry(
-    "spoke_stiffness",
-    "Stiffness of single spokes, computed and table 10",
-    "results/tables/spoke_stiffness.csv",
-    "spoke_stiffness",
-    "the single spokes' curves, lines through the origin; printed values are those of table 10",
-    SPOKE_HEADINGS,
-)
-SPOKE_CURVES = Entry(
-    "spoke_curves",
-    "Force–displacement curves of single spokes (figure 13)",
-    "results/tables/spoke_curves.csv",
-    "spoke_stiffness",
-    "the records of the single spokes",
-)
-AGAINST_PUBLISHED = Entry(
-    "stiffness_against_published",
-    "Computed vertical stiffness beside the published one, case by case",
-    "results/tables/stiffness_against_published.csv",
-    "against_published",
-    "cases.csv; published values are those that the solver `published` looked up",
-)
-STIFFNESS_ERRORS = Entry(
-    "stiffness_errors",
-    "Differences from the published stiffness, blind cases apart from calibrated ones",
-    "results/tables/stiffness_errors.csv",
-    "against_published",
-    "stiffness_against_published.csv, summed up",
+MODELS = _entry("hyperelastic_models.csv")
+RANGES = _entry("c10_against_range.csv")
+CASES = _entry("cases.csv")
+QUALITY = _entry("surface_quality.csv", QUALITY_HEADINGS)
+IMPACT = _entry("impact.csv", IMPACT_HEADINGS)
+SPOKE_STIFFNESS = _entry("spoke_stiffness.csv", SPOKE_HEADINGS)
+SPOKE_CURVES = _entry("spoke_curves.csv")
+AGAINST_PUBLISHED = _entry("stiffness_against_published.csv")
+STIFFNESS_ERRORS = _entry(
+    "stiffness_errors.csv",
     {"compared": Heading("cases compared"), "largest_case_id": Heading("case of the largest")},
 )
-STIFFNESS_BY_LEVEL = Entry(
-    "stiffness_by_level",
-    "Main effects and differences by level of each factor",
-    "results/tables/stiffness_by_level.csv",
-    "against_published",
-    "stiffness_against_published.csv, averaged over the cases at each level",
-    LEVEL_HEADINGS,
-)
-NEUTRAL_LINE = Entry(
-    "neutral_line",
-    "Displacement of the band's neutral line, every solver (figure 14)",
-    "results/tables/neutral_line.csv",
-    "neutral_line",
-    "the records of the cases that the studies' neutral_line_cases names",
-)
-LCA_VALIDATION = Entry(
-    "lca_validation",
-    "The load-bearing model (LCA) against the published numbers",
-    "results/tables/lca_validation.csv",
-    "lca_validation",
-    "the model solved with table 10's spokes; printed values are those of tables 7 and 11",
-)
-LCA_AGAINST_FEM = Entry(
-    "lca_against_fem",
-    "The load-bearing model (LCA) against the FE stiffness of table 7",
-    "results/tables/lca_against_fem.csv",
-    "lca_validation",
-    "the model solved for the cases of table 7; FE values as printed there",
-)
-LCA_SHAPE = Entry(
-    "lca_shape",
-    "Deformed neutral line of the shear band, LCA",
-    "results/tables/lca_shape.csv",
-    "lca_validation",
-    "the same solutions of the model, evaluated along the ring",
-)
+STIFFNESS_BY_LEVEL = _entry("stiffness_by_level.csv", LEVEL_HEADINGS)
+NEUTRAL_LINE = _entry("neutral_line.csv")
+LCA_VALIDATION = _entry("lca_validation.csv")
+LCA_AGAINST_FEM = _entry("lca_against_fem.csv")
+LCA_SHAPE = _entry("lca_shape.csv")
 SOFTWARE = Entry(
     "software",
     "Software that built the report",
@@ -266,11 +179,10 @@ def design_entry(study: str) -> Entry:
 
 def surface_entry(study: str) -> Entry:
     """Return the entry of a study's table of coefficients."""
-    return Entry(
-        f"surface_{study}"[:31],
-        f"Response surfaces of the study {study}: coefficients",
-        f"results/tables/{study}_surface.csv",
-        "surface",
-        "solved cases, ordinary least squares in coded units, expanded to natural units",
-        SURFACE_HEADINGS,
+    entry = _entry("STUDY_surface.csv", SURFACE_HEADINGS)
+    return replace(
+        entry,
+        sheet=f"surface_{study}"[:31],
+        title=entry.title.replace("STUDY", study),
+        file=entry.file.replace("STUDY", study),
     )

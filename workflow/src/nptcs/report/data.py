@@ -213,7 +213,10 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         designs=dict(zip(studies, designs, strict=True)),
         surfaces=dict(zip(with_surface, surfaces, strict=True)),
         coefficients=dict(zip(with_surface, coefficients, strict=True)),
-        **{name: read_table(files[name], TABLES[table]) for name, table in PLAIN_TABLES.items()},
+        **{
+            name: read_table(files[name], TABLES[table].contract)
+            for name, table in PLAIN_TABLES.items()
+        },
     )
 
 

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from pathlib import PurePosixPath
 
 import pandas as pd
 
+from nptcs.report.catalogue import Entry
 from nptcs.report.sheets import Sheet
 from nptcs.report.units import heading
-from nptcs.tables.catalogue import TABLES
 
 
 def dictionary_table(sheets: Sequence[Sheet]) -> pd.DataFrame:
     """Lay out the columns of all sheets: heading, unit, name in the file, meaning."""
     rows = []
     for sheet in sheets:
-        meanings = _meanings(sheet.entry.file)
+        meanings = _meanings(sheet.entry)
         for column in map(str, sheet.table.columns):
             written = heading(column, sheet.entry.headings)
             rows.append(
@@ -25,15 +24,11 @@ def dictionary_table(sheets: Sequence[Sheet]) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=["sheet", "column", "unit", "name_in_file", "meaning"])
 
 
-def _meanings(file: str) -> dict[str, str]:
-    """Return the descriptions of a result table's columns."""
-    name = PurePosixPath(file).name
-    if name.endswith("_surface.csv"):
-        name = "STUDY_surface.csv"
-    contract = TABLES.get(name)
-    if contract is None:
+def _meanings(entry: Entry) -> dict[str, str]:
+    """Return the descriptions of the columns, where the table has a contract."""
+    if entry.contract is None:
         return {}
     return {
         str(column): field.description or ""
-        for column, field in contract.to_schema().columns.items()
+        for column, field in entry.contract.to_schema().columns.items()
     }

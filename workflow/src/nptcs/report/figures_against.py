@@ -10,7 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.report.figures_surface import FactorLabel
-from nptcs.report.style import COLOURS, GREY, MARKERS, mark_synthetic, panel, styled
+from nptcs.report.style import GREY, line_look, mark_synthetic, panel, styled
 from nptcs.tables.against_published import COMPUTED, PRINTED
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
@@ -27,12 +27,14 @@ LINES = ("-", "--", ":", "-.")
 
 def _look(solver: object, order: Sequence[str]) -> dict[str, Any]:
     """Give a solver the same colour and marker in all figures."""
-    number = list(order).index(str(solver))
-    return {
-        "color": COLOURS[number % len(COLOURS)],
-        "marker": MARKERS[number % len(MARKERS)],
-        "label": str(solver),
-    }
+    return {**line_look(list(order).index(str(solver))), "label": str(solver)}
+
+
+def _finished(figure: Figure, synthetic: bool) -> Figure:
+    """Put the legend below, and say so if the data are synthetic."""
+    figure.legend(loc="outside lower center", ncols=3)
+    mark_synthetic(figure, synthetic)
+    return figure
 
 
 @styled
@@ -70,9 +72,7 @@ def parity(
         axes.plot(rows[PRINTED], rows[COMPUTED], linestyle="", **look)
     axes.set(xlim=ends, ylim=ends)
     axes.set_aspect("equal")
-    figure.legend(loc="outside lower center", ncols=3)
-    mark_synthetic(figure, synthetic)
-    return figure
+    return _finished(figure, synthetic)
 
 
 @styled
@@ -110,9 +110,7 @@ def main_effect(
                 label="published" if same else f"published, cases of {solver}",
             )
         axes.plot(rows["level"], rows["computed_mean_n_per_mm"], **look)
-    figure.legend(loc="outside lower center", ncols=3)
-    mark_synthetic(figure, synthetic)
-    return figure
+    return _finished(figure, synthetic)
 
 
 @styled
@@ -144,9 +142,7 @@ def level_differences(
             **_look(solver, order),
         )
     axes.axhline(0, color="black", linewidth=0.8)
-    figure.legend(loc="outside lower center", ncols=3)
-    mark_synthetic(figure, synthetic)
-    return figure
+    return _finished(figure, synthetic)
 
 
 @styled
@@ -175,6 +171,4 @@ def neutral_lines(
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set_xticks(np.arange(-180, 181, 60))
     axes.set_xlim(-180, 180)
-    figure.legend(loc="outside lower center", ncols=3)
-    mark_synthetic(figure, synthetic)
-    return figure
+    return _finished(figure, synthetic)

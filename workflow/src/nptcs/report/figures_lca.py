@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from nptcs.report.style import COLOURS, GREY, MARKERS, panel, styled
+from nptcs.report.style import COLOURS, GREY, line_look, panel, styled
 
 SECTION_NAMES = {"sandwich": "sandwich section", "printed": "section as printed"}
 DIFFERENCES = {
@@ -25,6 +25,24 @@ REGION_COLOURS = {"contact": COLOURS[1], "compression": COLOURS[4], "tension": C
 HATCHES = ("", "//", "..", "xx")
 
 
+def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Figure, Axes]:
+    """Make a panel that is named after the section of the band that its rows are of."""
+    return panel(f"Our LCA, {SECTION_NAMES[table['section'].iloc[0]]}", x_label, y_label)
+
+
+def _line_a_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: str) -> None:
+    """Draw one column against another, a line for each C10 in the column `rubber`."""
+    for number, (c10, rows) in enumerate(table.groupby(rubber)):
+        rows = rows.sort_values(x)
+        axes.plot(rows[x], rows[y], label=f"{c10:g}", **line_look(number))
+
+
+def _rubber_legend(axes: Axes) -> None:
+    """Begin the axis at zero and name the lines by the spokes' rubber."""
+    axes.set_ylim(bottom=0)
+    axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2)
+
+
 @styled
 def load_displacement(table: pd.DataFrame) -> Figure:
     """Draw the displacement against the load, a line for each spoke rubber, figure 15.
@@ -36,27 +54,12 @@ def load_displacement(table: pd.DataFrame) -> Figure:
     table : DataFrame
         Rows of ``lca_validation.csv`` of one section.
     """
-    name = SECTION_NAMES[table["section"].iloc[0]]
-    figure, axes = panel(f"Our LCA, {name}", "vertical load [N]", "displacement [mm]")
-    for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
-        colour, marker = COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)]
-        rows = rows.sort_values("load_n")
-        axes.plot(
-            rows["load_n"], rows["displacement_mm"], color=colour, marker=marker, label=f"{c10:g}"
-        )
-        axes.plot(
-            rows["load_n"],
-            rows["published_displacement_mm"],
-            linestyle="none",
-            marker="o",
-            mfc="none",
-            mec="black",
-            ms=9,
-            label="_printed",
-        )
+    figure, axes = _section_panel(table, "vertical load [N]", "displacement [mm]")
+    _line_a_rubber(axes, table, "spoke_c10_mpa", "load_n", "displacement_mm")
+    printed = table["published_displacement_mm"]
+    axes.plot(table["load_n"], printed, "o", mfc="none", mec="black", ms=9, label="_printed")
     axes.plot([], [], "o", mfc="none", mec="black", ms=8, label="printed")
-    axes.set_ylim(bottom=0)
-    axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2)
+    _rubber_legend(axes)
     return figure
 
 
@@ -71,14 +74,9 @@ def contact_against_load(table: pd.DataFrame, column: str) -> Figure:
     column : str
         A key of `CONTACT`.
     """
-    name = SECTION_NAMES[table["section"].iloc[0]]
-    figure, axes = panel(f"Our LCA, {name}", "vertical load [N]", CONTACT[column])
-    for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
-        colour, marker = COLOURS[number % len(COLOURS)], MARKERS[number % len(MARKERS)]
-        rows = rows.sort_values("load_n")
-        axes.plot(rows["load_n"], rows[column], color=colour, marker=marker, label=f"{c10:g}")
-    axes.set_ylim(bottom=0)
-    axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2)
+    figure, axes = _section_panel(table, "vertical load [N]", CONTACT[column])
+    _line_a_rubber(axes, table, "spoke_c10_mpa", "load_n", column)
+    _rubber_legend(axes)
     return figure
 
 
@@ -93,8 +91,7 @@ def differences(table: pd.DataFrame, limit: float) -> Figure:
     limit : float
         Largest difference on the axis, in percent, the same for all sections.
     """
-    name = SECTION_NAMES[table["section"].iloc[0]]
-    figure, axes = panel(f"Our LCA, {name}", "spoke C10 [MPa]", "computed − printed [%]")
+    figure, axes = _section_panel(table, "spoke C10 [MPa]", "computed − printed [%]")
     series = {label: table[column].to_numpy() for column, label in DIFFERENCES.items()}
     _grouped_bars(axes, [f"{c10:g}" for c10 in table["spoke_c10_mpa"]], series)
     axes.axhline(0, color="black", linewidth=0.8)
@@ -140,16 +137,8 @@ def fem_differences(table: pd.DataFrame, limit: float) -> Figure:
     limit : float
         Largest difference on the axis, in percent, the same for all sections.
     """
-    name = SECTION_NAMES[table["section"].iloc[0]]
-    figure, axes = panel(f"Our LCA, {name}", "spoke C10 [MPa]", "LCA − FEM, stiffness [%]")
-    for number, (c10, rows) in enumerate(table.groupby("shear_band_c10_mpa")):
-        axes.plot(
-            rows["spoke_c10_mpa"],
-            rows["fem_difference_percent"],
-            color=COLOURS[number % len(COLOURS)],
-            marker=MARKERS[number % len(MARKERS)],
-            label=f"{c10:g}",
-        )
+    figure, axes = _section_panel(table, "spoke C10 [MPa]", "LCA − FEM, stiffness [%]")
+    _line_a_rubber(axes, table, "shear_band_c10_mpa", "spoke_c10_mpa", "fem_difference_percent")
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set_ylim(-limit, limit)
     figure.legend(

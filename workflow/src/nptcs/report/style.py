@@ -71,6 +71,11 @@ def panel(
     return figure, axes
 
 
+def line_look(number: int) -> dict[str, Any]:
+    """Colour and marker of a figure's line of that number, from 0."""
+    return {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
+
+
 def mark_synthetic(figure: Figure, synthetic: bool) -> None:
     """Write across a figure that it shows synthetic data."""
     if synthetic:

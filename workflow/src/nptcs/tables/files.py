@@ -5,7 +5,7 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-STATUSES = ("used", "left out", "not understood", "not named", "missing", "sheet")
+STATUSES = ("used", "left out", "not understood", "not named", "note", "missing", "sheet")
 
 
 class Files(pa.DataFrameModel):
@@ -13,8 +13,8 @@ class Files(pa.DataFrameModel):
 
     ``used``: read for an included specimen; ``left out``: read, its specimen is left out with
     the reason given; ``not understood``: named, but its specimen failed with the reason given;
-    ``not named``: no row of the sheet names it; ``missing``: named, but not in the folder;
-    ``sheet``: the specimen sheet itself.
+    ``not named``: no row of the sheet names it; ``note``: nor that, but it is a README;
+    ``missing``: named, but not in the folder; ``sheet``: the specimen sheet itself.
     """
 
     file: Series[str] = pa.Field(unique=True)
