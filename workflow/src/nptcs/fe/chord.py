@@ -61,7 +61,7 @@ def motion_of(chord: Array, height_mm: float) -> Map:
 
 
 def carried(force: Array, tangent: Array, first: Array, second: Array) -> tuple[Array, Array]:
-    """Derivatives of an energy by the variables of a map, from those by its values.
+    """Carry an energy's derivatives from the values of a map to its variables.
 
     Parameters
     ----------

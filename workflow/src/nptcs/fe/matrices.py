@@ -1,7 +1,7 @@
 """Element tangents gathered into a banded matrix, and its solution.
 
-A ring numbered from both of its sides at once has a narrow band: LAPACK's banded factorisation beats
-a general sparse one there (``docs/decisions/0003-fe-kernel.md``).
+A ring numbered from both of its sides at once has a narrow band: LAPACK's banded factorisation
+beats a general sparse one there (``docs/decisions/0003-fe-kernel.md``).
 """
 
 from __future__ import annotations
