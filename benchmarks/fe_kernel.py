@@ -1,8 +1,9 @@
-"""Assembly and factorisation of the spoke, side by side with SuperLU and, if installed, FElupe.
+"""Assembly and factorisation of the spoke, side by side with a band, SuperLU and FElupe.
 
     python benchmarks/fe_kernel.py
 
-Processor time of one call, the mean of ten; see ``docs/decisions/0003-fe-kernel.md``.
+Processor time of one call, the mean of ten; FElupe if it is installed. The figures stand in
+``docs/decisions/0003-fe-kernel.md``.
 """
 
 from __future__ import annotations
@@ -13,12 +14,20 @@ from collections.abc import Callable
 
 import numpy as np
 import scipy.sparse as sparse
+from numpy.typing import NDArray
+from scipy.linalg import cholesky_banded
 from scipy.sparse.linalg import splu
 
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.fe import FeModel
+from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.block_tridiagonal import BlockCholesky, BlockMatrix, BlockPattern
 from nptcs.fe.calibration import PUBLISHED_PLY
-from nptcs.fe.matrices import BandedCholesky, BandedPattern, element_dofs
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
+from nptcs.fe.case import spoke_design
+from nptcs.fe.matrices import element_dofs
+from nptcs.fe.spoke import SpokeModel
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
 
 REPEATS = 10
 
@@ -33,11 +42,9 @@ def milliseconds(call: Callable[[], object]) -> float:
 
 
 def own_kernel() -> None:
-    """Assembly of the package, and its band against SuperLU on the same matrix."""
-    design = SpokeDesign(
-        SpokeGeometry(), SpokeMesh(), 215.0 / 15, 5.0, 1.8, 45.0, 1.0, PUBLISHED_PLY, 15
-    )
-    model = SpokeModel(design)
+    """Assembly of the package, and its factorisation against others of the same matrix."""
+    fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0, "spoke_c10_mpa": 1.0}
+    model = SpokeModel(spoke_design(FeModel(), TyreGeometry(), PUBLISHED_PLY, fiducial))
     rest = np.zeros_like(model.mesh.positions)
     bricks = model.rubbers[0]
     spent = milliseconds(lambda: bricks.respond(rest))
@@ -48,28 +55,61 @@ def own_kernel() -> None:
     size = rest.size - 2 * row
     number = np.arange(rest.size) - row
     number[(number < 0) | (number >= size)] = -1
-    pattern = BandedPattern([number[element_dofs(b.nodes, 3)] for b in blocks], size, True)
-    band = pattern.assemble([b.respond(rest).tangent for b in blocks])
-    print(f"{size} unknowns, half band {pattern.width}")
-    print(f"banded Cholesky: {milliseconds(lambda: BandedCholesky(band)):.1f} ms")
-    lower = sparse.diags(
-        [band[i, : size - i] for i in range(len(band))], [-i for i in range(len(band))]
-    ).tocsc()
-    matrix = (lower + sparse.tril(lower, -1).T).tocsc()
-    matrix.eliminate_zeros()
-    for order in ("COLAMD", "MMD_AT_PLUS_A"):
-        spent = milliseconds(lambda order=order: splu(matrix, permc_spec=order))
-        print(f"SuperLU, {order}: {spent:.1f} ms")
+    dofs = [number[element_dofs(block.nodes, 3)] for block in blocks]
+    factorisations(dofs, [block.respond(rest).tangent for block in blocks], row, size)
+
+
+def factorisations(dofs: list[Index], tangents: list[Array], row: int, size: int) -> None:
+    """Chain of blocks, band and SuperLU, each from a matrix that it must not overwrite."""
+    chain = BlockPattern(dofs, row, size).assemble(tangents)
+    matrix = general(dofs, tangents, size)
+    band = lower_band(matrix)
+    print(f"{size} unknowns, half band {len(band) - 1}, blocks of {2 * row}")
+    rhs = np.sin(np.arange(size))
+    residual = np.abs(matrix @ BlockCholesky(copied(chain)).solve(rhs) - rhs).max()
+    print(f"largest residual of the chain of blocks in that matrix: {residual:.1e}")
+    for label, call in (
+        ("chain of blocks", lambda: BlockCholesky(copied(chain))),
+        ("banded Cholesky", lambda: cholesky_banded(band, lower=True, check_finite=False)),
+        ("SuperLU, COLAMD", lambda: splu(matrix, permc_spec="COLAMD")),
+        ("SuperLU, MMD_AT_PLUS_A", lambda: splu(matrix, permc_spec="MMD_AT_PLUS_A")),
+    ):
+        print(f"{label}: {milliseconds(call):.1f} ms")
+
+
+def copied(chain: BlockMatrix) -> BlockMatrix:
+    """Copy of a matrix, which the factorisation overwrites; the others copy theirs themselves."""
+    return BlockMatrix(chain.diagonal.copy(), chain.below.copy(), chain.size)
+
+
+def general(dofs: list[Index], tangents: list[Array], size: int) -> sparse.csc_array:
+    """Sum element tangents into a general sparse matrix."""
+    matrix = sparse.csc_array((size, size))
+    for block, tangent in zip(dofs, tangents, strict=True):
+        rows, columns = np.broadcast_arrays(block[:, :, None], block[:, None, :])
+        kept = (rows >= 0) & (columns >= 0)
+        entries = tangent[kept], (rows[kept], columns[kept])
+        matrix += sparse.coo_array(entries, shape=(size, size)).tocsc()
+    return matrix
+
+
+def lower_band(matrix: sparse.csc_array) -> Array:
+    """Lower half of a symmetric matrix in LAPACK's band storage, the diagonal first."""
+    lower = sparse.tril(matrix).tocoo()
+    below = lower.row - lower.col
+    band = np.zeros((below.max() + 1, matrix.shape[0]))
+    band[below, lower.col] = lower.data
+    return band
 
 
 def felupe() -> None:
-    """FElupe's assembly on as many 27-node bricks."""
+    """FElupe's assembly on 120 27-node bricks, as many as the spoke has."""
     if importlib.util.find_spec("felupe") is None:
         print("FElupe is not installed: pip install felupe tensortrax to compare")
         return
     import felupe as fem
 
-    mesh = fem.Cube(n=(5, 5, 5))
+    mesh = fem.Cube(n=(5, 6, 7))
     mesh = mesh.add_midpoints_edges().add_midpoints_faces().add_midpoints_volumes()
     region = fem.RegionTriQuadraticHexahedron(mesh)
     rubber = fem.NeoHooke(mu=2.0, bulk=4000.0)
