@@ -140,9 +140,7 @@ def _report(problem: Problem, state: Round) -> None:
 
     pairs = zip(FREE, np.exp(state.free), strict=True)
     print("section: " + ", ".join(f"{name} {value:.3f}" for name, value in pairs), flush=True)
-    for target, (tension, compression) in zip(
-        problem.spokes, state.spoke_stiffness[: len(problem.spokes)], strict=True
-    ):
+    for target, (tension, compression) in zip(problem.spokes, state.spoke_stiffness, strict=True):
         print(
             f"  spoke C10 {target.values['spoke_c10_mpa']:g}: k_t {tension:.2f} "
             f"(wanted {target.tension_n_per_mm:g}), k_c {compression:.2f} "

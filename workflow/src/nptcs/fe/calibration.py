@@ -1,12 +1,7 @@
 """Calibration of the spoke's section, which the paper only draws.
 
-Targets: the spoke's stiffness of table 10 and a few named cases of table 5. A tyre costs ten times
-as much as a spoke, so the tyre's stiffness is followed by a surrogate in the spoke's stiffness,
-
-    ln K = ln K₀ + β (Δ ln k_t + Δ ln k_c) / 2 ,
-
-that is corrected by a computed tyre for each case at the start of each round (space mapping). The
-spoke's sensitivities are computed anew in each round, with coarser steps.
+Targets: the spoke's stiffness of table 10 and a few named cases of table 5, on the campaign's mesh
+and table, by damped Gauss–Newton steps with finite differences of spokes and tyres.
 """
 
 from __future__ import annotations
@@ -69,14 +64,10 @@ START = FeModel(
         plate_mid_gap_mm=5.4,
     )
 )
-# K_tyre ∝ k_spoke^0.53 over the published tables
-EXPONENT = 0.53
+# step of the finite differences and largest step of a round, in the logarithms
 STEP = 0.03
-LARGEST_STEP = 0.15
+LARGEST_STEP = 0.3
 HALVINGS = 3
-# points of the tension and compression curves: of the fit itself, and of its sensitivities
-FINE = (8, 10)
-COARSE = (2, 4)
 
 
 @dataclass(frozen=True)
@@ -127,45 +118,47 @@ class Round:
     tyre_stiffness: Array
 
 
-def log_spoke_stiffness(
-    problem: Problem, steps: tuple[int, int], free: Array, values: Mapping[str, float]
-) -> Array:
-    """Return ln (k_t, k_c) of the spoke of one case."""
+def log_spoke_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> list[float]:
+    """Return ln k_t and ln k_c of the spoke of one case."""
     model = problem.with_section(free)
     spoke = SpokeModel(spoke_design(model, problem.tyre, problem.ply, values))
-    result = spoke_stiffness(spoke, *steps)
-    return np.log([result.tension_fit.slope, result.compression_fit.slope])
+    result = spoke_stiffness(spoke)
+    return [float(np.log(fit.slope)) for fit in (result.tension_fit, result.compression_fit)]
 
 
-def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> float:
+def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> list[float]:
     """Return ln K of one case."""
     model = problem.with_section(free)
     table = spoke_table(model, spoke_design(model, problem.tyre, problem.ply, values))
     assembled = tyre_model(model, problem.tyre, table, values["shear_band_c10_mpa"])
     state = loaded_tyre(assembled, model, problem.load_n)
-    return float(np.log(problem.load_n / state.rise_mm))
+    return [float(np.log(problem.load_n / state.rise_mm))]
 
 
 Mapper = Callable[[Callable[..., Any], Iterable[Any]], Iterable[Any]]
 
 
-def _spokes(problem: Problem, steps: tuple[int, int], points: list[Array], mapper: Mapper) -> Array:
-    """Return ln (k_t, k_c) for each point and each target: array (points, targets, 2)."""
-    cases = [target.values for target in problem.spokes]
-    cases += [target.values for target in problem.tyres]
-    jobs = [(point, values) for point in points for values in cases]
-    rows = list(mapper(partial(_spoke_job, problem, steps), jobs))
-    return np.array(rows).reshape(len(points), len(cases), 2)
+def _computed(problem: Problem, points: list[Array], mapper: Mapper) -> Array:
+    """Logarithms of all stiffnesses at each point: array (points, 2 spokes + tyres).
+
+    Raises
+    ------
+    SpokeError, TyreError
+        If a spoke or a tyre of these sections cannot be loaded.
+    """
+    targets = [*problem.tyres, *problem.spokes]
+    jobs = [(point, target) for target in targets for point in points]
+    found = list(mapper(partial(_job, problem), jobs))
+    rows: list[list[float]] = [sum(found[i :: len(points)], []) for i in range(len(points))]
+    tyres = len(problem.tyres)
+    return np.array([row[tyres:] + row[:tyres] for row in rows])
 
 
-def _spoke_job(
-    problem: Problem, steps: tuple[int, int], job: tuple[Array, Mapping[str, float]]
-) -> Array:
-    return log_spoke_stiffness(problem, steps, *job)
-
-
-def _tyre_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> float:
-    return log_tyre_stiffness(problem, *job)
+def _job(problem: Problem, job: tuple[Array, SpokeTarget | TyreTarget]) -> list[float]:
+    free, target = job
+    if isinstance(target, SpokeTarget):
+        return log_spoke_stiffness(problem, free, target.values)
+    return log_tyre_stiffness(problem, free, target.values)
 
 
 def calibrate(
@@ -193,10 +186,10 @@ def calibrate(
     best, step, smallest, damping = start, np.zeros_like(start), np.inf, problem.damping
     with ProcessPoolExecutor(workers) as pool:
         for last in range(rounds + 1):
-            free, tyres = _reach(problem, best, step, pool.map)
-            spokes = _spokes(problem, FINE, [free], pool.map)[0]
-            report(Round(free.copy(), np.exp(spokes), np.exp(tyres)))
-            misfit = _misfit(problem, spokes, tyres, free - start)
+            free, computed = _reach(problem, best, step, pool.map)
+            spokes, tyres = np.split(np.exp(computed), [2 * len(problem.spokes)])
+            report(Round(free.copy(), spokes.reshape(-1, 2), tyres))
+            misfit = _misfit(problem, computed, free - start)
             better = float(misfit @ misfit) < smallest
             if better:
                 best, smallest, best_misfit = free, float(misfit @ misfit), misfit
@@ -204,54 +197,60 @@ def calibrate(
                 damping *= 4.0
             if last < rounds:
                 if better:
-                    slopes = _sensitivities(problem, best, pool.map)
+                    slopes = _slopes(problem, best, computed, pool.map)
                 step = _step(problem, slopes, best_misfit, best, damping)
     return problem.with_section(best)
 
 
 def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[Array, Array]:
-    """Take a step, halved while a tyre of the new section cannot be loaded; ln K of the tyres."""
+    """Take a step, halved while a spoke or tyre of the new section cannot be loaded."""
     for _ in range(HALVINGS + 1):
         moved = free + step
-        jobs = [(moved, target.values) for target in problem.tyres]
         try:
-            return moved, np.array(list(mapper(partial(_tyre_job, problem), jobs)))
+            return moved, _computed(problem, [moved], mapper)[0]
         except (SpokeError, TyreError) as error:
             failure = error
             step = step / 2.0
     raise failure
 
 
-def _sensitivities(problem: Problem, free: Array, mapper: Mapper) -> Array:
-    """∂ ln (k_t, k_c) / ∂ ln (dimension): array (targets, 2, dimensions)."""
-    points = [free, *(free + STEP * np.eye(len(FREE)))]
-    values = _spokes(problem, COARSE, points, mapper)
-    slopes: Array = np.moveaxis((values[1:] - values[0]) / STEP, 0, 2)
+def _slopes(problem: Problem, free: Array, computed: Array, mapper: Mapper) -> Array:
+    """∂ ln (stiffness) / ∂ ln (dimension): array (stiffnesses, dimensions).
+
+    Differences go away from a limit that is near, so that no section is out of order.
+    """
+    _, high = _limits()
+    steps = np.where(free + STEP > high, -STEP, STEP)
+    moved = _computed(problem, list(free + np.diag(steps)), mapper)
+    slopes: Array = ((moved - computed) / steps[:, None]).T
     return slopes
 
 
-def _misfit(problem: Problem, spokes: Array, tyres: Array, moved: Array) -> Array:
+def _limits() -> Array:
+    limits: Array = np.log(np.array(list(LIMITS.values()))).T
+    return limits
+
+
+def _weights(problem: Problem) -> Array:
+    spokes = np.full(2 * len(problem.spokes), problem.spoke_weight)
+    return np.concatenate([spokes, np.full(len(problem.tyres), problem.tyre_weight)])
+
+
+def _misfit(problem: Problem, computed: Array, moved: Array) -> Array:
     """Weighted differences of the logarithms; the prior pulls towards the first section."""
-    wanted = np.log([[t.tension_n_per_mm, t.compression_n_per_mm] for t in problem.spokes])
-    target = np.log([t.stiffness_n_per_mm for t in problem.tyres])
-    parts = [
-        problem.spoke_weight * (spokes[: len(wanted)] - wanted).ravel(),
-        problem.tyre_weight * (tyres - target),
-        problem.prior * moved,
-    ]
-    return np.concatenate(parts)
+    wanted = [k for t in problem.spokes for k in (t.tension_n_per_mm, t.compression_n_per_mm)]
+    wanted += [t.stiffness_n_per_mm for t in problem.tyres]
+    return np.concatenate([_weights(problem) * (computed - np.log(wanted)), problem.prior * moved])
 
 
 def _step(problem: Problem, slopes: Array, misfit: Array, free: Array, damping: float) -> Array:
     """Least squares within the limits."""
-    count = len(problem.spokes)
     jacobian = [
-        problem.spoke_weight * slopes[:count].reshape(-1, len(FREE)),
-        problem.tyre_weight * EXPONENT * slopes[count:].mean(axis=1),
+        _weights(problem)[:, None] * slopes,
         problem.prior * np.eye(len(FREE)),
         damping * np.eye(len(FREE)),
     ]
-    low, high = np.log(np.array(list(LIMITS.values()))).T
+    low, high = _limits()
     room = np.maximum(free - low, 1e-6), np.maximum(high - free, 1e-6)
     bounds = -np.minimum(room[0], LARGEST_STEP), np.minimum(room[1], LARGEST_STEP)
     wanted = np.concatenate([-misfit, np.zeros(len(FREE))])
