@@ -1,4 +1,4 @@
-"""``nptcs deck``: write a case's input deck for a solver that the user owns."""
+"""``nptcs deck``: write a case's input deck for a solver that the user has."""
 
 from __future__ import annotations
 

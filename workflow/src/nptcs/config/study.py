@@ -123,7 +123,7 @@ class Study(Strict):
         names = [factor.name for factor in self.factors]
         if self.published_spoke_stiffness and names != ["spoke_c10_mpa"]:
             raise ValueError(
-                f"study {self.name}: table 10 gives one spoke a C10; with "
+                f"study {self.name}: table 10 has one spoke for each C10; with "
                 f"published_spoke_stiffness the only factor is spoke_c10_mpa, got {names}"
             )
         return self

@@ -1,4 +1,4 @@
-"""Solver ``abaqus``: the paper's whole tyre, solved by the Abaqus that the user owns."""
+"""Solver ``abaqus``: the paper's whole tyre, solved by the Abaqus that the user has."""
 
 from __future__ import annotations
 

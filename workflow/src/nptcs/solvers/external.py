@@ -1,4 +1,4 @@
-"""Run a solver that the user owns: one command, its children, its time, its licence.
+"""Run a solver that the user has: one command, its children, its time, its licence.
 
 The command gets a process group of its own. Whatever happens to the case, the whole group is
 ended: a solver's launcher often leaves the process that computes, and that holds the licence.
