@@ -12,6 +12,7 @@ if TYPE_CHECKING:
 
 # fiducial, and the corners of spacing with the softest and the stiffest plates
 CASES = (32, 49, 15, 7, 57)
+C10_MPA = (1, 5)
 COLUMNS = {
     "table10": (
         "spoke_c10_mpa",
@@ -88,9 +89,18 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
         )
     spokes = _read(arguments.table10, COLUMNS["table10"]).set_index("spoke_c10_mpa")
     tyres = _read(arguments.table5, COLUMNS["table5"]).set_index("case")
-    missing = sorted(set(arguments.cases) - set(tyres.index)) + sorted({1, 5} - set(spokes.index))
-    if missing:
-        raise InputError("these cases or C10 are not in the tables", value=missing)
+    for file, table, wanted, remedy in (
+        (arguments.table5, tyres, arguments.cases, "name other --cases"),
+        (arguments.table10, spokes, C10_MPA, "give a table with these spokes"),
+    ):
+        if missing := sorted(set(wanted) - set(table.index)):
+            raise InputError(
+                "these rows are not in the tables",
+                remedy,
+                file=file,
+                column=str(table.index.name),
+                value=missing,
+            )
     fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
     k_t, k_c = (spokes[name].astype(float).to_dict() for name in COLUMNS["table10"][1:])
     rubbers = {"shear_band_c10_mpa": arguments.band_c10, "spoke_c10_mpa": arguments.spoke_c10}
@@ -104,7 +114,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
                 k_t[c10],
                 k_c[c10],
             )
-            for c10 in (1, 5)
+            for c10 in C10_MPA
         ),
         tuple(
             TyreTarget(
@@ -128,7 +138,9 @@ def _read(path: str, columns: tuple[str, ...]) -> pandas.DataFrame:
         raise InputError(f"no CSV table: {error}", "name a published table", file=path) from error
     lacking = [name for name in columns if name not in table.columns]
     if lacking:
-        raise InputError("the table lacks columns", file=path, value=lacking)
+        raise InputError(
+            "the table lacks columns", "give the table of the paper", file=path, value=lacking
+        )
     return table
 
 

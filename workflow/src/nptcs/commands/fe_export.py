@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from nptcs.commands.fe_picture import add_design, solved
+from nptcs.commands.fe_picture import add_design, solvable, solved
 
 PRESSED_STEPS, PULLED_STEPS = 10, 8
 
@@ -32,16 +32,17 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.fe.vtu import require_vtk, write_pvd, write_vtu
 
     require_vtk()
-    case = solved(arguments)
+    with solvable():
+        case = solved(arguments)
+        bricks = tyre_bricks(case.tyre, case.dimensions, case.state, case.spoke)
+        pressed = walk(case.spoke, -COMPRESSION_MM, PRESSED_STEPS)
+        pulled = walk(case.spoke, TENSION_MM, PULLED_STEPS)
     periods = float(case.spoke.design.plates)
-    bricks = tyre_bricks(case.tyre, case.dimensions, case.state, case.spoke)
     write_vtu(
         arguments.folder / "tyre.vtu",
         bricks,
         {"load_n": arguments.load, "rise_mm": case.state.rise_mm, "periods": periods},
     )
-    pressed = walk(case.spoke, -COMPRESSION_MM, PRESSED_STEPS)
-    pulled = walk(case.spoke, TENSION_MM, PULLED_STEPS)
     times, files = [], []
     for number, state in enumerate([*pressed[:0:-1], *pulled]):
         times.append(float(state.motion[0]))

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import argparse
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
@@ -53,19 +55,48 @@ class SolvedTyre:
 
 
 def design_of(arguments: argparse.Namespace) -> SpokeDesign:
-    """Return the spoke that the options describe."""
+    """Return the spoke that the options describe.
+
+    Raises
+    ------
+    InputError
+        If a value of the design has no meaning.
+    """
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.fe.calibration import PUBLISHED_PLY
     from nptcs.fe.case import spoke_design
+    from nptcs.solvers.contract import CaseInputs
+    from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values
 
-    values = {
+    given = {
         "spacing_mm": arguments.spacing,
         "thickness_mm": arguments.thickness,
         "angle_deg": arguments.angle,
         "spoke_c10_mpa": arguments.spoke_c10,
+        "shear_band_c10_mpa": arguments.band_c10,
     }
-    return spoke_design(FeModel(), TyreGeometry(), PUBLISHED_PLY, values)
+    model, tyre = FeModel(), TyreGeometry()
+    inputs = CaseInputs("of the command line", given, arguments.load, tyre, model)
+    return spoke_design(model, tyre, PUBLISHED_PLY, checked_values(inputs, TYRE_FACTORS))
+
+
+@contextmanager
+def solvable() -> Iterator[None]:
+    """Say in one line that a spoke or a tyre finds no equilibrium, and how far it came.
+
+    Raises
+    ------
+    InputError
+    """
+    from nptcs.errors import InputError
+    from nptcs.fe.spoke import SpokeError
+    from nptcs.fe.tyre import TyreError
+
+    try:
+        yield
+    except (SpokeError, TyreError) as error:
+        raise InputError(str(error), "choose a smaller load or another design") from error
 
 
 def solved(arguments: argparse.Namespace) -> SolvedTyre:
@@ -91,11 +122,12 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.fe.spoke_picture import spoke_figure
     from nptcs.files import atomic_path
 
-    if arguments.spoke:
-        figure = spoke_figure(SpokeModel(design_of(arguments)))
-    else:
-        case = solved(arguments)
-        figure = tyre_figure(case.tyre, case.state, case.spoke)
+    with solvable():
+        if arguments.spoke:
+            figure = spoke_figure(SpokeModel(design_of(arguments)))
+        else:
+            case = solved(arguments)
+            figure = tyre_figure(case.tyre, case.state, case.spoke)
     with atomic_path(arguments.output) as temporary:
         figure.savefig(temporary, dpi=150)
     return 0

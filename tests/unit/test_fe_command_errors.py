@@ -1,0 +1,55 @@
+"""What the commands of the finite element route say of input that they cannot use."""
+
+import numpy as np
+import pytest
+
+from nptcs.cli import main
+from nptcs.fe.spoke import SpokeError
+
+TEN = "spoke_c10_mpa,tension_stiffness_n_per_mm,compression_stiffness_n_per_mm\n1,30.2,13.26\n"
+FIVE = "case,spacing_mm,thickness_mm,angle_deg,stiffness_n_per_mm\n32,15,1.8,45,263.7\n"
+
+
+@pytest.mark.parametrize(
+    ("words", "named"),
+    [
+        (["--spacing", "4"], "'spacing_mm': plates 5 mm wide overlap"),
+        (["--spoke-c10", "-1"], "'spoke_c10_mpa': must be positive"),
+        (["--band-c10", "0"], "'shear_band_c10_mpa': must be positive"),
+    ],
+)
+def test_a_design_without_meaning_is_one_line(tmp_path, capsys, words, named):
+    assert main(["fe-picture", str(tmp_path / "x.png"), *words]) == 2
+    assert named in capsys.readouterr().err
+    assert not list(tmp_path.iterdir())
+
+
+@pytest.mark.parametrize("command", ["fe-picture", "fe-export"])
+def test_a_tyre_that_is_not_solved_is_one_line_with_how_far_it_came(
+    tmp_path, capsys, monkeypatch, command
+):
+    if command == "fe-export":
+        pytest.importorskip("vtkmodules", reason="the extra nptcs[paraview] is not installed")
+
+    def fail(*_):
+        raise SpokeError(f"no equilibrium beyond u_r = {np.float64(-31.0)}")
+
+    monkeypatch.setattr("nptcs.fe.case.spoke_table", fail)
+    assert main([command, str(tmp_path / "x.png")]) == 2
+    said = capsys.readouterr().err
+    assert "beyond u_r = -31.0" in said
+    assert "Remedy: choose a smaller load" in said
+
+
+@pytest.mark.parametrize(
+    ("cases", "file", "named"),
+    [("33", "five.csv", "column 'case'"), ("32", "ten.csv", "column 'spoke_c10_mpa'")],
+)
+def test_the_calibration_names_the_table_that_lacks_a_row(tmp_path, capsys, cases, file, named):
+    (tmp_path / "ten.csv").write_text(TEN)
+    (tmp_path / "five.csv").write_text(FIVE)
+    tables = [str(tmp_path / name) for name in ("ten.csv", "five.csv")]
+    assert main(["fe-calibrate", *tables, "--cases", cases]) == 2
+    said = capsys.readouterr().err
+    assert f"{tmp_path / file}, {named}" in said
+    assert "Remedy" in said
