@@ -123,8 +123,9 @@ def test_a_warning_of_calculix_is_fatal(tmp_path):
 
 
 def test_calculix_that_stops_early_hangs_or_is_missing_has_a_status(tmp_path):
-    early = calculix_case(tmp_path, "sys.exit(3)")
+    early = calculix_case(tmp_path, "print('increment size too small'); sys.exit(3)")
     assert (early.status, "code 3" in early.message) == (Status.DIVERGED, True)
+    assert early.message.endswith("after 0 of 8 steps: increment size too small")
     assert calculix_case(tmp_path, "time.sleep(20)", timeout_s=0.5).status is Status.TIMEOUT
     missing = calculix.CalculixOptions(command=("no-such-ccx",))
     assert calculix.solve(inputs(missing)).status is Status.ERROR

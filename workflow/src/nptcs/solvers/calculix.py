@@ -56,7 +56,8 @@ def solve(inputs: CaseInputs) -> SolverResult:
     if ended.code != 0 or len(force) < 2 * STEPS:
         return SolverResult(
             status=Status.DIVERGED,
-            message=f"ccx ended with code {ended.code} after {len(force)} of {2 * STEPS} steps",
+            message=f"{options.command[0]} ended with code {ended.code} after {len(force)} of "
+            f"{2 * STEPS} steps: {ended.output.strip()[-500:]}",
         )
     radial = force[:, 2] * design.plates
     return _result(pulled, radial[:STEPS], pressed, -radial[STEPS:])
