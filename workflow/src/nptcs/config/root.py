@@ -39,7 +39,7 @@ class Campaign(Strict):
     cores_per_batch: int = Field(
         2,
         ge=1,
-        description="Cores that a batch asks for, no more than `-j` allows; divided by those of one "
+        description="Cores that a batch asks for, no more than `-j` allows; divided by those of a "
         "case (one, or the solver's `cpus`) they are the cases that it solves at a time",
     )
 
