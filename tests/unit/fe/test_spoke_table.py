@@ -129,6 +129,16 @@ def test_the_table_of_a_spoke_predicts_states_between_its_samples():
         assert force[0, 0] == pytest.approx(state.force[0], rel=5e-3)
 
 
+def test_a_level_of_the_unloaded_chord_is_one_state():
+    options = SpokeTableOptions(
+        chord_mm=(-1.5, 1.5), inclination_rad=0.02, phi_rad=(-0.02, 0.02), samples=(3, 3, 3),
+        degrees=(4, 4),
+    )  # fmt: skip
+    chord = sample(SpokeModel(spoke_design()), options).chord
+    assert len(chord) == 3 * 2 * 3
+    assert np.unique(chord[:, 0].round(9)) == pytest.approx([-1.5, 0.0, 1.5])
+
+
 def test_a_half_turn_leaves_the_spoke_as_it_is():
     """States at β and -β: rim and band change places, with coupled plies as with any."""
     model = SpokeModel(spoke_design(angle_deg=30.0))

@@ -173,19 +173,21 @@ def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeS
     lengths = chebyshev_nodes(*options.chord_mm, options.samples[0])
     turns = chebyshev_nodes(-options.inclination_rad, options.inclination_rad, options.samples[1])
     rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
+    # a level of s = 0, up to rounding, is the row's start itself
+    level = np.abs(lengths) < 1e-9 * (lengths[-1] - lengths[0])
+    up, down = lengths[(lengths > 0) & ~level], lengths[(lengths < 0) & ~level][::-1]
     start = model.rest()
     for turn, phi in product(turns[turns > -1e-12], rotations):
         motions = _row(model, options, turn, phi, np.array([0.0]))
         start = model.move(start, motions[0])
-        states = [start, *model.walk(start, _row(model, options, turn, phi, lengths[lengths > 0]))]
+        states = [start, *model.walk(start, _row(model, options, turn, phi, up))]
         try:
-            down = _row(model, options, turn, phi, lengths[lengths < 0][::-1])
-            for state in model.walk(start, down):
+            for state in model.walk(start, _row(model, options, turn, phi, down)):
                 states.append(state)
         except SpokeError:
             # the spoke buckles: `sample` ends the table at the last level that all rows reach
             pass
-        yield states[1:]
+        yield states if level.any() else states[1:]
 
 
 def _row(
