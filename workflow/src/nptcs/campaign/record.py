@@ -138,9 +138,19 @@ def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
     tables = {}
     for name, path in paths.items():
         if not Path(path).is_file():
-            raise InputError("this table of a solver does not exist", file=path, column=name)
+            raise InputError(
+                "this table of a solver does not exist",
+                "correct the path in the solver's options",
+                file=path,
+                column=name,
+            )
         rows = pd.read_csv(path, comment="#").to_dict("records")
         if not rows:
-            raise InputError("this table of a solver has no rows", file=path, column=name)
+            raise InputError(
+                "this table of a solver has no rows",
+                "give a table with a header and values",
+                file=path,
+                column=name,
+            )
         tables[name] = [{str(key): value for key, value in row.items()} for row in rows]
     return tables

@@ -37,7 +37,10 @@ class Campaign(Strict):
         1, ge=1, description="Jobs that a study is cut into for each solver (for clusters)"
     )
     cores_per_batch: int = Field(
-        2, ge=1, description="Cases that a batch solves at a time; no more than `-j` allows"
+        2,
+        ge=1,
+        description="Cores that a batch asks for, no more than `-j` allows; divided by those of a "
+        "case (one, or the solver's `cpus`) they are the cases that it solves at a time",
     )
 
 
