@@ -5,7 +5,8 @@ Bodies of two dimensions are in plane strain (F33 = 1). The element tangent is
 
     K_aibj = Σ_points ∂N_a/∂X_J  A_iJjL  ∂N_b/∂X_L dV,    A = ∂P/∂F,
 
-one product of a constant matrix of gradients with a moduli-weighted one for each element.
+for plates one product of a constant matrix of gradients with a moduli-weighted one for each
+element; for rubber, whose A is made of few products, products of gradients with F and F⁻ᵀ.
 """
 
 from __future__ import annotations
@@ -14,6 +15,8 @@ from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
+
+from nptcs.fe.neo_hooke import neo_hookean
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
@@ -79,6 +82,22 @@ def _tangent(left: Array, columns: Array, moduli: Array) -> Array:
     spread = spread.reshape(elements, points * directions, dim * dim * nodes)
     product = np.matmul(left, spread).reshape(elements, nodes, dim, dim, nodes)
     return product.swapaxes(3, 4).reshape(elements, nodes * dim, nodes * dim)
+
+
+def _add_crossed(tangent: Array, left: Array, right: Array, dim: int) -> None:
+    """Add Σ left_aj right_bi to K_aibj; both (elements, points, nodes × dim)."""
+    shape = (len(tangent), -1, dim, tangent.shape[2] // dim, dim)
+    crossed = np.matmul(left.swapaxes(1, 2), right)
+    target = tangent.reshape(shape)
+    target += crossed.reshape(shape).swapaxes(2, 4)
+
+
+def _add_isotropic(tangent: Array, left: Array, scale: Array, dim: int) -> None:
+    """Add Σ a ∂N_a/∂X_J ∂N_b/∂X_J to K_aibi; a (elements, points × directions) weighted."""
+    both = np.matmul(left * scale[:, None], left.swapaxes(1, 2))
+    target = tangent.reshape(len(tangent), -1, dim, tangent.shape[2] // dim, dim)
+    for i in range(dim):
+        target[:, :, i, :, i] += both
 
 
 def green_strain(deformation: Array) -> Array:
@@ -210,8 +229,8 @@ class RubberBlock:
         right = np.concatenate([right, self._coupling.swapaxes(1, 2)], axis=1)
         half = np.matmul(left.swapaxes(1, 2), right)
         tangent = half + half.swapaxes(1, 2)
-        self._add_crossed(tangent, (third - pull) * turned, turned, dim)
-        self._add_isotropic(tangent, weighted[0], dim)
+        _add_crossed(tangent, (third - pull) * turned, turned, dim)
+        _add_isotropic(tangent, self._left, np.repeat(weighted[0], directions, axis=1), dim)
         return Response(energy, force, tangent)
 
     def _products(self, tensor: Array) -> Array:
@@ -219,91 +238,8 @@ class RubberBlock:
         product: Array = np.matmul(self.gradient, tensor.swapaxes(-1, -2))
         return product.reshape(*product.shape[:2], -1)
 
-    def _add_crossed(self, tangent: Array, left: Array, right: Array, dim: int) -> None:
-        """Add Σ left_aj right_bi to K_aibj."""
-        shape = (len(tangent), -1, dim, tangent.shape[2] // dim, dim)
-        crossed = np.matmul(left.swapaxes(1, 2), right)
-        target = tangent.reshape(shape)
-        target += crossed.reshape(shape).swapaxes(2, 4)
-
-    def _add_isotropic(self, tangent: Array, scale: Array, dim: int) -> None:
-        """Add Σ a ∂N_a/∂X_J ∂N_b/∂X_J to K_aibi; `scale` (elements, points) carries the weights."""
-        directions = self.gradient.shape[3]
-        both = np.matmul(
-            self._left * np.repeat(scale, directions, axis=1)[:, None], self._left.swapaxes(1, 2)
-        )
-        target = tangent.reshape(len(tangent), -1, dim, tangent.shape[2] // dim, dim)
-        for i in range(dim):
-            target[:, :, i, :, i] += both
-
     def update_pressure(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: κ M⁻¹ (r_p + Gᵀ du)."""
         local = step[self.nodes].reshape(len(self.nodes), -1)
         rhs = self._mismatch + np.einsum("enm,en->em", self._coupling, local)
         self.pressure = self.pressure + part * np.einsum("emk,ek->em", self._inverse_mass, rhs)
-
-
-@dataclass(frozen=True)
-class NeoHooke:
-    """The neo-Hookean law C10 (Ī1 - 3) + p (J - 1) at a set of points, with G = F⁻ᵀ.
-
-    With a = 2 C10 J^(-2/3) stress and moduli are
-
-        P = a F + (p J - a I1/3) G
-        ∂P_iJ/∂F_jL = a [δ_ij δ_JL - 2/3 (F_iJ G_jL + G_iJ F_jL) + 2/9 I1 G_iJ G_jL]
-                      + p J G_iJ G_jL + (a I1/3 - p J) G_iL G_jJ
-
-    Parameters
-    ----------
-    volume : array (…)
-        J.
-    inverse : array (…, 3, 3)
-        G.
-    scale, third, pull : array (…)
-        a, a I1/3 and p J, MPa.
-    energy : array (…)
-        C10 (Ī1 - 3), N mm per mm³.
-    """
-
-    volume: Array
-    inverse: Array
-    scale: Array
-    third: Array
-    pull: Array
-    energy: Array
-
-
-def neo_hookean(c10_mpa: float, deformation: Array, pressure: Array) -> NeoHooke:
-    """Evaluate the law at deformation gradients F (…, 3, 3) and pressures p (…) in MPa.
-
-    Raises
-    ------
-    FloatingPointError
-        If a volume is not positive.
-    """
-    cofactor = cofactors(deformation)
-    volume = np.sum(deformation[..., 0, :] * cofactor[..., 0, :], axis=-1)
-    if not np.all(volume > 0.0):
-        raise FloatingPointError("an element of rubber has turned inside out")
-    trace = np.sum(deformation**2, axis=(-1, -2))
-    unit = volume ** (-2.0 / 3.0)
-    scale = 2.0 * c10_mpa * unit
-    return NeoHooke(
-        volume=volume,
-        inverse=cofactor / volume[..., None, None],
-        scale=scale,
-        third=scale * trace / 3.0,
-        pull=pressure * volume,
-        energy=c10_mpa * (unit * trace - 3.0),
-    )
-
-
-def cofactors(matrix: Array) -> Array:
-    """Cofactors of matrices (…, 3, 3): det M M⁻ᵀ."""
-    found = np.empty_like(matrix)
-    for i in range(3):
-        above, below = matrix[..., (i + 1) % 3, :], matrix[..., (i + 2) % 3, :]
-        for j in range(3):
-            k, m = (j + 1) % 3, (j + 2) % 3
-            found[..., i, j] = above[..., k] * below[..., m] - above[..., m] * below[..., k]
-    return found

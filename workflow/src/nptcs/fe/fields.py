@@ -8,8 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from nptcs.fe.blocks import LinearBlock, RubberBlock, deformation_gradient, neo_hookean
+from nptcs.fe.blocks import LinearBlock, RubberBlock, deformation_gradient
 from nptcs.fe.lagrange import jacobians, tensor_shape
+from nptcs.fe.neo_hooke import neo_hookean
 from nptcs.fe.spoke_mesh import ElementSet
 
 Array = NDArray[np.float64]
