@@ -50,6 +50,8 @@ def changed(path, value):
         (["studies"], [], "studies"),
         (["sensitivity", "rules"], ["mean"], "sensitivity.rules.0"),
         (["tyre"], {"rim_diameter_mm": 700}, "radii must grow"),
+        (["tyre"], {"plate_width_mm": 216}, "plate_width_mm must not be above tread_width_mm"),
+        (["tyre"], {"rim_width_mm": 165.1}, "tyre.rim_width_mm"),
         (["campaign"], {"batches": 0}, "campaign.batches"),
     ],
 )

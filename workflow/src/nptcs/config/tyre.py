@@ -16,7 +16,6 @@ class TyreGeometry(Strict):
     outer_diameter_mm: float = Field(646.8, gt=0, description="Outer diameter, table 3")
     tread_width_mm: float = Field(215.0, gt=0, description="Width of tread and band, table 3")
     rim_diameter_mm: float = Field(431.8, gt=0, description="Outer diameter of the rim, table 3")
-    rim_width_mm: float = Field(165.1, gt=0, description="Width of the rim, table 3")
     shear_band_thickness_mm: float = Field(14.0, gt=0, description="Radial thickness, table 3")
     inner_wire_diameter_mm: float = Field(
         601.5, gt=0, description="Diameter of the inner steel wire layers, table 3"
@@ -52,4 +51,13 @@ class TyreGeometry(Strict):
         }
         if sorted(radii.values()) != list(radii.values()):
             raise ValueError(f"radii must grow from rim to tread, got {radii}")
+        return self
+
+    @model_validator(mode="after")
+    def _plates_fit(self) -> Self:
+        if self.plate_width_mm > self.tread_width_mm:
+            raise ValueError(
+                f"plate_width_mm must not be above tread_width_mm ({self.tread_width_mm:g}), got "
+                f"{self.plate_width_mm:g}"
+            )
         return self

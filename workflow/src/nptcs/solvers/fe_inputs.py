@@ -33,6 +33,7 @@ def checked_values(inputs: CaseInputs, names: frozenset[str]) -> dict[str, float
         if name != "angle_deg" and not values[name] > 0.0:
             raise InputError(
                 "must be positive",
+                "give a number above zero",
                 column=name,
                 specimen=inputs.case_id,
                 value=values[name],
