@@ -20,7 +20,12 @@ VALUES = {"thickness_mm": 1.8}
 INSIDE = START.model_copy(
     update={
         "geometry": START.geometry.model_copy(
-            update={"leg_thickness_mm": 3.0, "plate_foot_gap_mm": 4.0, "plate_mid_gap_mm": 4.5}
+            update={
+                "leg_thickness_mm": 3.0,
+                "foot_thickness_mm": 13.5,
+                "plate_foot_gap_mm": 4.0,
+                "plate_mid_gap_mm": 4.5,
+            }
         )
     }
 )
