@@ -2,6 +2,7 @@ import sys
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from nptcs.config.fe import SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
@@ -84,6 +85,18 @@ def test_fe_spoke_gives_curve_and_lines():
     extra = result.extra
     assert extra["tension_stiffness_n_per_mm"] > extra["compression_stiffness_n_per_mm"] > 0.0
     assert extra["tension_r2_centred"] < extra["tension_r2_uncentred"]
+
+
+@pytest.mark.parametrize("options", [fe_spoke.FeSpokeOptions, calculix.CalculixOptions])
+@pytest.mark.parametrize("stray", ["table", "tyre_mesh", "contact", "load_steps"])
+def test_a_single_spoke_refuses_what_only_a_tyre_uses(options, stray):
+    """An option that changes nothing would still be in the key of a solved case."""
+    value = fe_tyre.FeTyreOptions().model_dump()[stray]
+    with pytest.raises(ValidationError) as refusal:
+        options(**{stray: value})
+    assert [(e["type"], e["loc"]) for e in refusal.value.errors()] == [
+        ("extra_forbidden", (stray,))
+    ]
 
 
 @pytest.mark.parametrize(

@@ -176,11 +176,16 @@ class GroundContact(Strict):
     )
 
 
-class FeModel(Strict):
-    """Everything of the finite element route that does not vary from case to case."""
+class FeSpokeModel(Strict):
+    """What a single spoke depends on and does not vary from case to case."""
 
     geometry: SpokeGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
+
+
+class FeModel(FeSpokeModel):
+    """Everything of the finite element route that does not vary from case to case."""
+
     table: SpokeTableOptions = Field(
         default_factory=SpokeTableOptions, description="Energy table of the spoke"
     )
