@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, radians, tan
+from math import cos, radians
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -78,10 +78,6 @@ class SpokeGeometry(Strict):
     def foot_width_mm(self) -> float:
         """Width of the foot along the circumference."""
         return self.foot_thickness_mm / cos(radians(self.leg_angle_deg))
-
-    def apex_mm(self) -> float:
-        """Circumferential distance of the apex from the feet."""
-        return self.height_mm / 2.0 * tan(radians(self.leg_angle_deg))
 
 
 class SpokeMesh(Strict):

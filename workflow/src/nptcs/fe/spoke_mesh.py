@@ -41,8 +41,6 @@ class PeriodMesh:
     rubber, layer, plate : ElementSet
         Rubber beside the plate's layer, rubber in that layer, and the plate itself.
     nodes_per_row : int
-    pitch_mm : float
-        Period along the axis.
     plate_axes : array (2, 3, 3)
         Local axes of the plates of the lower and the upper leg, as columns: along the leg, along
         the axis, normal.
@@ -53,7 +51,6 @@ class PeriodMesh:
     layer: ElementSet
     plate: ElementSet
     nodes_per_row: int
-    pitch_mm: float
     plate_axes: Array
 
     @property
@@ -166,7 +163,6 @@ def build_period(
         layer=grid.elements([(r, s, inner) for r, s in layer_all], 2),
         plate=grid.elements([(r, s, inner) for r, s in plate_all], 2),
         nodes_per_row=across * columns,
-        pitch_mm=pitch_mm,
         plate_axes=np.stack([_leg_axes(-slope), _leg_axes(slope)]),
     )
 
