@@ -1,8 +1,9 @@
 """Mesh of one axial period of the spoke: quadratic hexahedra in horizontal rows.
 
 Axes: x along the circumference, y along the tyre's axis, z along the radius from rim to band. One
-plate lies in y within ± half its width; the period repeats at the plates' spacing. Nodes are
-numbered row by row, so that the stiffness matrix is banded.
+plate lies in y within ± half its width; the period repeats at the pitch, the tyre's width over the
+number of plates, which is not their spacing. Nodes are numbered row by row, so that the stiffness
+matrix is a chain of dense blocks (`nptcs.fe.block_tridiagonal`).
 """
 
 from __future__ import annotations
