@@ -8,6 +8,7 @@ matrix is a chain of dense blocks (`nptcs.fe.block_tridiagonal`).
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -65,7 +66,14 @@ class PeriodMesh:
         return np.arange(len(self.positions) - self.nodes_per_row, len(self.positions))
 
 
-def _subdivide(breaks: Array, counts: tuple[int, ...]) -> Array:
+def subdivide(breaks: Sequence[float], counts: Sequence[int]) -> Array:
+    """Divide each interval between two breaks into `count` equal parts; all edges, array (edges,).
+
+    Raises
+    ------
+    ValueError
+        If there is not one count for each interval.
+    """
     parts = [
         np.linspace(low, high, count, endpoint=False)
         for low, high, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
@@ -94,7 +102,7 @@ def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array
     has_plate : array (element rows,) of bool
     """
     heights, thickness = geometry.section()
-    lower = _subdivide(np.array(heights), mesh.rows)
+    lower = subdivide(heights, mesh.rows)
     edges = np.concatenate([lower, geometry.height_mm - lower[-2::-1]])
     rows = _midpoints(edges)
     half = geometry.height_mm / 2.0
@@ -115,8 +123,8 @@ def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array
 def axial_grid(mesh: SpokeMesh, pitch_mm: float, plate_width_mm: float) -> Array:
     """Axial places of the node planes, from one edge of a plate to the same edge of the next."""
     half = plate_width_mm / 2.0
-    breaks = np.array([-half, half, pitch_mm - half])
-    return _midpoints(_subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))
+    breaks = (-half, half, pitch_mm - half)
+    return _midpoints(subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))
 
 
 def build_period(
