@@ -8,7 +8,7 @@ from nptcs.config.fe import SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.calculix import complaints
-from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.materials import PUBLISHED_PLY
 from nptcs.solvers import calculix, fe_spoke, fe_tyre
 from nptcs.solvers.contract import CaseInputs, Status
 
