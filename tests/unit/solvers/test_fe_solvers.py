@@ -144,6 +144,19 @@ def test_calculix_that_stops_early_hangs_or_is_missing_has_a_status(tmp_path):
     assert calculix.solve(inputs(missing)).status is Status.ERROR
 
 
+@pytest.mark.parametrize(("code", "left"), [(201, ""), (0, ""), (201, "\\n S T E P  1\\n\\n")])
+def test_calculix_that_fails_in_its_first_step_is_quoted(tmp_path, code, left):
+    """CalculiX opens its result file before the first step, so that it is there without forces."""
+    body = (
+        f"pathlib.Path(sys.argv[1] + '.dat').write_text('{left}')\n"
+        f"print('divergence; the increment is reattempted'); sys.exit({code})"
+    )
+    result = calculix_case(tmp_path, body)
+    assert result.status is Status.DIVERGED
+    assert f"ended with code {code} after 0 of 8 steps" in result.message
+    assert result.message.endswith("divergence; the increment is reattempted")
+
+
 def test_calculix_results_are_scaled_to_the_whole_spoke(tmp_path):
     body = (
         "assert 'C3D20R' in pathlib.Path(sys.argv[1] + '.inp').read_text()\n"
