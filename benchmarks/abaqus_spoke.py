@@ -17,9 +17,9 @@ from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.abaqus import tyre_deck
-from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke import SpokeModel
+from nptcs.materials import PUBLISHED_PLY
 
 TESTS = Path(__file__).parents[1] / "tests" / "unit" / "fe"
 DESIGNS = ((15.0, 1.8, 45.0, 1.0), (15.0, 1.8, 45.0, 5.0), (10.0, 2.4, 0.0, 1.0),

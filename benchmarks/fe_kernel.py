@@ -21,10 +21,10 @@ from scipy.sparse.linalg import splu
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.block_tridiagonal import BlockCholesky, BlockMatrix, BlockPattern
-from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.fe.case import spoke_design
 from nptcs.fe.matrices import element_dofs
 from nptcs.fe.spoke import SpokeModel
+from nptcs.materials import PUBLISHED_PLY
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

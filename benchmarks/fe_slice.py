@@ -20,10 +20,10 @@ import numpy as np
 
 from nptcs.config.fe import FeModel, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
 from nptcs.fe.direct import DirectTyre
 from nptcs.fe.tyre import TyreError, TyreModel, TyreState
+from nptcs.materials import PUBLISHED_PLY
 
 
 def options() -> argparse.Namespace:

@@ -39,6 +39,13 @@ def test_closure_follows_imports_and_nothing_else():
     assert "nptcs.design" not in found
 
 
+@pytest.mark.parametrize("module", ["report.html", "report.workbook", "tables.spoke_stiffness"])
+def test_tables_and_report_do_not_rest_on_the_finite_elements(module):
+    """Else a change of the kernel would write them anew where no case has changed."""
+    found = imported_modules(f"nptcs.{module}")
+    assert {name for name in found if name.split(".")[:2] == ["nptcs", "fe"]} == set()
+
+
 def test_imports_inside_functions_count(tmp_path):
     own = tmp_path / "own_solver.py"
     own.write_text("def solve(inputs):\n    from nptcs.design import full_factorial\n")

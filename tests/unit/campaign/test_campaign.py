@@ -11,10 +11,11 @@ import pandas as pd
 import pytest
 
 from nptcs.campaign.jobs import make_jobs
-from nptcs.campaign.record import CaseJob, RecordStore, read_records, write_records
+from nptcs.campaign.record import CaseJob, RecordStore, read_records, read_tables, write_records
 from nptcs.campaign.runner import run_cases
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
+from nptcs.errors import InputError
 from nptcs.provenance import code_hash
 from nptcs.tables.cases import Cases, cases_table
 from nptcs.tables.io import check
@@ -147,6 +148,34 @@ def test_batch_files_keep_every_record(tmp_path, store):
 
 
 @pytest.mark.skipif(not Path("/proc").is_dir(), reason="reads the process table of Linux")
+def test_tables_of_a_solver_are_rows_of_plain_values(tmp_path):
+    path = tmp_path / "archive.csv"
+    path.write_bytes(b"# of a paper\ncase,name\r\n1,a\r\n2,b\r\n")
+    rows = [{"case": 1, "name": "a"}, {"case": 2, "name": "b"}]
+    assert read_tables({"archive": str(path)}) == {"archive": rows}
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "does not exist"),
+        (b"case,x\n1,2\n1,2,3\n", "no CSV table: .*line 3"),
+        (b"", "no CSV table"),
+        ("case,µ\n1,2\n".encode("utf-16"), "no CSV table"),
+        (b"case,x\n", "no rows"),
+    ],
+    ids=["missing", "ragged", "empty", "not UTF-8", "header alone"],
+)
+def test_a_faulty_table_of_a_solver_is_named_with_its_file(tmp_path, content, message):
+    path = tmp_path / "archive.csv"
+    if content is not None:
+        path.write_bytes(content)
+    with pytest.raises(InputError, match=message) as refusal:
+        read_tables({"archive": str(path)})
+    assert (refusal.value.file, refusal.value.column) == (str(path), "archive")
+    assert refusal.value.remedy
+
+
 def test_no_case_outlives_a_killed_campaign(tmp_path):
     code = f"""
 import sys

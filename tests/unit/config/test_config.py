@@ -129,6 +129,26 @@ def test_table_10_beside_tyres_is_refused():
         check_study(study, config.solver_options(study))
 
 
+@pytest.mark.parametrize(
+    ("name", "change"),
+    [
+        ("plate", {"solvers": ["fe_tyre"], "solver_options": {}}),
+        ("plate", {"calibration_cases": {"published": [1]}}),
+        ("spoke", {"calibration_cases": {"fe_spoke": [1]}}),
+    ],
+    ids=["without published", "of published", "of a spoke"],
+)
+def test_calibration_cases_that_nothing_compares_are_refused(name, change):
+    config = copy.deepcopy(DEFAULT)
+    next(study for study in config["studies"] if study["name"] == name).update(change)
+    config = read_config(config)
+    study = config.study(name)
+    with pytest.raises(InputError, match="calibration cases have no effect") as refusal:
+        check_study(study, config.solver_options(study))
+    assert refusal.value.column == f"studies.{name}.calibration_cases"
+    assert refusal.value.value == ", ".join(study.calibration_cases)
+
+
 def test_the_calibration_cases_are_those_of_the_calibration():
     """The default study names the cases on which `nptcs fe-calibrate` fits the section."""
     plate = read_config(DEFAULT).study("plate")

@@ -7,7 +7,7 @@ import pytest
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.abaqus import tyre_deck
-from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.materials import PUBLISHED_PLY
 
 CASE = {
     "spacing_mm": 15.0,

@@ -179,5 +179,8 @@ def test_totals_are_read_from_the_result_file():
         "        1.250000E+00 -2.000000E+00  3.500000E+01\n"
     )
     assert total_forces(text) == pytest.approx(np.array([[1.25, -2.0, 35.0]]))
-    with pytest.raises(ValueError, match="NTOP"):
-        total_forces("nothing")
+
+
+@pytest.mark.parametrize("text", ["", "\n                        S T E P       1\n\n"])
+def test_a_result_file_of_no_completed_step_holds_no_forces(text):
+    assert total_forces(text).shape == (0, 3)

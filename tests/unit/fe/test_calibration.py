@@ -6,7 +6,6 @@ from nptcs.fe import calibration
 from nptcs.fe.calibration import (
     FREE,
     LIMITS,
-    PUBLISHED_PLY,
     START,
     Problem,
     SpokeTarget,
@@ -14,6 +13,7 @@ from nptcs.fe.calibration import (
     calibrate,
 )
 from nptcs.fe.tyre import LoadPath, TyreError
+from nptcs.materials import PUBLISHED_PLY
 
 VALUES = {"thickness_mm": 1.8}
 # inside the limits of all dimensions

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from nptcs.commands import deck, fe_calibrate, fe_picture
 from nptcs.errors import InputError
-from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.materials import PUBLISHED_PLY
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -5,7 +5,7 @@ from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.matrices import BandedPattern
 from nptcs.fe.spoke import SpokeDesign, SpokeError, SpokeModel
 from nptcs.fe.spoke_mesh import build_period
-from nptcs.fe.spoke_pull import fit_through_origin, pull
+from nptcs.fe.spoke_pull import pull
 
 COARSE = SpokeMesh(rows=(1, 1, 2, 1, 1, 1))
 
@@ -114,15 +114,6 @@ def test_mesh_converges(ply):
 def test_an_impossible_motion_is_reported_with_the_last_state(model):
     with pytest.raises(SpokeError, match="no equilibrium beyond"):
         model.move(model.rest(), np.array([-120.0, 0.0, 0.0]))
-
-
-def test_regression_through_the_origin_and_both_r_squares():
-    displacement = np.array([0.0, 1.0, 2.0, 3.0])
-    fit = fit_through_origin(displacement, 4.0 * displacement)
-    assert (fit.slope, fit.r2_uncentred, fit.r2_centred) == pytest.approx((4.0, 1.0, 1.0))
-    bent = fit_through_origin(displacement, np.array([0.0, 4.0, 7.0, 9.0]))
-    assert bent.slope == pytest.approx((4.0 + 14.0 + 27.0) / 14.0)
-    assert bent.r2_centred < bent.r2_uncentred < 1.0
 
 
 def test_banded_assembly_equals_the_dense_one():

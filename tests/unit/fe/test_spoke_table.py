@@ -5,10 +5,10 @@ from hypothesis import strategies as st
 
 from nptcs.config.fe import FeModel, SpokeGeometry, SpokeMesh, SpokeTableOptions
 from nptcs.fe.cache import read_table, shared_table, table_key
-from nptcs.fe.calibration import PUBLISHED_PLY
 from nptcs.fe.chord import carried, chord_of, motion_of
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
+from nptcs.materials import PUBLISHED_PLY
 
 OPTIONS = SpokeTableOptions(
     chord_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),

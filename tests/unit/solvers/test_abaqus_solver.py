@@ -11,7 +11,7 @@ import pytest
 from nptcs.config.abaqus import AbaqusMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
-from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.materials import PUBLISHED_PLY
 from nptcs.solvers import abaqus, abaqus_watch, calculix
 from nptcs.solvers.abaqus_history import load_curve
 from nptcs.solvers.abaqus_messages import (

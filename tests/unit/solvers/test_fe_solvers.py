@@ -2,12 +2,13 @@ import sys
 
 import numpy as np
 import pytest
+from pydantic import ValidationError
 
 from nptcs.config.fe import SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.calculix import complaints
-from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.materials import PUBLISHED_PLY
 from nptcs.solvers import calculix, fe_spoke, fe_tyre
 from nptcs.solvers.contract import CaseInputs, Status
 
@@ -86,6 +87,18 @@ def test_fe_spoke_gives_curve_and_lines():
     assert extra["tension_r2_centred"] < extra["tension_r2_uncentred"]
 
 
+@pytest.mark.parametrize("options", [fe_spoke.FeSpokeOptions, calculix.CalculixOptions])
+@pytest.mark.parametrize("stray", ["table", "tyre_mesh", "contact", "load_steps"])
+def test_a_single_spoke_refuses_what_only_a_tyre_uses(options, stray):
+    """An option that changes nothing would still be in the key of a solved case."""
+    value = fe_tyre.FeTyreOptions().model_dump()[stray]
+    with pytest.raises(ValidationError) as refusal:
+        options(**{stray: value})
+    assert [(e["type"], e["loc"]) for e in refusal.value.errors()] == [
+        ("extra_forbidden", (stray,))
+    ]
+
+
 @pytest.mark.parametrize(
     ("change", "column"),
     [({"spacing_mm": 4.0}, "spacing_mm"), ({"spoke_c10_mpa": -1.0}, "spoke_c10_mpa")],
@@ -129,6 +142,19 @@ def test_calculix_that_stops_early_hangs_or_is_missing_has_a_status(tmp_path):
     assert calculix_case(tmp_path, "time.sleep(20)", timeout_s=0.5).status is Status.TIMEOUT
     missing = calculix.CalculixOptions(command=("no-such-ccx",))
     assert calculix.solve(inputs(missing)).status is Status.ERROR
+
+
+@pytest.mark.parametrize(("code", "left"), [(201, ""), (0, ""), (201, "\\n S T E P  1\\n\\n")])
+def test_calculix_that_fails_in_its_first_step_is_quoted(tmp_path, code, left):
+    """CalculiX opens its result file before the first step, so that it is there without forces."""
+    body = (
+        f"pathlib.Path(sys.argv[1] + '.dat').write_text('{left}')\n"
+        f"print('divergence; the increment is reattempted'); sys.exit({code})"
+    )
+    result = calculix_case(tmp_path, body)
+    assert result.status is Status.DIVERGED
+    assert f"ended with code {code} after 0 of 8 steps" in result.message
+    assert result.message.endswith("divergence; the increment is reattempted")
 
 
 def test_calculix_results_are_scaled_to_the_whole_spoke(tmp_path):

@@ -133,24 +133,34 @@ def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
     Raises
     ------
     InputError
-        For a file that is missing or has no rows.
+        For a file that is missing, is no CSV table or has no rows.
     """
-    tables = {}
-    for name, path in paths.items():
-        if not Path(path).is_file():
-            raise InputError(
-                "this table of a solver does not exist",
-                "correct the path in the solver's options",
-                file=path,
-                column=name,
-            )
+    return {name: _read_rows(name, path) for name, path in paths.items()}
+
+
+def _read_rows(name: str, path: str) -> list[dict[str, Any]]:
+    if not Path(path).is_file():
+        raise InputError(
+            "this table of a solver does not exist",
+            "correct the path in the solver's options",
+            file=path,
+            column=name,
+        )
+    try:
         rows = pd.read_csv(path, comment="#").to_dict("records")
-        if not rows:
-            raise InputError(
-                "this table of a solver has no rows",
-                "give a table with a header and values",
-                file=path,
-                column=name,
-            )
-        tables[name] = [{str(key): value for key, value in row.items()} for row in rows]
-    return tables
+    except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
+        raise InputError(
+            f"this table of a solver is no CSV table: {str(error).strip()}",
+            "save it as CSV (UTF-8), a header and as many values in each row, or correct the path "
+            "in the solver's options",
+            file=path,
+            column=name,
+        ) from error
+    if not rows:
+        raise InputError(
+            "this table of a solver has no rows",
+            "give a table with a header and values",
+            file=path,
+            column=name,
+        )
+    return [{str(key): value for key, value in row.items()} for row in rows]

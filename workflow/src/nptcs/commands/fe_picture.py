@@ -64,8 +64,8 @@ def design_of(arguments: argparse.Namespace) -> SpokeDesign:
     """
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
-    from nptcs.fe.calibration import PUBLISHED_PLY
     from nptcs.fe.case import spoke_design
+    from nptcs.materials import PUBLISHED_PLY
     from nptcs.solvers.contract import CaseInputs
     from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values
 

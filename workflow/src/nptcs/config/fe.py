@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from math import cos, radians, tan
+from math import cos, radians
 from typing import Self
 
 from pydantic import Field, model_validator
@@ -78,10 +78,6 @@ class SpokeGeometry(Strict):
     def foot_width_mm(self) -> float:
         """Width of the foot along the circumference."""
         return self.foot_thickness_mm / cos(radians(self.leg_angle_deg))
-
-    def apex_mm(self) -> float:
-        """Circumferential distance of the apex from the feet."""
-        return self.height_mm / 2.0 * tan(radians(self.leg_angle_deg))
 
 
 class SpokeMesh(Strict):
@@ -176,11 +172,16 @@ class GroundContact(Strict):
     )
 
 
-class FeModel(Strict):
-    """Everything of the finite element route that does not vary from case to case."""
+class FeSpokeModel(Strict):
+    """What a single spoke depends on and does not vary from case to case."""
 
     geometry: SpokeGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
+
+
+class FeModel(FeSpokeModel):
+    """Everything of the finite element route that does not vary from case to case."""
+
     table: SpokeTableOptions = Field(
         default_factory=SpokeTableOptions, description="Energy table of the spoke"
     )

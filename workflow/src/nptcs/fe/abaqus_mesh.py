@@ -16,6 +16,7 @@ from nptcs.config.abaqus import AbaqusMesh
 from nptcs.config.fe import SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
+from nptcs.fe.spoke_mesh import subdivide
 from nptcs.fe.tyre_mesh import band_radii
 
 Array = NDArray[np.float64]
@@ -73,7 +74,7 @@ def spoke_part(geometry: SpokeGeometry, mesh: AbaqusMesh, tyre: TyreGeometry) ->
     whose faces S2 lie on the band.
     """
     heights, thickness = geometry.section()
-    lower = _subdivide(heights, mesh.rows)
+    lower = subdivide(heights, mesh.rows)
     rows = np.concatenate([lower, geometry.height_mm - lower[-2::-1]])
     from_end = np.minimum(rows, geometry.height_mm - rows)
     slope = np.radians(geometry.leg_angle_deg)
@@ -153,7 +154,7 @@ def band_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
     and S2 lie on the spokes and on the road.
     """
     inner, outer = band_radii(tyre)
-    radii = _subdivide(
+    radii = subdivide(
         (inner, outer, tyre.outer_diameter_mm / 2.0), (mesh.band_rows, mesh.tread_rows)
     )
     z = np.linspace(-0.5, 0.5, mesh.band_axial + 1) * tyre.tread_width_mm
@@ -201,14 +202,6 @@ def _ring(radii: Array, z: Array, around: int) -> Array:
     positions[..., 1] = -np.cos(theta)[:, None, None] * radii
     positions[..., 2] = z[:, None]
     return positions
-
-
-def _subdivide(breaks: tuple[float, ...], counts: tuple[int, ...]) -> Array:
-    parts = [
-        np.linspace(low, high, count, endpoint=False)
-        for low, high, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
-    ]
-    return np.concatenate([*parts, breaks[-1:]])
 
 
 def _numbers(shape: tuple[int, ...]) -> Index:

@@ -38,18 +38,6 @@ LIMITS = {
     "plate_mid_gap_mm": (1.5, 5.5),
 }
 FREE = tuple(LIMITS)
-# table 2 of the paper
-PUBLISHED_PLY = {
-    "e1_mpa": 128000.0,
-    "e2_mpa": 8800.0,
-    "e3_mpa": 8800.0,
-    "nu12": 0.357,
-    "nu13": 0.357,
-    "nu23": 0.35,
-    "g12_mpa": 3147.0,
-    "g13_mpa": 3147.0,
-    "g23_mpa": 2300.0,
-}
 # where the calibration of the defaults began: the end of earlier rounds, rounded
 START = FeModel(
     geometry=SpokeGeometry(

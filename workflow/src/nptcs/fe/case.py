@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from nptcs.config.fe import FeModel
+from nptcs.config.fe import FeModel, FeSpokeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_table import SpokeTable, fit, sample
@@ -15,13 +15,13 @@ from nptcs.fe.tyre import TyreModel, TyreState
 
 
 def spoke_design(
-    model: FeModel, tyre: TyreGeometry, ply: Mapping[str, float], values: Mapping[str, float]
+    model: FeSpokeModel, tyre: TyreGeometry, ply: Mapping[str, float], values: Mapping[str, float]
 ) -> SpokeDesign:
     """Collect what the spoke of a case depends on.
 
     Parameters
     ----------
-    model : FeModel
+    model : FeSpokeModel
     tyre : TyreGeometry
     ply : mapping
         The nine ply constants.

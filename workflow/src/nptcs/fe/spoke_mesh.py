@@ -1,12 +1,14 @@
 """Mesh of one axial period of the spoke: quadratic hexahedra in horizontal rows.
 
 Axes: x along the circumference, y along the tyre's axis, z along the radius from rim to band. One
-plate lies in y within ± half its width; the period repeats at the plates' spacing. Nodes are
-numbered row by row, so that the stiffness matrix is banded.
+plate lies in y within ± half its width; the period repeats at the pitch, the tyre's width over the
+number of plates, which is not their spacing. Nodes are numbered row by row, so that the stiffness
+matrix is a chain of dense blocks (`nptcs.fe.block_tridiagonal`).
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -41,8 +43,6 @@ class PeriodMesh:
     rubber, layer, plate : ElementSet
         Rubber beside the plate's layer, rubber in that layer, and the plate itself.
     nodes_per_row : int
-    pitch_mm : float
-        Period along the axis.
     plate_axes : array (2, 3, 3)
         Local axes of the plates of the lower and the upper leg, as columns: along the leg, along
         the axis, normal.
@@ -53,7 +53,6 @@ class PeriodMesh:
     layer: ElementSet
     plate: ElementSet
     nodes_per_row: int
-    pitch_mm: float
     plate_axes: Array
 
     @property
@@ -67,7 +66,14 @@ class PeriodMesh:
         return np.arange(len(self.positions) - self.nodes_per_row, len(self.positions))
 
 
-def _subdivide(breaks: Array, counts: tuple[int, ...]) -> Array:
+def subdivide(breaks: Sequence[float], counts: Sequence[int]) -> Array:
+    """Divide each interval between two breaks into `count` equal parts; all edges, array (edges,).
+
+    Raises
+    ------
+    ValueError
+        If there is not one count for each interval.
+    """
     parts = [
         np.linspace(low, high, count, endpoint=False)
         for low, high, count in zip(breaks[:-1], breaks[1:], counts, strict=True)
@@ -96,7 +102,7 @@ def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array
     has_plate : array (element rows,) of bool
     """
     heights, thickness = geometry.section()
-    lower = _subdivide(np.array(heights), mesh.rows)
+    lower = subdivide(heights, mesh.rows)
     edges = np.concatenate([lower, geometry.height_mm - lower[-2::-1]])
     rows = _midpoints(edges)
     half = geometry.height_mm / 2.0
@@ -117,8 +123,8 @@ def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array
 def axial_grid(mesh: SpokeMesh, pitch_mm: float, plate_width_mm: float) -> Array:
     """Axial places of the node planes, from one edge of a plate to the same edge of the next."""
     half = plate_width_mm / 2.0
-    breaks = np.array([-half, half, pitch_mm - half])
-    return _midpoints(_subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))
+    breaks = (-half, half, pitch_mm - half)
+    return _midpoints(subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))
 
 
 def build_period(
@@ -166,7 +172,6 @@ def build_period(
         layer=grid.elements([(r, s, inner) for r, s in layer_all], 2),
         plate=grid.elements([(r, s, inner) for r, s in plate_all], 2),
         nodes_per_row=across * columns,
-        pitch_mm=pitch_mm,
         plate_axes=np.stack([_leg_axes(-slope), _leg_axes(slope)]),
     )
 

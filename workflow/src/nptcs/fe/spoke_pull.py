@@ -9,39 +9,12 @@ from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
 from nptcs.fe.spoke import SpokeModel, SpokeState
+from nptcs.origin_fit import OriginFit, fit_through_origin
 
 Array = NDArray[np.float64]
 
 TENSION_MM = 4.0
 COMPRESSION_MM = 20.0
-
-
-@dataclass(frozen=True)
-class OriginFit:
-    """Straight line through the origin.
-
-    Parameters
-    ----------
-    slope : float
-        N/mm.
-    r2_uncentred : float
-        1 - Σ(f - k d)² / Σ f²: what software prints for a line without intercept.
-    r2_centred : float
-        1 - Σ(f - k d)² / Σ (f - mean f)².
-    """
-
-    slope: float
-    r2_uncentred: float
-    r2_centred: float
-
-
-def fit_through_origin(displacement_mm: Array, force_n: Array) -> OriginFit:
-    """Regress force on displacement through the origin: k = Σ f d / Σ d²."""
-    slope = float(displacement_mm @ force_n / (displacement_mm @ displacement_mm))
-    misfit = float(np.sum((force_n - slope * displacement_mm) ** 2))
-    total = float(force_n @ force_n)
-    spread = float(np.sum((force_n - force_n.mean()) ** 2))
-    return OriginFit(slope, 1.0 - misfit / total, 1.0 - misfit / spread)
 
 
 def walk(model: SpokeModel, end_mm: float, steps: int) -> list[SpokeState]:

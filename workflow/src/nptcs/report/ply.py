@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nptcs.fe.calibration import PUBLISHED_PLY
+from nptcs.materials import PUBLISHED_PLY
 from nptcs.report.data import Results
 from nptcs.report.units import words
 from nptcs.report.view import joined, number_text

@@ -8,10 +8,11 @@ from pathlib import Path
 import numpy as np
 from pydantic import Field
 
-from nptcs.config.fe import FeModel
+from nptcs.config.fe import FeSpokeModel
 from nptcs.fe.calculix import complaints, spoke_deck, total_forces, true_thickness
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM, fit_through_origin
+from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM
+from nptcs.origin_fit import fit_through_origin
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, run_command, time_for_command
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
@@ -19,7 +20,7 @@ from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
 STEPS = 4
 
 
-class CalculixOptions(SolverOptions, FeModel):
+class CalculixOptions(SolverOptions, FeSpokeModel):
     """Options of ``calculix``: the spoke's model and the command that solves it."""
 
     command: tuple[str, ...] = Field(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.config.fe import FeModel
+from nptcs.config.fe import FeSpokeModel
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke import SpokeError, SpokeModel
 from nptcs.fe.spoke_pull import spoke_stiffness
@@ -12,7 +12,7 @@ from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResu
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
 
 
-class FeSpokeOptions(SolverOptions, FeModel):
+class FeSpokeOptions(SolverOptions, FeSpokeModel):
     """Options of ``fe_spoke``: the finite element model of the spoke."""
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Set
 from pathlib import Path
 from typing import Any
 
@@ -126,7 +126,7 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def _check_responses(study: Study, solvers: Mapping[str, Solver]) -> None:
-    """Refuse a surface over single spokes, and table 10 beside nothing but tyres."""
+    """Refuse what the study asks for and its solvers, together, do not give."""
     spokes = [name for name, solver in solvers.items() if not solver.loads_tyre]
     if spokes and study.terms:
         raise InputError(
@@ -141,4 +141,18 @@ def _check_responses(study: Study, solvers: Mapping[str, Solver]) -> None:
             "no solver of this study computes single spokes",
             column=f"studies.{study.name}.published_spoke_stiffness",
             remedy="leave the key out, or run fe_spoke",
+        )
+    _check_calibration_cases(study, {*solvers} - {*spokes, "published"})
+
+
+def _check_calibration_cases(study: Study, tyres: Set[str]) -> None:
+    """Refuse calibration cases of a solver whose stiffness is not compared with the published."""
+    compared = tyres if "published" in study.solvers else set()
+    if stray := sorted(set(study.calibration_cases) - compared):
+        raise InputError(
+            "calibration cases have no effect where no stiffness is compared with the paper's",
+            column=f"studies.{study.name}.calibration_cases",
+            value=", ".join(stray),
+            remedy="run the solver 'published' in this study beside these solvers of tyres, or "
+            "leave the key out",
         )
