@@ -152,11 +152,11 @@ def test_a_half_turn_leaves_the_spoke_as_it_is():
     tangent = np.array([state.tangent for state in states])
     force, tangent = carried(force, tangent, *motion_of(chord, HEIGHT)[1:])
     mirror = np.array([1.0, -1.0, 1.0])
-    # the iteration ends when the energy is right to 1e-9: forces to the root of it
-    assert force[1] == pytest.approx(mirror * force[0], rel=1e-4)
+    assert force[1] == pytest.approx(mirror * force[0], rel=1e-6)
+    # tangents are those of the last iterate, where the work left is 1e-9 of the energy
     size = np.sqrt(np.diag(tangent[0]))
     mirrored = np.outer(mirror, mirror) * tangent[0]
-    assert np.abs((tangent[1] - mirrored) / np.outer(size, size)).max() < 1e-4
+    assert np.abs((tangent[1] - mirrored) / np.outer(size, size)).max() < 2e-4
 
 
 def test_equal_spokes_share_one_file(tmp_path, monkeypatch):

@@ -232,6 +232,7 @@ class SpokeModel:
             if not np.isfinite(work):
                 raise FloatingPointError("the iteration has left the range of numbers")
             if work < 1e-9 * max(abs(energy), 1e-6):
+                energy -= 0.5 * work
                 return self._condense(motion, displacement, responses, force, factor, energy)
             largest = float(np.abs(step).max())
             if largest > 30.0:
@@ -261,7 +262,10 @@ class SpokeModel:
         factor: BlockCholesky,
         energy: float,
     ) -> SpokeState:
-        """Condense onto the band: force and tangent of the three motions."""
+        """Condense onto the band: force and tangent of the three motions.
+
+        The force is right to second order in what the last step leaves of the inner forces.
+        """
         slope, curve = self.band_motion_slope(float(motion[2]))
         product = self._top_product(responses, slope)
         sensitivity = -factor.solve(product[self._free])
@@ -272,7 +276,7 @@ class SpokeModel:
             motion=np.array(motion, dtype=float),
             displacement=displacement,
             energy=self.scale * energy,
-            force=self.scale * (slope.T @ reaction),
+            force=self.scale * (slope.T @ reaction + sensitivity.T @ force[self._free]),
             tangent=self.scale * 0.5 * (tangent + tangent.T),
             sensitivity=sensitivity,
             pressures=[block.pressure.copy() for block in self.rubbers],
