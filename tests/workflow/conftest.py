@@ -11,6 +11,7 @@ import sys
 from pathlib import Path
 
 import pytest
+from filelock import FileLock
 
 ROOT = Path(__file__).parents[2]
 SHEET = "raw_data/example/specimens.csv"
@@ -79,8 +80,23 @@ class Project:
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory) -> Project:
-    """A small copy of the project in which the pipeline has run to its end."""
-    folder = tmp_path_factory.mktemp("project") / "copy"
+    """A small copy of the project in which the pipeline has run to its end, once for all workers.
+
+    xdist gives each worker a folder of its own in the one of the whole session.
+    """
+    base = tmp_path_factory.getbasetemp()
+    folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "project" / "copy"
+    with FileLock(folder.parent.with_suffix(".lock")):
+        if not folder.exists():
+            run_once(folder)
+    project = Project(folder)
+    assert project.path("results/verdict.txt").exists(), "the run failed in another worker"
+    return project
+
+
+def run_once(folder: Path) -> None:
+    """Copy the project and run the small configuration."""
+    folder.mkdir(parents=True)
     parts = ("Snakefile", "config", "profiles", "raw_data", "tests", "workflow")
     for part in parts:
         source = ROOT / part
@@ -88,13 +104,11 @@ def finished(tmp_path_factory) -> Project:
             ignore = shutil.ignore_patterns("__pycache__", "*.egg-info")
             shutil.copytree(source, folder / part, ignore=ignore)
         else:
-            folder.mkdir(exist_ok=True)
             shutil.copy2(source, folder / part)
     project = Project(folder)
     shorten_sheet(project)
     run = project.snakemake()
     assert run.returncode == 0, run.stderr[-6000:]
-    return project
 
 
 @pytest.fixture

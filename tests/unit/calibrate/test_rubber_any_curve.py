@@ -5,7 +5,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
@@ -23,6 +23,8 @@ points = st.tuples(
 
 
 @settings(deadline=None, max_examples=60, suppress_health_check=PURE_FIXTURES)
+# no stress above the toe, found by an earlier run
+@example(readings=[[(0.0, 0.0), (0.125, 0.0), (0.0, 1.0)]], weights="specimens")
 @given(
     readings=st.lists(st.lists(points, min_size=1, max_size=30), min_size=1, max_size=3),
     weights=st.sampled_from(["specimens", "points", "relative"]),

@@ -20,7 +20,8 @@ TOE_SHARE = 0.2
 def fit_with_offset(data: Sequence[Observation]) -> tuple[float, float]:
     """Neo-Hookean C10 (MPa) and strain offset ε0 of P = 2 C10 f(λ - ε0), least squares.
 
-    ε0 > 0 means that the curve starts late: a toe that shifts it along the strain axis.
+    ε0 > 0 means that the curve starts late: a toe that shifts it along the strain axis. Without
+    the offset the C10 of the data must be positive.
     """
     stress = np.concatenate([o.stress for o in data])
     root = np.sqrt(np.concatenate([o.weight for o in data]))
@@ -31,7 +32,7 @@ def fit_with_offset(data: Sequence[Observation]) -> tuple[float, float]:
         return root * (c10 * np.concatenate(shifted) - stress)
 
     start = [NEO_HOOKEAN.solve(data)[0], 0.0]
-    solution = least_squares(residual, start, x_scale=[abs(start[0]), 0.01], xtol=1e-12, ftol=1e-12)
+    solution = least_squares(residual, start, x_scale=[start[0], 0.01], xtol=1e-12, ftol=1e-12)
     return float(solution.x[0]), float(solution.x[1])
 
 
@@ -48,7 +49,11 @@ def toe_words(data: Sequence[Observation]) -> list[str]:
     above = [_above_toe(o) for o in tension]
     if min(len(o.stress) for o in above) < SMALLEST_NUMBER_OF_POINTS:
         return ["toe: not assessed, too few points above it"]
+    if NEO_HOOKEAN.solve(above)[0] <= 0:
+        return ["toe: not assessed, the curves carry no tension above it"]
     c10, offset = fit_with_offset(above)
+    if c10 <= 0:
+        return ["toe: not assessed, a free strain offset leaves no stiffness"]
     return [
         f"toe or curvature: with a free strain offset of {100 * offset:.3g} % the neo-Hookean "
         f"C10 is {c10:.4g} MPa; without it {100 * (plain / c10 - 1):+.2g} %"
