@@ -5,26 +5,15 @@ from hypothesis import strategies as st
 
 from nptcs.calibrate.orthotropic import check_ply, compliance_matrix
 from nptcs.errors import InputError
-
-TABLE_2 = {
-    "e1_mpa": 128000.0,
-    "e2_mpa": 8800.0,
-    "e3_mpa": 8800.0,
-    "nu12": 0.357,
-    "nu13": 0.357,
-    "nu23": 0.35,
-    "g12_mpa": 3147.0,
-    "g13_mpa": 3147.0,
-    "g23_mpa": 2300.0,
-}
+from nptcs.materials import PUBLISHED_PLY
 
 
 def test_table_2_is_orthotropic_and_says_so() -> None:
-    checks = check_ply(TABLE_2, "cfrp", 5.0)
+    checks = check_ply(PUBLISHED_PLY, "cfrp", 5.0)
     assert checks[0] == "compliance matrix is positive definite"
     # E2/(2(1+ν23)) = 3259
     assert "not transversely isotropic: G23 = 2300 MPa, E2/(2(1+nu23)) = 3259" in checks[1]
-    isotropic = TABLE_2 | {"g23_mpa": 8800 / 2.7}
+    isotropic = PUBLISHED_PLY | {"g23_mpa": 8800 / 2.7}
     assert "transversely isotropic within 5 %" in check_ply(isotropic, "cfrp", 5.0)[1]
     unequal = isotropic | {"e3_mpa": 9000.0}
     assert "e2_mpa is not e3_mpa" in check_ply(unequal, "cfrp", 5.0)[1]
@@ -47,7 +36,7 @@ def test_isotropic_limit_of_the_compliance() -> None:
 def test_refused_exactly_where_the_textbook_inequalities_fail(nu12: float, nu23: float) -> None:
     # Jones, Mechanics of Composite Materials, 2.4: |ν_ij| < √(E_i/E_j) and
     # 1 - ν12 ν21 - ν23 ν32 - ν31 ν13 - 2 ν21 ν32 ν13 > 0
-    values = TABLE_2 | {"nu12": nu12, "nu13": nu12, "nu23": nu23}
+    values = PUBLISHED_PLY | {"nu12": nu12, "nu13": nu12, "nu23": nu23}
     nu21 = nu12 * 8800 / 128000
     determinant = 1 - 2 * nu12 * nu21 - nu23**2 - 2 * nu21 * nu23 * nu12
     minors = min(1 - nu12 * nu21, 1 - nu23**2)
@@ -60,4 +49,4 @@ def test_refused_exactly_where_the_textbook_inequalities_fail(nu12: float, nu23:
 
 def test_negative_modulus_is_named() -> None:
     with pytest.raises(InputError, match=r"column 'g12_mpa': material cfrp: g12_mpa must be"):
-        check_ply(TABLE_2 | {"g12_mpa": -1.0}, "cfrp", 5.0)
+        check_ply(PUBLISHED_PLY | {"g12_mpa": -1.0}, "cfrp", 5.0)

@@ -4,21 +4,10 @@ import pytest
 
 from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.sampling import sample_constants
-from nptcs.materials import Covariance, PlyCard, Quantity
+from nptcs.materials import PUBLISHED_PLY, Covariance, PlyCard, Quantity
 
 MATRIX = np.array([[4e6, 0.0, 12.0, 0.0], [0.0, 5e3, 0.0, 0.0], [12.0, 0.0, 1e-4, 0.0]])
 MATRIX = np.vstack([MATRIX, [0.0, 0.0, 0.0, 2.5e3]])
-VALUES = {
-    "e1_mpa": 128000.0,
-    "e2_mpa": 8800.0,
-    "e3_mpa": 8800.0,
-    "nu12": 0.357,
-    "nu13": 0.357,
-    "nu23": 0.35,
-    "g12_mpa": 3147.0,
-    "g13_mpa": 3147.0,
-    "g23_mpa": 2300.0,
-}
 TIES = {"e3_mpa": "e2_mpa", "nu13": "nu12", "g13_mpa": "g12_mpa"}
 
 
@@ -26,7 +15,7 @@ TIES = {"e3_mpa": "e2_mpa", "nu13": "nu12", "g13_mpa": "g12_mpa"}
 def card() -> PlyCard:
     constants = {
         name: Quantity(value=value, unit="MPa", origin="measured", rule="", equal_to=TIES.get(name))
-        for name, value in VALUES.items()
+        for name, value in PUBLISHED_PLY.items()
     }
     covariance = Covariance(
         names=("e1_mpa", "e2_mpa", "nu12", "g12_mpa"),
@@ -39,7 +28,7 @@ def test_draws_have_the_cards_mean_and_covariance(card: PlyCard) -> None:
     draws = sample_constants(card, 40000, seed=1)
     names = list(card.covariance.names) if card.covariance else []
     errors = np.sqrt(np.diag(MATRIX))
-    distance = (draws[names].mean() - [VALUES[n] for n in names]) / (errors / np.sqrt(40000))
+    distance = (draws[names].mean() - [PUBLISHED_PLY[n] for n in names]) / (errors / np.sqrt(40000))
     assert np.abs(distance).max() < 4
     correlation = MATRIX / np.outer(errors, errors)
     seen = draws[names].corr().to_numpy()
@@ -53,7 +42,7 @@ def test_ties_follow_and_assumed_numbers_stay(card: PlyCard) -> None:
         assert (draws[name] == draws[other]).all()
     assert (draws["g23_mpa"] == 2300.0).all()
     assert draws["e1_mpa"].nunique() == 50
-    assert list(draws.columns) == list(VALUES)
+    assert list(draws.columns) == list(PUBLISHED_PLY)
     assert sample_constants(card, 50, seed=1).equals(draws)
     assert not sample_constants(card, 50, seed=2).equals(draws)
 
@@ -63,7 +52,7 @@ def test_propagated_stiffness_has_the_error_of_the_delta_method(card: PlyCard) -
     def q11(e1: np.ndarray, e2: np.ndarray, nu12: np.ndarray) -> np.ndarray:
         return e1 / (1 - nu12**2 * e2 / e1)
 
-    point = np.array([VALUES["e1_mpa"], VALUES["e2_mpa"], VALUES["nu12"]])
+    point = np.array([PUBLISHED_PLY["e1_mpa"], PUBLISHED_PLY["e2_mpa"], PUBLISHED_PLY["nu12"]])
     steps = np.diag([1.0, 1.0, 1e-6])
     gradient = np.array([(q11(*(point + s)) - q11(*(point - s))) / (2 * s.max()) for s in steps])
     expected = np.sqrt(gradient @ MATRIX[:3, :3] @ gradient)
@@ -74,7 +63,7 @@ def test_propagated_stiffness_has_the_error_of_the_delta_method(card: PlyCard) -
 
 def test_a_card_without_covariance_stays_as_it_is(card: PlyCard) -> None:
     draws = sample_constants(card.model_copy(update={"covariance": None}), 3, seed=1)
-    assert (draws == list(VALUES.values())).all().all()
+    assert (draws == list(PUBLISHED_PLY.values())).all().all()
 
 
 def test_covariance_of_the_means_is_what_repeated_campaigns_show() -> None:
