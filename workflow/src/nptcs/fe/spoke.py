@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -145,8 +145,9 @@ class SpokeModel:
         return responses, force
 
     def rest(self) -> SpokeState:
-        """Return the unloaded spoke."""
-        return self._equilibrium(np.zeros(3), np.zeros_like(self.mesh.positions), None)
+        """Return the unloaded spoke: no energy and no force, not even of rounding."""
+        state = self._equilibrium(np.zeros(3), np.zeros_like(self.mesh.positions), None)
+        return replace(state, energy=0.0, force=np.zeros(3))
 
     def move(self, state: SpokeState, motion: Array) -> SpokeState:
         """Go from an equilibrium to another motion of the band.
