@@ -22,6 +22,9 @@ from nptcs.fe.spoke import SpokeError, SpokeModel, SpokeState
 Array = NDArray[np.float64]
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+# what rounding in `chord_of` may add to a state on the table's edge, in parts of the range: motions
+# are differences of lengths of a hundred millimetres, known to 1e-14
+EDGE = 1e-12
 NAMES = ("change of chord (mm)", "inclination β (rad)", "φ (rad)")
 
 
@@ -94,7 +97,8 @@ class SpokeTable:
         part = side_part(chord[:, 0], self.low[0], self.narrowing)
         shrink = np.stack([np.ones_like(part), part, part], axis=1)
         low, high = self.low * shrink, self.high * shrink
-        outside = (chord < low) | (chord > high) | ~np.isfinite(chord)
+        rounding = EDGE * (self.high - self.low)
+        outside = ~((chord >= low - rounding) & (chord <= high + rounding))
         if outside.any():
             spoke, axis = np.argwhere(outside)[0]
             raise TableRangeError(
