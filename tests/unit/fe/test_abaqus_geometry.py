@@ -237,6 +237,7 @@ def test_the_decks_spoke_is_as_stiff_as_the_packages_own(small_deck, reader, spo
         c10_mpa=3.0,
         ply=ply,
         plates=15,
+        plate_coupling="embedded",
     )
     ours = SpokeModel(design).rest().tangent[0, 0]
     assert spoke_solver.radial_stiffness(deck, reader) == pytest.approx(ours, rel=0.1)
@@ -283,6 +284,7 @@ def test_the_spokes_mesh_is_sound_in_another_solver(tmp_path, ply):
         c10_mpa=1.0,
         ply=ply,
         plates=1,
+        plate_coupling="embedded",
     )
     spoke = SpokeModel(design)
     ours = spoke.move(spoke.rest(), np.array([u_r, 0.0, 0.0])).force[0]

@@ -3,6 +3,7 @@
 import re
 import shutil
 import subprocess
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.blocks import LinearBlock, RubberBlock
 from nptcs.fe.calculix import BrickMesh, brick_mesh, deck, spoke_deck, total_forces, true_thickness
 from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.spoke import SpokeDesign
+from nptcs.fe.spoke import SpokeDesign, SpokeModel
 
 # Abaqus and CalculiX number the corners around; the tensor product runs z fastest
 CORNERS = [0, 4, 3, 7, 1, 5, 2, 6]
@@ -40,6 +41,7 @@ def small_design(ply, angle=30.0):
         c10_mpa=1.0,
         ply=ply,
         plates=21,
+        plate_coupling="conforming",
     )
     return true_thickness(design)
 
@@ -54,7 +56,7 @@ def linear_bricks(mesh):
         return np.array([n for n in nodes if n in used])
 
     pairs = np.array([pair for pair in mesh.pairs if pair[0] in used])
-    return BrickMesh(positions, sets, keep(mesh.bottom), keep(mesh.top), pairs)
+    return BrickMesh(positions, sets, keep(mesh.bottom), keep(mesh.top), pairs, {})
 
 
 def compliance_of(ply):
@@ -184,3 +186,51 @@ def test_totals_are_read_from_the_result_file():
 @pytest.mark.parametrize("text", ["", "\n                        S T E P       1\n\n"])
 def test_a_result_file_of_no_completed_step_holds_no_forces(text):
     assert total_forces(text).shape == (0, 3)
+
+
+def test_a_plate_that_is_embedded_is_held_straight_by_equations(ply):
+    design = replace(small_design(ply), plate_coupling="embedded")
+    mesh = brick_mesh(design)
+    # five elements along each leg's plate; the middle of the width has nodes at their ends only
+    assert len(mesh.between) == 2 * 6
+    for node, (first, last, part) in mesh.between.items():
+        place = (1.0 - part) * mesh.positions[first] + part * mesh.positions[last]
+        assert mesh.positions[node] == pytest.approx(place, abs=1e-9)
+        assert np.ptp([mesh.positions[first][1], mesh.positions[last][1]]) == pytest.approx(5.0)
+    held = spoke_deck(design, [1.0]).count("*EQUATION\n3\n")
+    assert held == 3 * len(mesh.between)
+    free = replace(design, plate_coupling="conforming")
+    assert "*EQUATION\n3\n" not in spoke_deck(free, [1.0])
+
+
+@pytest.mark.skipif(shutil.which("ccx") is None, reason="CalculiX (ccx) is not installed")
+def test_what_embedding_adds_is_the_same_in_calculix(tmp_path, ply):
+    """Plies at 45 degrees, where a plate of free width bows most.
+
+    Two elements across the plate: one C3D20R alone, under-integrated, hardly bows.
+    """
+    mesh = SpokeMesh(rows=(1, 1, 2, 1, 1, 1), plate_columns=2, bulk_to_shear_ratio=100.0)
+    design = replace(small_design(ply, 45.0), mesh=mesh)
+    added = []
+    for solve in (stiffness_by_ccx(tmp_path), stiffness_by_kernel):
+        held, free = (
+            solve(replace(design, plate_coupling=coupling))
+            for coupling in ("embedded", "conforming")
+        )
+        added.append(held / free - 1.0)
+    assert added[0] > 0.04
+    assert added[1] == pytest.approx(added[0], rel=0.15)
+
+
+def stiffness_by_kernel(design):
+    return SpokeModel(design).rest().tangent[0, 0]
+
+
+def stiffness_by_ccx(folder):
+    def solve(design):
+        (folder / "spoke.inp").write_text(spoke_deck(design, [0.01]))
+        run = subprocess.run(["ccx", "spoke"], cwd=folder, capture_output=True, text=True, check=True)
+        assert not re.search(r"\*(WARNING|ERROR)", run.stdout)
+        return design.plates * total_forces((folder / "spoke.dat").read_text())[-1, 2] / 0.01
+
+    return solve

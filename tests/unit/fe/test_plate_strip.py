@@ -3,6 +3,7 @@
 import numpy as np
 import pytest
 
+from nptcs.fe.embedded import straight_block
 from nptcs.fe.laminate import abd
 from nptcs.fe.spoke_blocks import plate_blocks
 from nptcs.fe.spoke_mesh import ElementSet
@@ -26,14 +27,17 @@ def strip():
     return positions, ElementSet(nodes, positions[nodes], np.zeros(ELEMENTS, dtype=int))
 
 
-def end_rotation(ply, angle, thickness, moment, held):
+def end_rotation(ply, angle, thickness, moment, held=False, embedded=False):
     """Rotation of the end of a cantilever per unit moment, small: one linear solve.
 
-    `held` stops every sideways displacement, as a wide plate would.
+    `held` stops every sideways displacement, as a wide plate would; `embedded` keeps the
+    mid-surface straight across the width.
     """
     positions, elements = strip()
     axes = np.array([[[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]])
     blocks = plate_blocks(elements, axes, LAYER, ply, angle, thickness)
+    if embedded:
+        blocks.append(straight_block(elements, 1, ply["e2_mpa"]))
     size = positions.size
     matrix = np.zeros((size, size))
     for block in blocks:
@@ -66,7 +70,7 @@ def end_rotation(ply, angle, thickness, moment, held):
 def test_a_free_strip_bends_by_the_inverse_abd(ply, angle, thickness):
     compliance = np.linalg.inv(abd(ply, angle, thickness))
     wanted = compliance[3, 3] * LENGTH / WIDTH
-    assert end_rotation(ply, angle, thickness, 1.0, held=False) == pytest.approx(wanted, rel=0.02)
+    assert end_rotation(ply, angle, thickness, 1.0) == pytest.approx(wanted, rel=0.02)
 
 
 def test_without_coupling_the_strip_would_be_stiffer(ply):
@@ -80,3 +84,24 @@ def test_a_strip_held_sideways_bends_by_the_condensed_bending_stiffness(ply):
     stiffness = abd(ply, 0.0, 1.8)
     wanted = LENGTH / WIDTH / stiffness[3, 3]
     assert end_rotation(ply, 0.0, 1.8, 1.0, held=True) == pytest.approx(wanted, rel=0.02)
+
+
+@pytest.mark.parametrize("angle", [30.0, 60.0, 75.0])
+def test_an_embedded_strip_cannot_bow_across_its_width(ply, angle):
+    """Rigid in transverse shear, its sections turn with the straight mid-surface: κ22 = 0."""
+    rigid = {**ply, "g13_mpa": 1e6, "g23_mpa": 1e6}
+    kept = [0, 1, 2, 3, 5]
+    compliance = np.linalg.inv(abd(ply, angle, 1.8)[np.ix_(kept, kept)])
+    wanted = compliance[3, 3] * LENGTH / WIDTH
+    assert end_rotation(rigid, angle, 1.8, 1.0, embedded=True) == pytest.approx(wanted, rel=0.02)
+
+
+def test_an_embedded_strip_falls_from_60_to_75_degrees_and_rises_to_90(published_ply):
+    """The paper's sign and, for the strip that may bow, the other one."""
+    held, free = (
+        [1.0 / end_rotation(published_ply, a, 1.8, 1.0, embedded=e) for a in (60.0, 75.0, 90.0)]
+        for e in (True, False)
+    )
+    assert held[1] < 0.97 * held[0]
+    assert held[2] > held[1]
+    assert free[0] < free[1] < free[2]

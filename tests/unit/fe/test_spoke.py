@@ -21,6 +21,7 @@ def design(ply, **change):
         "c10_mpa": 1.0,
         "ply": ply,
         "plates": 14,
+        "plate_coupling": "embedded",
     }
     return SpokeDesign(**{**values, **change})
 

@@ -129,6 +129,7 @@ def spoke_design(**change):
         "c10_mpa": 1.0,
         "ply": PUBLISHED_PLY,
         "plates": 14,
+        "plate_coupling": "embedded",
     }
     return SpokeDesign(**{**values, **change})
 
@@ -202,8 +203,9 @@ def test_every_part_of_the_design_is_in_the_key():
         {"geometry": SpokeGeometry(block_thickness_mm=12.5)},
         {"mesh": SpokeMesh()},
         {"plates": 13},
+        {"plate_coupling": "conforming"},
     ]
     keys = {table_key(spoke_design(**change), OPTIONS) for change in changes}
     keys.add(table_key(spoke_design(), SpokeTableOptions()))
-    assert len(keys) == 6
+    assert len(keys) == 7
     assert base not in keys

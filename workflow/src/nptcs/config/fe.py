@@ -3,11 +3,14 @@
 from __future__ import annotations
 
 from math import cos, radians
-from typing import Self
+from typing import Literal, Self
 
 from pydantic import Field, model_validator
 
 from nptcs.config.base import Strict
+
+
+PlateCoupling = Literal["embedded", "conforming"]
 
 
 class SpokeGeometry(Strict):
@@ -177,6 +180,12 @@ class FeSpokeModel(Strict):
 
     geometry: SpokeGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
+    plate_coupling: PlateCoupling = Field(
+        "embedded",
+        description="embedded: the plates' mid-surface stays straight across their width, as that "
+        "of the paper's shells in bricks as wide as the plates; conforming: it moves with the "
+        "rubber and may bow",
+    )
 
 
 class FeModel(FeSpokeModel):

@@ -12,6 +12,7 @@ element; for rubber, whose A is made of few products, products of gradients with
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -37,6 +38,22 @@ class Response:
     energy: float
     force: Array
     tangent: Array
+
+
+class Block(Protocol):
+    """Elements of one kind.
+
+    Attributes
+    ----------
+    nodes : array (elements, nodes)
+    """
+
+    @property
+    def nodes(self) -> Index: ...
+
+    def respond(self, displacement: Array) -> Response:
+        """Energy, forces and tangents for nodal displacements (nodes, dim)."""
+        ...
 
 
 def deformation_gradient(gradient: Array, displacement: Array, frame: Array | None) -> Array:

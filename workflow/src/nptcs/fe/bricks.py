@@ -111,7 +111,10 @@ def _plate_bricks(model: SpokeModel, state: SpokeState, spoke: int) -> Bricks:
     # the stretch block has the volume of the plies; the bricks show the layer that carries them
     ratio = model.design.thickness_mm / model.design.geometry.plate_layer_mm
     volume = model.plates[1].weight.sum(axis=1) / ratio
-    energy = sum(linear_energy(block, state.displacement) for block in model.plates)
+    energy = np.sum([linear_energy(block, state.displacement) for block in model.plates], axis=0)
+    columns = model.design.mesh.plate_columns
+    for block in model.embedding:
+        energy += np.repeat(block.energies(state.displacement) / columns, columns)
     fibres = fibre_stress(model.plates[0], state.displacement, model.design.angle_deg)
     plies = [extreme(ply) for ply in np.split(fibres, 2, axis=1)]
     nothing = np.full(position.shape[:2], np.nan)

@@ -48,6 +48,9 @@ class BrickMesh:
         Node numbers on the rim and the band.
     pairs : array (pairs, 2)
         Node on the far axial plane and the node that it must follow.
+    between : dict of int to tuple (node, node, float)
+        Nodes between the plies inside a plate's width: its edges at the same height, and how far
+        the node lies from the first to the second.
     """
 
     positions: dict[int, Array]
@@ -55,6 +58,7 @@ class BrickMesh:
     bottom: Index
     top: Index
     pairs: Index
+    between: dict[int, tuple[int, int, float]]
 
 
 def brick_mesh(design: SpokeDesign) -> BrickMesh:
@@ -83,12 +87,20 @@ def brick_mesh(design: SpokeDesign) -> BrickMesh:
     last_row = len(rows) - 1
     far = used[(plane == len(y) - 1) & (row > 0) & (row < last_row)]
     step = (len(y) - 1) * len(rows)
+    edge = 2 * design.mesh.plate_columns
+    plated_rows = np.unique(2 * np.flatnonzero(has_plate)[:, None] + np.arange(3))
+    inside = (column == inner + 2) & (plane > 0) & (plane < edge) & np.isin(row, plated_rows)
+    between = {
+        int(node): (int(node - s * len(rows)), int(node + (edge - s) * len(rows)), s / edge)
+        for node, s in zip(used[inside], plane[inside], strict=True)
+    }
     return BrickMesh(
         positions=dict(zip(used.tolist(), positions, strict=True)),
         sets=blocks,
         bottom=used[row == 0],
         top=used[row == last_row],
         pairs=np.stack([far, far - step], axis=1),
+        between=between,
     )
 
 
@@ -134,6 +146,12 @@ def deck(design: SpokeDesign, mesh: BrickMesh, element: str, u_r_mm: Sequence[fl
     for far, near in mesh.pairs:
         for axis in (1, 2, 3):
             lines += ["*EQUATION", "2", f"{far}, {axis}, 1., {near}, {axis}, -1."]
+    if design.plate_coupling == "embedded":
+        lines.append("** the plates' mid-surface stays straight across their width")
+        for node, (first, last, part) in mesh.between.items():
+            for axis in (1, 2, 3):
+                ends = f"{first}, {axis}, {part - 1.0:.9g}, {last}, {axis}, {-part:.9g}"
+                lines += ["*EQUATION", "3", f"{node}, {axis}, 1., {ends}"]
     lines += ["*BOUNDARY", "NBOTTOM, 1, 3", "NTOP, 1, 2"]
     for u_r in u_r_mm:
         lines += ["*STEP, NLGEOM, INC=500", "*STATIC", "0.25, 1., 1e-4, 0.5"]

@@ -39,6 +39,7 @@ def spoke_design(
         c10_mpa=values["spoke_c10_mpa"],
         ply=dict(ply),
         plates=plates,
+        plate_coupling=model.plate_coupling,
     )
 
 

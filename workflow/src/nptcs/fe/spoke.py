@@ -8,9 +8,10 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
 from nptcs.fe.block_tridiagonal import BlockCholesky, BlockPattern
-from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
+from nptcs.fe.blocks import Block, Response
+from nptcs.fe.embedded import straight_block
 from nptcs.fe.matrices import element_dofs
 from nptcs.fe.spoke_blocks import plate_blocks, rubber_block
 from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
@@ -41,6 +42,7 @@ class SpokeDesign:
     c10_mpa: float
     ply: Mapping[str, float]
     plates: int
+    plate_coupling: PlateCoupling
 
 
 @dataclass
@@ -99,6 +101,10 @@ class SpokeModel:
             design.angle_deg,
             design.thickness_mm,
         )
+        self.embedding = []
+        if design.plate_coupling == "embedded":
+            columns, e2_mpa = design.mesh.plate_columns, design.ply["e2_mpa"]
+            self.embedding = [straight_block(self.mesh.plate, columns, e2_mpa)]
         self._dofs = [element_dofs(block.nodes, 3) for block in self.blocks]
         row = 3 * self.mesh.nodes_per_row
         self._count = 3 * len(self.mesh.positions)
@@ -113,9 +119,9 @@ class SpokeModel:
         self.scale = float(design.plates)
 
     @property
-    def blocks(self) -> list[RubberBlock | LinearBlock]:
-        """All element blocks."""
-        return [*self.rubbers, *self.plates]
+    def blocks(self) -> list[Block]:
+        """All element blocks, and what holds the plates straight."""
+        return [*self.rubbers, *self.plates, *self.embedding]
 
     def band_motion(self, motion: Array) -> Array:
         """Displacements (top nodes, 3) of the rigid foot, mm."""
