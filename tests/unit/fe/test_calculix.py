@@ -229,7 +229,9 @@ def stiffness_by_kernel(design):
 def stiffness_by_ccx(folder):
     def solve(design):
         (folder / "spoke.inp").write_text(spoke_deck(design, [0.01]))
-        run = subprocess.run(["ccx", "spoke"], cwd=folder, capture_output=True, text=True, check=True)
+        run = subprocess.run(
+            ["ccx", "spoke"], cwd=folder, capture_output=True, text=True, check=True
+        )
         assert not re.search(r"\*(WARNING|ERROR)", run.stdout)
         return design.plates * total_forces((folder / "spoke.dat").read_text())[-1, 2] / 0.01
 

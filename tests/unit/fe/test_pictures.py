@@ -16,7 +16,9 @@ from nptcs.fe.tyre import LoadPath, TyreModel, TyreState
 def spoke(published_ply):
     coarse = SpokeMesh(rows=(1, 1, 1, 1, 1, 1), columns=2)
     return SpokeModel(
-        SpokeDesign(SpokeGeometry(), coarse, 15.0, 5.0, 1.8, 45.0, 1.0, published_ply, 14, "embedded")
+        SpokeDesign(
+            SpokeGeometry(), coarse, 15.0, 5.0, 1.8, 45.0, 1.0, published_ply, 14, "embedded"
+        )
     )
 
 

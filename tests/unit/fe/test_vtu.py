@@ -54,7 +54,9 @@ def volumes(grid):
 def spoke(published_ply):
     coarse = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
     return SpokeModel(
-        SpokeDesign(SpokeGeometry(), coarse, 215.0 / 14, 5.0, 1.8, 45.0, 1.0, published_ply, 14, "embedded")
+        SpokeDesign(
+            SpokeGeometry(), coarse, 215.0 / 14, 5.0, 1.8, 45.0, 1.0, published_ply, 14, "embedded"
+        )
     )
 
 

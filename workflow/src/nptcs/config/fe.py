@@ -9,7 +9,6 @@ from pydantic import Field, model_validator
 
 from nptcs.config.base import Strict
 
-
 PlateCoupling = Literal["embedded", "conforming"]
 
 

@@ -41,15 +41,12 @@ class Response:
 
 
 class Block(Protocol):
-    """Elements of one kind.
-
-    Attributes
-    ----------
-    nodes : array (elements, nodes)
-    """
+    """Elements of one kind."""
 
     @property
-    def nodes(self) -> Index: ...
+    def nodes(self) -> Index:
+        """Node numbers, array (elements, nodes)."""
+        ...
 
     def respond(self, displacement: Array) -> Response:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""

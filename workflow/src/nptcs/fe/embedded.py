@@ -87,7 +87,7 @@ def straight_block(plate: ElementSet, plate_columns: int, e2_mpa: float) -> Stra
     across[:, 0], across[:, -1] = part - 1.0, -part
     across[np.arange(lines - 1), np.arange(1, lines)] = 1.0
     # springs by line and height; nodes by face, line and height
-    bow: Array = np.kron(np.kron(np.full((1, 2), 0.5), across), np.eye(3))
+    bow = np.kron(np.kron(np.array([[0.5, 0.5]]), across), np.eye(3)).astype(np.float64)
     spring = HELD * e2_mpa * length[:, None] * np.tile(SIMPSON, lines - 1)
     return StraightBlock(_rows(plate.nodes, plate_columns), bow, spring)
 
