@@ -1,22 +1,25 @@
-"""Assembly and factorisation of the spoke, side by side with a band, SuperLU and FElupe.
+"""Assembly and factorisation of the spoke, side by side with other solvers and with FElupe.
 
     python benchmarks/fe_kernel.py
 
-Processor time of one call, the mean of ten; FElupe if it is installed. The figures stand in
-``docs/decisions/0003-fe-kernel.md``.
+Processor time of one call, the mean of ten; FElupe and pypardiso if they are installed. `--mesh`
+takes a mesh of ``fe_mesh.py``. The figures stand in ``docs/decisions/0003-fe-kernel.md``.
 """
 
 from __future__ import annotations
 
+import argparse
 import importlib.util
 import time
 from collections.abc import Callable
 
 import numpy as np
 import scipy.sparse as sparse
+from fe_mesh import SPOKE_MESHES
 from numpy.typing import NDArray
 from scipy.linalg import cholesky_banded
 from scipy.sparse.linalg import splu
+from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
@@ -41,10 +44,15 @@ def milliseconds(call: Callable[[], object]) -> float:
     return 1000.0 * (time.process_time() - start) / REPEATS
 
 
-def own_kernel() -> None:
+@threadpool_limits.wrap(limits=1)
+def own_kernel(mesh: str) -> None:
     """Assembly of the package, and its factorisation against others of the same matrix."""
     fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0, "spoke_c10_mpa": 1.0}
-    model = SpokeModel(spoke_design(FeModel(), TyreGeometry(), PUBLISHED_PLY, fiducial))
+    model = SpokeModel(
+        spoke_design(
+            FeModel(spoke_mesh=SPOKE_MESHES[mesh]), TyreGeometry(), PUBLISHED_PLY, fiducial
+        )
+    )
     rest = np.zeros_like(model.mesh.positions)
     bricks = model.rubbers[0]
     spent = milliseconds(lambda: bricks.respond(rest))
@@ -75,6 +83,26 @@ def factorisations(dofs: list[Index], tangents: list[Array], row: int, size: int
         ("SuperLU, MMD_AT_PLUS_A", lambda: splu(matrix, permc_spec="MMD_AT_PLUS_A")),
     ):
         print(f"{label}: {milliseconds(call):.1f} ms")
+    pardiso(matrix, rhs)
+
+
+def pardiso(matrix: sparse.csc_array, rhs: Array) -> None:
+    """MKL's Pardiso: its supported interface, and its numbers alone by a private call."""
+    if importlib.util.find_spec("pypardiso") is None:
+        print("pypardiso is not installed: pip install pypardiso to compare")
+        return
+    import pypardiso
+
+    positive_definite = 2
+    solver = pypardiso.PyPardisoSolver(mtype=positive_definite)
+    upper = sparse.csr_matrix(sparse.triu(matrix))
+    residual = np.abs(matrix @ solver.solve(upper, rhs) - rhs).max()
+    spent = milliseconds(lambda: solver.factorize(upper))
+    print(f"pypardiso, factorize: {spent:.1f} ms (largest residual {residual:.1e})")
+    solver.set_phase(22)
+    print(
+        f"pypardiso, numbers alone: {milliseconds(lambda: solver._call_pardiso(upper, rhs)):.1f} ms"
+    )
 
 
 def copied(chain: BlockMatrix) -> BlockMatrix:
@@ -129,5 +157,7 @@ def felupe() -> None:
 
 
 if __name__ == "__main__":
-    own_kernel()
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--mesh", choices=sorted(SPOKE_MESHES), default="campaign")
+    own_kernel(parser.parse_args().mesh)
     felupe()
