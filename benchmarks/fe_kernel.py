@@ -24,8 +24,8 @@ from threadpoolctl import threadpool_limits
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.block_tridiagonal import BlockCholesky, BlockMatrix, BlockPattern
+from nptcs.fe.blocks import element_dofs
 from nptcs.fe.case import spoke_design
-from nptcs.fe.matrices import element_dofs
 from nptcs.fe.spoke import SpokeModel
 from nptcs.materials import PUBLISHED_PLY
 

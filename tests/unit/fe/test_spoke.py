@@ -2,7 +2,6 @@ import numpy as np
 import pytest
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
-from nptcs.fe.matrices import BandedPattern
 from nptcs.fe.spoke import SpokeDesign, SpokeError, SpokeModel
 from nptcs.fe.spoke_mesh import build_period
 from nptcs.fe.spoke_pull import pull
@@ -117,17 +116,3 @@ def test_mesh_converges(ply):
 def test_an_impossible_motion_is_reported_with_the_last_state(model):
     with pytest.raises(SpokeError, match="no equilibrium beyond"):
         model.move(model.rest(), np.array([-120.0, 0.0, 0.0]))
-
-
-def test_banded_assembly_equals_the_dense_one():
-    rng = np.random.default_rng(0)
-    dofs = np.array([[0, 1, 2], [2, 3, -1]])
-    blocks = rng.normal(size=(2, 3, 3))
-    dense = np.zeros((4, 4))
-    dense[:3, :3] += blocks[0]
-    dense[np.ix_([2, 3], [2, 3])] += blocks[1][:2, :2]
-    dense += 5.0 * np.eye(4)
-    pattern = BandedPattern([dofs, np.arange(4)[:, None]], 4)
-    band = pattern.assemble([blocks, 5.0 * np.ones((4, 1, 1))])
-    rhs = rng.normal(size=4)
-    assert pattern.solve(band, rhs) == pytest.approx(np.linalg.solve(dense, rhs))

@@ -53,6 +53,11 @@ class Block(Protocol):
         ...
 
 
+def element_dofs(nodes: Index, dim: int) -> Index:
+    """Degrees of freedom (elements, nodes × dim) of elements' nodes."""
+    return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
+
+
 def deformation_gradient(gradient: Array, displacement: Array, frame: Array | None) -> Array:
     """F = Q + Σ u_a ⊗ ∂N_a/∂X, array (elements, points, 3, 3).
 

@@ -10,9 +10,8 @@ from numpy.typing import NDArray
 
 from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
 from nptcs.fe.block_tridiagonal import BlockCholesky, BlockPattern
-from nptcs.fe.blocks import Block, Response
+from nptcs.fe.blocks import Block, Response, element_dofs
 from nptcs.fe.embedded import straight_block
-from nptcs.fe.matrices import element_dofs
 from nptcs.fe.spoke_blocks import plate_blocks, rubber_block
 from nptcs.fe.spoke_mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
 
@@ -197,6 +196,7 @@ class SpokeModel:
             yield last
 
     def _follow(self, before: SpokeState, last: SpokeState, motion: Array) -> SpokeState | None:
+        """Go on along the last two states, or None where the iteration from there fails."""
         try:
             return self._equilibrium(motion, self._cubic_guess(before, last, motion), last)
         except (FloatingPointError, np.linalg.LinAlgError):

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 from nptcs.config.fe import GroundContact, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.band import ring_rubbers, wire_blocks
-from nptcs.fe.blocks import LinearBlock, Response, RubberBlock
+from nptcs.fe.banded_ring import BandedPattern, folded_order
+from nptcs.fe.blocks import Block, Response, element_dofs
 from nptcs.fe.contact import Ground
 from nptcs.fe.lagrange import line_shape
-from nptcs.fe.matrices import BandedPattern, element_dofs, folded_order
 from nptcs.fe.spoke_table import SpokeTable, TableRangeError
 from nptcs.fe.tyre_mesh import RingMesh, build_ring
 
@@ -105,7 +105,7 @@ class TyreModel:
         ring = self.mesh
         self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
         self.wires = wire_blocks(ring, tyre)
-        self._bodies: list[RubberBlock | LinearBlock] = [*self.rubbers, *self.wires]
+        self._bodies: list[Block] = [*self.rubbers, *self.wires]
         self.ground = Ground(ring.positions, ring.tread_edges, tyre.tread_width_mm, contact)
         self.foot_operator = foot_operators(ring)
         nodes = [*[block.nodes for block in self._bodies], ring.feet]

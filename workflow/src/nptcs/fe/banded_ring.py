@@ -1,4 +1,4 @@
-"""Element tangents gathered into a banded matrix, and its solution.
+"""The ring's matrix: element tangents gathered into a band, and its solution.
 
 A ring numbered from both of its sides at once has a narrow band: LAPACK's banded factorisation
 beats a general sparse one there (``docs/decisions/0003-fe-kernel.md``).
@@ -14,11 +14,6 @@ from scipy.linalg import solve_banded
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]
-
-
-def element_dofs(nodes: Index, dim: int) -> Index:
-    """Degrees of freedom (elements, nodes × dim) of elements' nodes."""
-    return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
 
 
 class BandedPattern:
