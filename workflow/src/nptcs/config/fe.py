@@ -19,18 +19,18 @@ class SpokeGeometry(Strict):
     table 10 and five cases of table 5.
     """
 
-    leg_angle_deg: float = Field(29.505, gt=0, lt=60, description="Leg's angle from the radius")
+    leg_angle_deg: float = Field(29.55, gt=0, lt=60, description="Leg's angle from the radius")
     height_mm: float = Field(84.1, gt=0, description="From the rim to the band")
     leg_thickness_mm: float = Field(2.5, gt=0, description="Normal to the leg")
     block_thickness_mm: float = Field(
-        11.387, gt=0, description="Rubber block at mid-height, normal to the leg"
+        12.526, gt=0, description="Rubber block at mid-height, normal to the leg"
     )
-    block_half_length_mm: float = Field(6.942, gt=0, description="Half the block's height")
-    block_ramp_mm: float = Field(4.47, gt=0, description="Height of the ramp from leg to block")
+    block_half_length_mm: float = Field(6.001, gt=0, description="Half the block's height")
+    block_ramp_mm: float = Field(4.654, gt=0, description="Height of the ramp from leg to block")
     foot_thickness_mm: float = Field(
-        12.114, gt=0, description="At the rim and the band, normal to the leg"
+        12.031, gt=0, description="At the rim and the band, normal to the leg"
     )
-    foot_taper_mm: float = Field(10.498, gt=0, description="Height of the taper from foot to leg")
+    foot_taper_mm: float = Field(10.346, gt=0, description="Height of the taper from foot to leg")
     plate_foot_gap_mm: float = Field(5.0, gt=0, description="Plate's end above the rim")
     plate_mid_gap_mm: float = Field(5.5, gt=0, description="Plate's end short of mid-height")
     plate_layer_mm: float = Field(
