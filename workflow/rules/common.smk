@@ -9,7 +9,13 @@ from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.files import sha256_of_file
 from nptcs.provenance import code_hash
-from nptcs.solvers.registry import check_study, load, module_of, read_options
+from nptcs.solvers.registry import (
+    check_study,
+    load,
+    model_choices,
+    module_of,
+    read_options,
+)
 from nptcs.tables.catalogue import TABLES as TABLE_CONTRACTS
 from nptcs.tables.specimens import read_sheet
 

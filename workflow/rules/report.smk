@@ -3,11 +3,14 @@ from importlib.resources import files as package_files
 
 
 def solver_facts():
-    """What the report says of each solver: the first line of its module, and what it is given."""
+    """What the report says of each solver: the first line of its module, and what it is given.
+
+    A solver's choices between models stand once for each study that makes them differently.
+    """
     named = {(name, study.name) for study in CONFIG.studies for name in study.solvers}
     facts = {}
     for name, study in sorted(named):
-        solver, _ = solver_of(study, name)
+        solver, options = solver_of(study, name)
         about = (
             (sys.modules[solver.solve.__module__].__doc__ or "").strip().splitlines()
         )
@@ -15,7 +18,11 @@ def solver_facts():
             "about": about[0] if about else "",
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
+            "choices": facts.get(name, {}).get("choices", []),
         }
+        chosen = model_choices(options)
+        if chosen and chosen not in facts[name]["choices"]:
+            facts[name]["choices"].append(chosen)
     return facts
 
 

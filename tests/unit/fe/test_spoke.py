@@ -88,6 +88,20 @@ def test_more_and_thicker_plates_along_the_leg_stiffen(ply, model):
     assert SpokeModel(design(ply, angle_deg=90.0)).rest().tangent[0, 0] < 0.995 * base
 
 
+def test_plates_that_may_bow_are_softer_where_the_fibres_are_oblique(ply):
+    """Along and across the plate lamination theory has next to no difference."""
+    added = {}
+    for angle in (0.0, 45.0, 90.0):
+        held, free = (
+            SpokeModel(design(ply, angle_deg=angle, plate_coupling=coupling)).rest().tangent[0, 0]
+            for coupling in ("embedded", "conforming")
+        )
+        added[angle] = held / free - 1.0
+    assert added[45.0] > 0.01
+    assert 0.0 <= added[0.0] < 0.001
+    assert 0.0 <= added[90.0] < 0.001
+
+
 def test_pulling_follows_the_tangent_and_energy_balances(model):
     displacement, force = pull(model, 1.0, 8)
     # a curve through the origin itself: the LCA takes it as a spoke's law

@@ -400,7 +400,7 @@ def compared(results):
         solvers={
             **results.solvers,
             "lca": SolverFacts("The ring.", False, True),
-            "fe_tyre": SolverFacts("The tyre.", True, True),
+            "fe_tyre": SolverFacts("The tyre.", True, True, [{"plate_coupling": "embedded"}]),
             "fe_spoke": SolverFacts("The spoke.", True, False),
         },
         designs={**results.designs, "spoke": check(spokes, Design, "spoke")},

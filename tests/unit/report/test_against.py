@@ -24,6 +24,7 @@ from nptcs.report.ranking import side_by_side as ranks_side_by_side
 from nptcs.report.ranking import verdicts
 from nptcs.report.sheets import sheets_of
 from nptcs.report.spokes import spoke_section, what_differs
+from nptcs.report.studies import cases_section
 from nptcs.report.view import Facts, Listing, Plots, TableView, Text
 from nptcs.report.workbook import build_workbook
 
@@ -278,3 +279,9 @@ def test_solvers_compared_over_different_cases_have_published_means_of_their_own
 def test_listings_are_not_empty(compared):
     section = against_section(compared, sheets_of(compared))
     assert all(block.items for block in blocks(section, Listing))
+
+
+def test_the_models_that_solvers_choose_are_named(compared):
+    (first, *_) = cases_section(compared, sheets_of(compared)).blocks
+    assert "fe_tyre: The tyre (plate coupling: embedded)." in first.text
+    assert "lca: The ring." in first.text

@@ -11,6 +11,7 @@ from nptcs.fe.calculix import complaints
 from nptcs.materials import PUBLISHED_PLY
 from nptcs.solvers import calculix, fe_spoke, fe_tyre
 from nptcs.solvers.contract import CaseInputs, Status
+from nptcs.solvers.registry import model_choices
 
 VALUES = {
     "spacing_mm": 15.0,
@@ -176,3 +177,8 @@ def test_calculix_results_are_scaled_to_the_whole_spoke(tmp_path):
 def test_complaints_are_found_at_the_start_of_a_line():
     assert complaints("all well\n no *WARNING here\n") == ""
     assert "*ERROR" in complaints("x\n *ERROR in gen3delem\n stop\n")
+
+
+def test_the_choice_between_models_is_told():
+    options = fe_tyre.SOLVER.options(plate_coupling="conforming", timeout_s=10)
+    assert model_choices(options) == {"plate_coupling": "conforming"}

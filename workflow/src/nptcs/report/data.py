@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import platform
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from importlib.metadata import version
 from pathlib import Path
@@ -62,11 +62,12 @@ SOFTWARE = (
 
 @dataclass(frozen=True)
 class SolverFacts:
-    """What the report says of a solver."""
+    """What the report says of a solver, with the models that its options choose."""
 
     about: str
     needs_ply: bool
     loads_tyre: bool
+    choices: Sequence[Mapping[str, str]] = ()
 
 
 @dataclass(frozen=True)

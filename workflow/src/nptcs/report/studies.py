@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.config.study import Factor, MeasuredRubber, Study
 from nptcs.report import catalogue, marks
-from nptcs.report.data import Results, factor_labels
+from nptcs.report.data import Results, SolverFacts, factor_labels
 from nptcs.report.figures_impact import impact_bars
 from nptcs.report.figures_surface import contours, pairs, slices
 from nptcs.report.ranking import ranking_blocks
@@ -85,13 +85,25 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
-    solvers = [f"{name}: {facts.about}" for name, facts in results.solvers.items()]
+    solvers = [
+        f"{name}: {facts.about.removesuffix('.')}{_choices(facts)}."
+        for name, facts in results.solvers.items()
+    ]
     blocks: list[Block] = [
         Text("Solvers. " + " — ".join(solvers)),
         table_view(case_counts(results.cases), COUNTS, mark=marks.by_status),
     ]
     blocks += [_cases_of(results, study) for study in results.config.studies]
     return Section("cases", "Cases", tuple(blocks))
+
+
+def _choices(facts: SolverFacts) -> str:
+    """Name the models that the solver's options choose."""
+    sets = [
+        ", ".join(f"{words(name)}: {choice}" for name, choice in chosen.items())
+        for chosen in facts.choices
+    ]
+    return f" ({' or '.join(sets)})" if sets else ""
 
 
 def _cases_of(results: Results, study: Study) -> TableView:

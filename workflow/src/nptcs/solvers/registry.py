@@ -7,7 +7,7 @@ import importlib.util
 import sys
 from collections.abc import Mapping, Set
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal, get_origin
 
 from pydantic import ValidationError
 
@@ -85,6 +85,15 @@ def read_options(solver: Solver, options: Mapping[str, Any]) -> SolverOptions:
         return solver.options.model_validate(own)
     except ValidationError as error:
         raise InputError(describe(error, solver.options), column=f"solvers.{solver.name}") from None
+
+
+def model_choices(options: SolverOptions) -> dict[str, str]:
+    """Options that name one of several models, for example how plates are joined to the rubber."""
+    return {
+        name: str(getattr(options, name))
+        for name, field in type(options).model_fields.items()
+        if get_origin(field.annotation) is Literal
+    }
 
 
 def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
