@@ -145,6 +145,24 @@ def test_calculix_that_stops_early_hangs_or_is_missing_has_a_status(tmp_path):
     assert calculix.solve(inputs(missing)).status is Status.ERROR
 
 
+def test_calculix_that_gets_no_further_keeps_the_steps_before(tmp_path):
+    """The words are those of CalculiX 2.20 at the end of a spoke pressed too far."""
+    body = (
+        "text = ''\n"
+        "for u in (1, 2, 3, 4, -5):\n"
+        "    text += ' total force (fx,fy,fz) for set NTOP and time 1.\\n\\n'\n"
+        "    text += f' 0.0E+00 0.0E+00 {2.0 * u:.6E}\\n'\n"
+        "pathlib.Path(sys.argv[1] + '.dat').write_text(text)\n"
+        "print('\\n *ERROR: increment size smaller than minimum')\n"
+        "print(' best solution and residuals are in the frd file'); sys.exit(201)"
+    )
+    result = calculix_case(tmp_path, body)
+    assert result.status is Status.DIVERGED
+    assert "increment size smaller than minimum" in result.message
+    assert result.curve["displacement_mm"] == [-5.0, 0.0, 1.0, 2.0, 3.0, 4.0]
+    assert result.curve["force_n"] == pytest.approx([30.0 * u for u in (-5, 0, 1, 2, 3, 4)])
+
+
 @pytest.mark.parametrize(("code", "left"), [(201, ""), (0, ""), (201, "\\n S T E P  1\\n\\n")])
 def test_calculix_that_fails_in_its_first_step_is_quoted(tmp_path, code, left):
     """CalculiX opens its result file before the first step, so that it is there without forces."""

@@ -29,6 +29,16 @@ BRICK = np.array(
 )
 
 
+# the errors with which CalculiX 2.20 ends when Newton's method gets no further
+NO_CONVERGENCE = (
+    "increment size smaller than minimum",
+    "too many cutbacks",
+    "too many iterations needed",
+    "solution seems to diverge",
+    "max. # of increments reached",
+)
+
+
 def true_thickness(design: SpokeDesign) -> SpokeDesign:
     """Return the design with a plate layer as thick as the plate, as meshed plies need it."""
     section = design.geometry.model_dump() | {"plate_layer_mm": design.thickness_mm}
@@ -206,11 +216,15 @@ def total_forces(dat_text: str) -> Array:
 
 
 def complaints(output: str) -> str:
-    """Return the warnings and errors in what CalculiX printed, or an empty text.
+    """Return the warnings and errors about the model in what CalculiX printed, or an empty text.
 
     CalculiX ignores keywords that it does not know with a warning and exit code 0, so a warning
-    means that another model was solved.
+    means that another model was solved. That an iteration got no further is not about the model.
     """
     lines = [line.strip() for line in output.splitlines()]
-    starts = [i for i, line in enumerate(lines) if re.match(r"\*(WARNING|ERROR)", line)]
+    starts = [
+        i
+        for i, line in enumerate(lines)
+        if re.match(r"\*(WARNING|ERROR)", line) and not any(end in line for end in NO_CONVERGENCE)
+    ]
     return " | ".join(" ".join(lines[i : i + 3]) for i in starts)

@@ -54,32 +54,34 @@ def solve(inputs: CaseInputs) -> SolverResult:
             return SolverResult(status=Status.ERROR, message=found)
         answer = Path(folder) / "spoke.dat"
         force = total_forces(answer.read_text()) if answer.exists() else np.empty((0, 3))
+    radial = force[:, 2] * design.plates
+    curve = _curve(np.concatenate([pulled, -pressed])[: len(radial)], radial)
     if ended.code != 0 or len(force) < 2 * STEPS:
         return SolverResult(
             status=Status.DIVERGED,
+            curve=curve,
             message=f"{options.command[0]} ended with code {ended.code} after {len(force)} of "
             f"{2 * STEPS} steps: {ended.output.strip()[-500:]}",
         )
-    radial = force[:, 2] * design.plates
-    return _result(pulled, radial[:STEPS], pressed, -radial[STEPS:])
-
-
-def _result(
-    pulled: np.ndarray, pull_force: np.ndarray, pressed: np.ndarray, press_force: np.ndarray
-) -> SolverResult:
-    tension = fit_through_origin(pulled, pull_force)
-    compression = fit_through_origin(pressed, press_force)
+    tension = fit_through_origin(pulled, radial[:STEPS])
+    compression = fit_through_origin(pressed, -radial[STEPS:])
     return SolverResult(
         status=Status.OK,
         extra={
             "tension_stiffness_n_per_mm": tension.slope,
             "compression_stiffness_n_per_mm": compression.slope,
         },
-        curve={
-            "displacement_mm": [*(-pressed[::-1]).tolist(), 0.0, *pulled.tolist()],
-            "force_n": [*(-press_force[::-1]).tolist(), 0.0, *pull_force.tolist()],
-        },
+        curve=curve,
     )
+
+
+def _curve(displacement_mm: np.ndarray, force_n: np.ndarray) -> dict[str, list[float]]:
+    """Order the steps, and the unloaded spoke with them, from compression to tension."""
+    order = np.argsort([0.0, *displacement_mm])
+    return {
+        "displacement_mm": np.array([0.0, *displacement_mm])[order].tolist(),
+        "force_n": np.array([0.0, *force_n])[order].tolist(),
+    }
 
 
 SOLVER = Solver(
