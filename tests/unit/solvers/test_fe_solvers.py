@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from nptcs.config.fe import SpokeMesh, SpokeTableOptions, TyreMesh
+from nptcs.config.abaqus import AbaqusModel
+from nptcs.config.fe import SpokeGeometry, SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.calculix import complaints
@@ -128,6 +129,13 @@ def calculix_case(tmp_path, body, **options):
     command = fake_ccx(tmp_path, body)
     chosen = calculix.CalculixOptions(spoke_mesh=COARSE, command=command, **options)
     return calculix.solve(inputs(chosen))
+
+
+@pytest.mark.parametrize("options", [calculix.CalculixOptions, AbaqusModel])
+def test_a_layer_that_the_mesh_does_not_have_is_refused(options):
+    with pytest.raises(ValidationError, match="plate_layer_mm has no effect"):
+        options(geometry={"plate_layer_mm": 0.8})
+    assert options(geometry={"plate_layer_mm": 1.0}).geometry == SpokeGeometry()
 
 
 def test_a_warning_of_calculix_is_fatal(tmp_path):

@@ -7,7 +7,7 @@ from typing import Self
 from pydantic import Field, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.fe import SpokeGeometry
+from nptcs.config.fe import LayerlessGeometry, SpokeGeometry
 
 
 class AbaqusMesh(Strict):
@@ -40,7 +40,7 @@ class AbaqusMesh(Strict):
 class AbaqusModel(Strict):
     """Everything of the Abaqus model that does not vary from case to case."""
 
-    geometry: SpokeGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
+    geometry: LayerlessGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     mesh: AbaqusMesh = Field(default_factory=AbaqusMesh, description="Mesh of the whole tyre")
     first_spoke_deg: float = Field(
         0.0, description="Angle of a spoke's feet from the middle of the contact"

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from math import cos, radians
-from typing import Literal, Self
+from typing import Annotated, Literal, Self
 
-from pydantic import Field, model_validator
+from pydantic import AfterValidator, Field, model_validator
 
 from nptcs.config.base import Strict
 
@@ -80,6 +80,16 @@ class SpokeGeometry(Strict):
     def foot_width_mm(self) -> float:
         """Width of the foot along the circumference."""
         return self.foot_thickness_mm / cos(radians(self.leg_angle_deg))
+
+
+def _without_layer(section: SpokeGeometry) -> SpokeGeometry:
+    if section.plate_layer_mm != SpokeGeometry.model_fields["plate_layer_mm"].default:
+        raise ValueError("plate_layer_mm has no effect on this solver's mesh: leave it out")
+    return section
+
+
+# section of a spoke whose mesh has no layer of its own for the plates
+LayerlessGeometry = Annotated[SpokeGeometry, AfterValidator(_without_layer)]
 
 
 class SpokeMesh(Strict):

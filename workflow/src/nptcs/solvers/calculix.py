@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from pydantic import Field
 
-from nptcs.config.fe import FeSpokeModel
+from nptcs.config.fe import FeSpokeModel, LayerlessGeometry, SpokeGeometry
 from nptcs.fe.calculix import complaints, spoke_deck, total_forces, true_thickness
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM
@@ -23,6 +23,7 @@ STEPS = 4
 class CalculixOptions(SolverOptions, FeSpokeModel):
     """Options of ``calculix``: the spoke's model and the command that solves it."""
 
+    geometry: LayerlessGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     command: tuple[str, ...] = Field(
         ("ccx",), min_length=1, description="Command; the job's name is added as its last argument"
     )
