@@ -401,7 +401,7 @@ def compared(results):
             **results.solvers,
             "lca": SolverFacts("The ring.", False, True),
             "fe_tyre": SolverFacts("The tyre.", True, True, [{"plate_coupling": "embedded"}]),
-            "fe_spoke": SolverFacts("The spoke.", True, False),
+            "fe_spoke": SolverFacts("Solver ``fe_spoke``: one spoke.", True, False),
         },
         designs={**results.designs, "spoke": check(spokes, Design, "spoke")},
         cases=cases,

@@ -285,3 +285,4 @@ def test_the_models_that_solvers_choose_are_named(compared):
     (first, *_) = cases_section(compared, sheets_of(compared)).blocks
     assert "fe_tyre: The tyre (plate coupling: embedded)." in first.text
     assert "lca: The ring." in first.text
+    assert "fe_spoke: one spoke." in first.text

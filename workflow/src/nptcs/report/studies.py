@@ -86,7 +86,7 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
     solvers = [
-        f"{name}: {facts.about.removesuffix('.')}{_choices(facts)}."
+        f"{name}: {_about(name, facts)}{_choices(facts)}."
         for name, facts in results.solvers.items()
     ]
     blocks: list[Block] = [
@@ -95,6 +95,11 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
     ]
     blocks += [_cases_of(results, study) for study in results.config.studies]
     return Section("cases", "Cases", tuple(blocks))
+
+
+def _about(name: str, facts: SolverFacts) -> str:
+    """Return the first line of the solver's module without its name, which stands before it."""
+    return facts.about.replace("``", "").removeprefix(f"Solver {name}: ").removesuffix(".")
 
 
 def _choices(facts: SolverFacts) -> str:
