@@ -5,7 +5,9 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.fe import embedded
 from nptcs.fe.embedded import HELD, straight_block
+from nptcs.fe.spoke import SpokeDesign, SpokeModel
 from nptcs.fe.spoke_mesh import build_period
 
 
@@ -42,3 +44,15 @@ def test_a_bow_costs_its_height_squared_times_the_length(mesh):
     local = bow[block.nodes].reshape(len(block.nodes), -1)
     assert np.sum(local * response.force) == pytest.approx(2.0 * response.energy)
     assert np.matmul(response.tangent, local[..., None])[..., 0] == pytest.approx(response.force)
+
+
+def test_stiffer_springs_change_next_to_nothing(published_ply, monkeypatch):
+    """A spoke of thin plates with oblique fibres, where the springs have most to hold."""
+    coarse = SpokeMesh(rows=(1, 1, 2, 1, 1, 1))
+    values = (SpokeGeometry(), coarse, 215.0 / 15, 5.0, 1.2, 45.0, 1.04, published_ply, 15)
+    stiffness = []
+    for factor in (1.0, 100.0):
+        monkeypatch.setattr(embedded, "HELD", factor * HELD)
+        stiffness.append(SpokeModel(SpokeDesign(*values, "embedded")).rest().tangent[0, 0])
+    assert stiffness[0] < stiffness[1]
+    assert stiffness[0] == pytest.approx(stiffness[1], rel=1e-4)
