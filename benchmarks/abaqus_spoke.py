@@ -25,10 +25,10 @@ import pandas as pd
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.fe import FeModel, PlateCoupling
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.abaqus import tyre_deck
+from nptcs.decks.abaqus.deck import tyre_deck
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke import SpokeModel
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 TESTS = Path(__file__).parents[1] / "tests" / "unit" / "fe"
 PUBLISHED = Path(__file__).parents[1] / "raw_data" / "published" / "table5_plate_doe.csv"

@@ -23,11 +23,11 @@ from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.block_tridiagonal import BlockCholesky, BlockMatrix, BlockPattern
-from nptcs.fe.blocks import element_dofs
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke import SpokeModel
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.elements.groups import element_dofs
+from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockMatrix, BlockPattern
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

@@ -15,10 +15,10 @@ import time
 from nptcs.config.fe import FeModel, SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
-from nptcs.fe.spoke_pull import spoke_stiffness
-from nptcs.fe.spoke_table import SpokeTable
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.pull import spoke_stiffness
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 TYRE = TyreGeometry()
 NAMES = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")

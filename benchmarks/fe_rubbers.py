@@ -15,7 +15,7 @@ from functools import partial
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 ASSUMED_SPOKE, ASSUMED_BAND = 1.04, 5.0
 SPOKES, BANDS = (1.0, ASSUMED_SPOKE, 1.1), (4.0, ASSUMED_BAND)

@@ -21,9 +21,9 @@ import numpy as np
 from nptcs.config.fe import FeModel, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.fe.direct import DirectTyre
-from nptcs.fe.tyre import TyreError, TyreModel, TyreState
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
+from nptcs.fe.verification.direct_tyre import DirectTyre
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 
 def options() -> argparse.Namespace:

@@ -28,9 +28,9 @@ import numpy as np
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.ingest.profiles import FormatProfile
-from nptcs.ingest.rawtable import RawTable, read_raw
-from nptcs.ingest.units import DIMENSION, FACTORS
+from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.raw_file import RawTable, read_raw
+from nptcs.ingest.reading.units import DIMENSION, FACTORS
 from nptcs.tables.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]

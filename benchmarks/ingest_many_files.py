@@ -23,7 +23,7 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.ingest.profiles import FormatProfile
+from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.tables.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]

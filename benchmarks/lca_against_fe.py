@@ -19,10 +19,10 @@ from nptcs import lca
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design, spoke_table, tyre_model
-from nptcs.fe.spoke import SpokeModel
-from nptcs.fe.spoke_pull import pull, spoke_stiffness
-from nptcs.fe.tyre import TyreError
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.pull import pull, spoke_stiffness
+from nptcs.fe.tyre.equilibrium import TyreError
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 BAND_C10_MPA = 5.0
 PLATES = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}

@@ -11,8 +11,8 @@ import numpy as np
 import pandas as pd
 
 from nptcs import lca
+from nptcs.compare.lca import lca_against_fem, lca_validation
 from nptcs.config.tyre import TyreGeometry
-from nptcs.lca.validation import lca_against_fem, lca_validation
 
 PUBLISHED = Path(__file__).resolve().parents[1] / "raw_data" / "published"
 

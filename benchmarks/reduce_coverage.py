@@ -22,8 +22,8 @@ from nptcs.config.reduction import AstmD3039, AstmD3518, ReductionSettings
 from nptcs.example import truth
 from nptcs.example.generate import generate
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.materials import Quantity
 from nptcs.reduce import reduce_specimen
+from nptcs.tables.material_card import Quantity
 from nptcs.tables.specimens import read_sheet
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -5,7 +5,8 @@ import pandas as pd
 import pytest
 
 from nptcs.errors import InputError
-from nptcs.tables.against_published import (
+from nptcs.tables.io import check, empty_table, read_table, write_table
+from nptcs.tables.published_stiffness import (
     AgainstPublished,
     Comparison,
     StiffnessByLevel,
@@ -14,7 +15,6 @@ from nptcs.tables.against_published import (
     stiffness_by_level,
     stiffness_errors,
 )
-from nptcs.tables.io import check, empty_table, read_table, write_table
 
 PUBLISHED = {"s_001": 100.0, "s_002": 200.0, "s_003": 400.0, "s_004": 500.0}
 OURS = {"s_001": 101.0, "s_002": 190.0, "s_003": 408.0, "s_004": None}

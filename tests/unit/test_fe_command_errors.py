@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nptcs.cli import main
-from nptcs.fe.spoke import SpokeError
+from nptcs.fe.spoke.equilibrium import SpokeError
 
 TEN = "spoke_c10_mpa,tension_stiffness_n_per_mm,compression_stiffness_n_per_mm\n1,30.2,13.26\n"
 FIVE = "case,spacing_mm,thickness_mm,angle_deg,stiffness_n_per_mm\n32,15,1.8,45,263.7\n"

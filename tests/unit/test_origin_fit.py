@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.origin_fit import fit_through_origin
+from nptcs.fe.spoke.stiffness_line import fit_through_origin
 
 
 def test_regression_through_the_origin_and_both_r_squares():

@@ -7,8 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.sensitivity import impact
 from nptcs.surface.fit import fit
+from nptcs.surface.sensitivity import impact
 from nptcs.tables.impact import Impact, with_published
 from nptcs.tables.io import check
 

@@ -10,7 +10,7 @@ from nptcs.campaign.record import CaseRecord
 from nptcs.solvers.contract import SolverResult, neutral_line
 from nptcs.tables.io import check, read_table, write_table
 from nptcs.tables.neutral_line import NeutralLine, neutral_lines
-from nptcs.tables.published import SpokeStiffness
+from nptcs.tables.published_inputs import SpokeStiffness
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
 
 TABLE_10 = Path(__file__).parents[2] / "raw_data/published/table10_spoke_stiffness.csv"

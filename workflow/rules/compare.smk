@@ -1,5 +1,5 @@
 # Computed results beside the paper's finite elements: section 4.3.1, tables 5 and 7, figure 14.
-from nptcs.tables.against_published import PUBLISHED
+from nptcs.tables.published_stiffness import PUBLISHED
 
 COMPARED_STUDIES = [
     study.name for study in CONFIG.studies if PUBLISHED in study.solvers

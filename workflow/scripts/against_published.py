@@ -4,7 +4,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from nptcs.console import clear_errors
-from nptcs.tables.against_published import (
+from nptcs.tables.cases import Cases, Design
+from nptcs.tables.io import check, read_table, write_table
+from nptcs.tables.published_stiffness import (
     AgainstPublished,
     Comparison,
     StiffnessByLevel,
@@ -13,8 +15,6 @@ from nptcs.tables.against_published import (
     stiffness_by_level,
     stiffness_errors,
 )
-from nptcs.tables.cases import Cases, Design
-from nptcs.tables.io import check, read_table, write_table
 
 
 def compare(

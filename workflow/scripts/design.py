@@ -7,9 +7,9 @@ from typing import Any
 from nptcs.config.study import Study
 from nptcs.console import clear_errors
 from nptcs.design import full_factorial
-from nptcs.materials import RubberCard
 from nptcs.tables.cases import Design
 from nptcs.tables.io import write_table
+from nptcs.tables.material_card import RubberCard
 
 
 def design(job: dict[str, Any], cards: Sequence[str], design_file: str) -> None:

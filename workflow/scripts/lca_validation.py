@@ -2,12 +2,17 @@
 
 from typing import Any
 
+from nptcs.compare.lca import lca_against_fem, lca_validation, ring_shapes
 from nptcs.config.tyre import TyreGeometry
 from nptcs.console import clear_errors
-from nptcs.lca.validation import lca_against_fem, lca_validation, ring_shapes
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
-from nptcs.tables.published import LcaAgainstFemPrinted, LoadErrors, RubberCases, SpokeStiffness
+from nptcs.tables.published_inputs import (
+    LcaAgainstFemPrinted,
+    LoadErrors,
+    RubberCases,
+    SpokeStiffness,
+)
 
 CONTRACTS = {
     "spoke_stiffness": SpokeStiffness,

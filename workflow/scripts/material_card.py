@@ -7,9 +7,9 @@ import pandas as pd
 
 from nptcs.console import clear_errors
 from nptcs.files import write_text
-from nptcs.materials import MaterialCard, PlyCard, RubberCard
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import empty_table, read_table, write_table
+from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
 
 
 def join_cards(plies: Sequence[str], rubbers: Sequence[str]) -> MaterialCard:

@@ -11,10 +11,10 @@ from nptcs.campaign.schedule import cases_side_by_side
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.console import clear_errors
-from nptcs.materials import PlyCard
 from nptcs.solvers.registry import load, module_of, read_options
 from nptcs.tables.cases import Design
 from nptcs.tables.io import read_table
+from nptcs.tables.material_card import PlyCard
 
 
 def report_progress(record: CaseRecord, reused: bool, done: int, total: int) -> None:

@@ -6,7 +6,7 @@ from typing import Any
 from nptcs.campaign.record import read_records
 from nptcs.console import clear_errors
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.published import SpokeStiffness
+from nptcs.tables.published_inputs import SpokeStiffness
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
 
 

@@ -13,7 +13,7 @@ from nptcs.surface.stored import dump
 from nptcs.tables.cases import cases_table
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.published import PrintedCoefficients
+from nptcs.tables.published_inputs import PrintedCoefficients
 from nptcs.tables.surface import (
     SurfaceQuality,
     SurfaceTable,

@@ -14,9 +14,9 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.config.reduction import AstmD3039, AstmD3518, ReductionSettings
 from nptcs.example import truth
 from nptcs.ingest import Ingested, ingest_specimen, load_profiles
-from nptcs.materials import Quantity
 from nptcs.reduce import reduce_specimen
 from nptcs.reduce.statistics import group_statistics
+from nptcs.tables.material_card import Quantity
 from nptcs.tables.specimens import Specimen, read_sheet
 
 ROOT = Path(__file__).resolve().parents[3]

@@ -8,7 +8,7 @@ import pytest
 from nptcs.calibrate import calibrate_ply
 from nptcs.config.calibration import CalibrationSettings, PlyAssumptions, PlySettings, Source
 from nptcs.errors import InputError
-from nptcs.materials import PLY_CONSTANTS, PlyCard
+from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard
 from nptcs.tables.properties import PropertiesTable
 
 Make = Callable[..., Any]

@@ -10,7 +10,7 @@ from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.observations import Observation
 from nptcs.config.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
-from nptcs.materials import RubberCard
+from nptcs.tables.material_card import RubberCard
 
 Make = Callable[..., Any]
 SETTINGS = CalibrationSettings()

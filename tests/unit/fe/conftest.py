@@ -6,8 +6,8 @@ import pytest
 
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.abaqus import tyre_deck
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.decks.abaqus.deck import tyre_deck
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 CASE = {
     "spacing_mm": 15.0,

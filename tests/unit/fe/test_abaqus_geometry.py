@@ -11,11 +11,11 @@ from scipy.sparse.linalg import spsolve
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.abaqus_mesh import spoke_part
-from nptcs.fe.blocks import RubberBlock
-from nptcs.fe.calculix import total_forces
-from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
+from nptcs.decks.abaqus.mesh import spoke_part
+from nptcs.decks.calculix import total_forces
+from nptcs.fe.elements.groups import RubberBlock
+from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 
 # a section of its own: what follows must not move with the calibrated one
 SECTION = SpokeGeometry(

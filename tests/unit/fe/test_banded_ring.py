@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.banded_ring import BandedPattern
+from nptcs.fe.matrices.cyclic import BandedPattern
 
 
 def test_banded_assembly_equals_the_dense_one():

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.block_tridiagonal import BlockCholesky, BlockPattern, solve_indefinite
+from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockPattern, solve_indefinite
 
 ROW = 3
 

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.blocks import LinearBlock, RubberBlock
-from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
+from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
 
 C10 = 1.3
 BULK = 2.0e6 * C10

@@ -9,10 +9,17 @@ import numpy as np
 import pytest
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
-from nptcs.fe.blocks import LinearBlock, RubberBlock
-from nptcs.fe.calculix import BrickMesh, brick_mesh, deck, spoke_deck, total_forces, true_thickness
-from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
+from nptcs.decks.calculix import (
+    BrickMesh,
+    brick_mesh,
+    deck,
+    spoke_deck,
+    total_forces,
+    true_thickness,
+)
+from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 
 # Abaqus and CalculiX number the corners around; the tensor product runs z fastest
 CORNERS = [0, 4, 3, 7, 1, 5, 2, 6]

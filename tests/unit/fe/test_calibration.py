@@ -12,8 +12,8 @@ from nptcs.fe.calibration import (
     TyreTarget,
     calibrate,
 )
-from nptcs.fe.tyre import LoadPath, TyreError
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.tyre.equilibrium import LoadPath, TyreError
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 VALUES = {"thickness_mm": 1.8}
 # inside the limits of all dimensions

@@ -4,10 +4,16 @@ import pytest
 from nptcs.config.fe import FeModel, SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
-from nptcs.fe.direct import ConformingFoot, DirectTyre, MeshedSpoke, RigidFoot, edge_shape
-from nptcs.fe.spoke_table import fit, sample
-from nptcs.fe.tyre import TyreError, TyreModel
-from nptcs.fe.tyre_mesh import build_ring
+from nptcs.fe.spoke.energy_table import fit, sample
+from nptcs.fe.tyre.equilibrium import TyreError, TyreModel
+from nptcs.fe.tyre.mesh import build_ring
+from nptcs.fe.verification.direct_tyre import (
+    ConformingFoot,
+    DirectTyre,
+    MeshedSpoke,
+    RigidFoot,
+    edge_shape,
+)
 
 FE = FeModel(
     spoke_mesh=SpokeMesh(rows=(1, 1, 1, 1, 1, 1)),

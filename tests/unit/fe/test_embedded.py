@@ -5,10 +5,10 @@ import pytest
 from scipy.spatial.transform import Rotation
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
-from nptcs.fe import embedded
-from nptcs.fe.embedded import HELD, straight_block
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
-from nptcs.fe.spoke_mesh import build_period
+from nptcs.fe.spoke import embedded_plates as embedded
+from nptcs.fe.spoke.embedded_plates import HELD, straight_block
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.mesh import build_period
 
 
 @pytest.fixture(scope="module", params=[1, 2])

@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from nptcs.commands import deck, fe_calibrate, fe_picture
 from nptcs.errors import InputError
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 ROOT = Path(__file__).resolve().parents[3]
 
@@ -134,7 +134,7 @@ def test_the_picture_of_a_spoke_is_of_the_design_that_was_asked_for(tmp_path, mo
         drawn.append(model.design)
         return Figure()
 
-    monkeypatch.setattr("nptcs.fe.spoke_picture.spoke_figure", draw)
+    monkeypatch.setattr("nptcs.fe.output.spoke_picture.spoke_figure", draw)
     out = tmp_path / "spoke.svg"
     words = ["fe-picture", out, "--spoke", "--spacing", 20, "--angle", 30, "--spoke-c10", 2]
     arguments = parse(fe_picture, *words)

@@ -1,8 +1,10 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.blocks import LinearBlock, RubberBlock
-from nptcs.fe.fields import (
+from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
+from nptcs.fe.elements.laminate import rotated_stiffness
+from nptcs.fe.output.fields import (
     at_points,
     extreme,
     fibre_stress,
@@ -12,9 +14,7 @@ from nptcs.fe.fields import (
     rubber_energy,
     rubber_fields,
 )
-from nptcs.fe.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.laminate import rotated_stiffness
-from nptcs.fe.spoke_mesh import ElementSet
+from nptcs.fe.spoke.mesh import ElementSet
 
 CORNERS = (lattice(3, 3) * [1.0, 2.0, 1.5])[None]
 NODES = np.arange(27)[None]

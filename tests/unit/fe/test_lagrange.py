@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.lagrange import gauss, jacobians, line_shape, tensor_shape
+from nptcs.fe.elements.lagrange import gauss, jacobians, line_shape, tensor_shape
 
 
 @pytest.mark.parametrize("order", [1, 2, 3])

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.laminate import abd, reduced_stiffness, rotated_stiffness, transverse_shear
+from nptcs.fe.elements.laminate import abd, reduced_stiffness, rotated_stiffness, transverse_shear
 
 
 def test_reduced_stiffness_inverts_the_ply_compliance(ply):

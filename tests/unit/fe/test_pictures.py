@@ -5,11 +5,11 @@ import pytest
 
 from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.pictures import FINE, ring_stress, tyre_figure
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
-from nptcs.fe.spoke_picture import section_stress, spoke_figure
-from nptcs.fe.spoke_table import SpokeTable
-from nptcs.fe.tyre import LoadPath, TyreModel, TyreState
+from nptcs.fe.output.spoke_picture import section_stress, spoke_figure
+from nptcs.fe.output.tyre_picture import FINE, ring_stress, tyre_figure
+from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState
 
 
 @pytest.fixture(scope="module")

@@ -6,11 +6,11 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.fe import FeModel, SpokeGeometry, SpokeMesh, SpokeTableOptions
-from nptcs.fe.cache import read_table, shared_table, table_key
-from nptcs.fe.chord import carried, chord_of, motion_of
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
-from nptcs.fe.spoke_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
-from nptcs.materials import PUBLISHED_PLY
+from nptcs.fe.spoke.cache import read_table, shared_table, table_key
+from nptcs.fe.spoke.coordinates import carried, chord_of, motion_of
+from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 OPTIONS = SpokeTableOptions(
     chord_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
@@ -181,7 +181,7 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
         calls.append(design)
         return TABLE
 
-    monkeypatch.setattr("nptcs.fe.cache.spoke_table", computed)
+    monkeypatch.setattr("nptcs.fe.spoke.cache.spoke_table", computed)
     model = FeModel(spoke_mesh=COARSE, table=OPTIONS)
     first = shared_table(model, spoke_design(), tmp_path)
     again = shared_table(model, spoke_design(), tmp_path)

@@ -5,10 +5,10 @@ import pytest
 
 from nptcs.config.fe import GroundContact, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.contact import Ground
-from nptcs.fe.spoke_table import SpokeTable
-from nptcs.fe.tyre import TyreError, TyreModel
-from nptcs.fe.tyre_mesh import band_radii, build_ring
+from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.tyre.contact import Ground
+from nptcs.fe.tyre.equilibrium import TyreError, TyreModel
+from nptcs.fe.tyre.mesh import band_radii, build_ring
 
 TYRE = TyreGeometry()
 MESH = TyreMesh(gap_elements=2)

@@ -11,12 +11,12 @@ from nptcs.commands.fe_picture import SolvedTyre
 from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
-from nptcs.fe.bricks import MATERIALS, Bricks, spoke_bricks, tyre_bricks
-from nptcs.fe.fields import lattice
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
-from nptcs.fe.spoke_table import SpokeTable
-from nptcs.fe.tyre import TyreModel
-from nptcs.fe.vtu import require_vtk, shared_nodes, write_pvd, write_vtu
+from nptcs.fe.output.bricks import MATERIALS, Bricks, spoke_bricks, tyre_bricks
+from nptcs.fe.output.fields import lattice
+from nptcs.fe.output.vtu import require_vtk, shared_nodes, write_pvd, write_vtu
+from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.tyre.equilibrium import TyreModel
 
 pytest.importorskip("vtkmodules", reason="needs vtk: pip install 'nptcs[paraview]'")
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from nptcs.ingest.profiles import FormatProfile, load_profiles
-from nptcs.ingest.rawtable import RawTable, read_raw
+from nptcs.ingest.reading.profiles import FormatProfile, load_profiles
+from nptcs.ingest.reading.raw_file import RawTable, read_raw
 from nptcs.tables.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[3]

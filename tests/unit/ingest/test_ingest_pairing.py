@@ -7,7 +7,7 @@ import pytest
 
 from nptcs.config.ingest import Pairing
 from nptcs.errors import InputError
-from nptcs.ingest.pairing import pair
+from nptcs.ingest.conditioning.pairing import pair
 
 DURATION = 100.0
 MODULUS_N = 1e6

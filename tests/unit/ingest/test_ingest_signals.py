@@ -16,7 +16,9 @@ from nptcs.config.ingest import (
     OriginOfStrain,
 )
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning import (
+from nptcs.ingest.conditioning.plausible import check_physics
+from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
     empty_after_removal,
@@ -24,10 +26,8 @@ from nptcs.ingest.conditioning import (
     mark_dead,
     zero_force,
 )
-from nptcs.ingest.origin import correct_origin
-from nptcs.ingest.plausible import check_physics
-from nptcs.ingest.signals import Signals
-from nptcs.ingest.strains import orient, resolve_strains
+from nptcs.ingest.conditioning.strain_origin import correct_origin
+from nptcs.ingest.conditioning.strains import orient, resolve_strains
 
 PATH = Path("a.csv")
 FORCE = np.linspace(0, 1000, 101)

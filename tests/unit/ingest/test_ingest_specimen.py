@@ -18,7 +18,7 @@ from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
 from nptcs.ingest.folder import account_for_files, find_file, natural_key
 from nptcs.ingest.new_sheet import specimen_id
-from nptcs.ingest.profiles import load_profiles, read_profile
+from nptcs.ingest.reading.profiles import load_profiles, read_profile
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.specimens import read_sheet
 
@@ -239,7 +239,7 @@ def test_inspect_of_what_is_not_understood(tmp_path, capsys):
     "name", ["T90-1.csv", "T0-1_wdw.txt", "T0-1_vic3d.csv", "C0-1.TRA", "R75-1.csv"]
 )
 def test_drafted_profile_is_valid_and_reads_the_same(tmp_path, profiles, name, capsys):
-    from nptcs.ingest.rawtable import read_raw
+    from nptcs.ingest.reading.raw_file import read_raw
 
     source = ROOT / "raw_data" / "example" / name
     draft = tmp_path / "lab-own.yaml"

@@ -13,7 +13,7 @@ import openpyxl
 import pytest
 
 from nptcs.errors import InputError
-from nptcs.ingest.workbooks import read_workbook
+from nptcs.ingest.reading.workbooks import read_workbook
 
 HERE = Path(__file__).parent
 ROWS = [(0.1 * n, 1.5 * n, 0.0125 * n) for n in range(1, 9)]
@@ -129,6 +129,6 @@ def test_other_warnings_are_left_to_the_caller(tmp_path, monkeypatch):
     def deprecated(raw):
         warnings.warn("old call", DeprecationWarning, stacklevel=1)
 
-    monkeypatch.setattr("nptcs.ingest.workbooks._xlsx", deprecated)
+    monkeypatch.setattr("nptcs.ingest.reading.workbooks._xlsx", deprecated)
     with pytest.raises(DeprecationWarning, match="old call"):
         read_workbook(tmp_path / "made.xlsx", b"PK\x03\x04", frozenset())

@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from nptcs import lca
 from nptcs.errors import InputError
 from nptcs.lca.spoke_law_table import SpokeLawTable
-from nptcs.lca.spoke_table import OutOfRangeError
+from nptcs.lca.spoke_stiffness_table import OutOfRangeError
 from nptcs.lca.with_law import edge_at
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nptcs import lca
-from nptcs.lca.validation import lca_against_fem, lca_validation, ring_shapes
+from nptcs.compare.lca import lca_against_fem, lca_validation, ring_shapes
 from nptcs.tables.io import check
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
 

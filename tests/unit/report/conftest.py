@@ -9,16 +9,24 @@ import pytest
 import yaml
 
 from nptcs.campaign.record import CaseRecord
+from nptcs.compare.lca import lca_against_fem, lca_validation, ring_shapes
 from nptcs.config.root import read_config
 from nptcs.config.tyre import TyreGeometry
-from nptcs.lca.validation import lca_against_fem, lca_validation, ring_shapes
-from nptcs.materials import MaterialCard, PlyCard, Quantity, RubberCard
 from nptcs.report.data import Results, SolverFacts
-from nptcs.sensitivity import impact
 from nptcs.solvers.contract import SolverResult
 from nptcs.surface.fit import fit
 from nptcs.surface.quality import assess
-from nptcs.tables.against_published import (
+from nptcs.surface.sensitivity import impact
+from nptcs.tables.cases import Design
+from nptcs.tables.catalogue import TABLES
+from nptcs.tables.curves import Curve, IngestRecord
+from nptcs.tables.impact import with_published
+from nptcs.tables.io import check, empty_table, read_table
+from nptcs.tables.material_card import MaterialCard, PlyCard, Quantity, RubberCard
+from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.problems import Problems, problems_table
+from nptcs.tables.published_inputs import PrintedCoefficients, SpokeStiffness
+from nptcs.tables.published_stiffness import (
     AgainstPublished,
     Comparison,
     StiffnessByLevel,
@@ -27,14 +35,6 @@ from nptcs.tables.against_published import (
     stiffness_by_level,
     stiffness_errors,
 )
-from nptcs.tables.cases import Design
-from nptcs.tables.catalogue import TABLES
-from nptcs.tables.curves import Curve, IngestRecord
-from nptcs.tables.impact import with_published
-from nptcs.tables.io import check, empty_table, read_table
-from nptcs.tables.neutral_line import NeutralLine
-from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.published import PrintedCoefficients, SpokeStiffness
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
 from nptcs.tables.surface import by_powers, quality_table, surface_table

@@ -7,24 +7,29 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.report import catalogue
-from nptcs.report.against import (
+from nptcs.report.data import factor_labels
+from nptcs.report.figures.published_stiffness import (
+    level_differences,
+    main_effect,
+    neutral_lines,
+    parity,
+)
+from nptcs.report.figures.spoke import force_displacement
+from nptcs.report.sections.ply import ply_words
+from nptcs.report.sections.published_stiffness import (
     against_section,
     level_facts,
     line_words,
     side_by_side,
     spoke_facts,
 )
-from nptcs.report.data import factor_labels
-from nptcs.report.figures_against import level_differences, main_effect, neutral_lines, parity
-from nptcs.report.figures_spoke import force_displacement
-from nptcs.report.head import glance
-from nptcs.report.ply import ply_words
-from nptcs.report.ranking import side_by_side as ranks_side_by_side
-from nptcs.report.ranking import verdicts
-from nptcs.report.sheets import sheets_of
-from nptcs.report.spokes import spoke_section, what_differs
-from nptcs.report.studies import cases_section
+from nptcs.report.sections.ranking import side_by_side as ranks_side_by_side
+from nptcs.report.sections.ranking import verdicts
+from nptcs.report.sections.spokes import spoke_section, what_differs
+from nptcs.report.sections.studies import cases_section
+from nptcs.report.sections.summary import glance
+from nptcs.report.tables import catalogue
+from nptcs.report.tables.sheets import sheets_of
 from nptcs.report.view import Facts, Listing, Plots, TableView, Text
 from nptcs.report.workbook import build_workbook
 
@@ -258,7 +263,7 @@ def test_all_tables_are_sheets(compared):
 
 
 def test_a_study_without_terms_is_no_problem(compared):
-    from nptcs.report.studies import design_section, surfaces_section
+    from nptcs.report.sections.studies import design_section, surfaces_section
 
     section = surfaces_section(compared, sheets_of(compared))
     assert any("it has no terms" in block.text for block in blocks(section, Text))

@@ -5,11 +5,11 @@ import pandas as pd
 import pytest
 
 from nptcs.report.data import factor_labels
-from nptcs.report.figures_impact import impact_bars, ranked
-from nptcs.report.figures_lca import load_displacement, ring_shape
-from nptcs.report.figures_materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
-from nptcs.report.figures_surface import STIFFNESS, contours, middle_level, slices
-from nptcs.report.style import to_svg
+from nptcs.report.figures.impact import impact_bars, ranked
+from nptcs.report.figures.lca import load_displacement, ring_shape
+from nptcs.report.figures.materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
+from nptcs.report.figures.style import to_svg
+from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
 
 
 @pytest.fixture

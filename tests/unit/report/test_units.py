@@ -2,8 +2,8 @@
 
 import pytest
 
-from nptcs.report.catalogue import IMPACT
-from nptcs.report.units import heading
+from nptcs.report.tables.catalogue import IMPACT
+from nptcs.report.tables.headings import heading
 
 
 @pytest.mark.parametrize(

@@ -5,8 +5,8 @@ import re
 from dataclasses import replace
 from pathlib import Path
 
-from nptcs.report.sheets import sheets_of
 from nptcs.report.stale import set_aside
+from nptcs.report.tables.sheets import sheets_of
 from nptcs.tables.catalogue import TABLES
 
 RULES = Path(__file__).parents[3] / "workflow" / "rules"

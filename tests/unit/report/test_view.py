@@ -8,7 +8,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nptcs.report import catalogue
+from nptcs.report.tables import catalogue
 from nptcs.report.view import number_text, table_view, with_error
 
 

@@ -8,9 +8,9 @@ import openpyxl
 import pandas as pd
 import pytest
 
-from nptcs.report.catalogue import IMPACT, design_entry, surface_entry
-from nptcs.report.dictionary import dictionary_table
-from nptcs.report.sheets import Sheet, sheets_of
+from nptcs.report.tables.catalogue import IMPACT, design_entry, surface_entry
+from nptcs.report.tables.dictionary import dictionary_table
+from nptcs.report.tables.sheets import Sheet, sheets_of
 from nptcs.report.workbook import build_workbook
 
 

@@ -7,12 +7,12 @@ from pydantic import ValidationError
 from nptcs.config.abaqus import AbaqusModel
 from nptcs.config.fe import SpokeGeometry, SpokeMesh, SpokeTableOptions, TyreMesh
 from nptcs.config.tyre import TyreGeometry
+from nptcs.decks.calculix import complaints
 from nptcs.errors import InputError
-from nptcs.fe.calculix import complaints
-from nptcs.materials import PUBLISHED_PLY
 from nptcs.solvers import calculix, fe_spoke, fe_tyre
 from nptcs.solvers.contract import CaseInputs, Status
 from nptcs.solvers.registry import model_choices
+from nptcs.tables.material_card import PUBLISHED_PLY
 
 VALUES = {
     "spacing_mm": 15.0,

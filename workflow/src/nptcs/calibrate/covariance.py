@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import NDArray
 
-from nptcs.materials import Covariance
+from nptcs.tables.material_card import Covariance
 
 RULE = (
     "covariance of the means from the specimens' scatter; between constants of the same "

@@ -9,7 +9,7 @@ import pandas as pd
 from numpy.typing import NDArray
 
 from nptcs.errors import InputError
-from nptcs.materials import Quantity
+from nptcs.tables.material_card import Quantity
 
 # a normal variable lies further out once in 370 times
 LARGEST_DISTANCE = 3.0
@@ -24,7 +24,7 @@ def compliance_matrix(values: Mapping[str, float]) -> NDArray[np.float64]:
     Parameters
     ----------
     values : mapping of str to float
-        `nptcs.materials.PLY_CONSTANTS`.
+        `nptcs.tables.material_card.PLY_CONSTANTS`.
     """
     e1, e2, e3 = (values[f"e{i}_mpa"] for i in (1, 2, 3))
     s12, s13, s23 = -values["nu12"] / e1, -values["nu13"] / e1, -values["nu23"] / e2

@@ -11,8 +11,8 @@ from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, PlyAssumptions, Source
 from nptcs.errors import InputError
-from nptcs.materials import PLY_CONSTANTS, PlyCard, Quantity
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
+from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
 from nptcs.tables.specimens import Specimen
 
 MEASURED = ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")

@@ -13,8 +13,8 @@ from nptcs.calibrate.models import model_named
 from nptcs.calibrate.observations import observations
 from nptcs.calibrate.toe import toe_words
 from nptcs.config.calibration import CalibrationSettings
-from nptcs.materials import Covariance, Quantity, RubberCard
 from nptcs.reduce.deviations import CROSSHEAD
+from nptcs.tables.material_card import Covariance, Quantity, RubberCard
 from nptcs.tables.specimens import Specimen
 
 

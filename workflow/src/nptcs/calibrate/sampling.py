@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from nptcs.materials import PlyCard, RubberCard
+from nptcs.tables.material_card import PlyCard, RubberCard
 
 
 def sample_constants(card: PlyCard | RubberCard, draws: int, seed: int) -> pd.DataFrame:

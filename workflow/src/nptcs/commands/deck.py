@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def _abaqus(inputs: CaseInputs) -> str:
-    from nptcs.fe.abaqus import tyre_deck
+    from nptcs.decks.abaqus.deck import tyre_deck
     from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
 
     values = checked_values(inputs, TYRE_FACTORS)
@@ -70,7 +70,7 @@ def _abaqus(inputs: CaseInputs) -> str:
 
 
 def _calculix(inputs: CaseInputs) -> str:
-    from nptcs.fe.calculix import spoke_deck, true_thickness
+    from nptcs.decks.calculix import spoke_deck, true_thickness
     from nptcs.fe.case import spoke_design
     from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
 
@@ -152,7 +152,7 @@ def _ply(path: Path, name: str) -> dict[str, float]:
     from pydantic import ValidationError
 
     from nptcs.errors import InputError
-    from nptcs.materials import MaterialCard
+    from nptcs.tables.material_card import MaterialCard
 
     try:
         card = MaterialCard.model_validate_json(path.read_text(encoding="utf-8"))

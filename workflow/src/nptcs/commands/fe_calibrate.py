@@ -73,7 +73,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     from nptcs.config.tyre import TyreGeometry
     from nptcs.errors import InputError
     from nptcs.fe.calibration import START, Problem, SpokeTarget, TyreTarget
-    from nptcs.materials import PUBLISHED_PLY
+    from nptcs.tables.material_card import PUBLISHED_PLY
 
     if len(arguments.cases) > 5:
         raise InputError(

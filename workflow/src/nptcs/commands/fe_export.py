@@ -27,9 +27,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Solve and write."""
-    from nptcs.fe.bricks import spoke_bricks, tyre_bricks
-    from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM, walk
-    from nptcs.fe.vtu import require_vtk, write_pvd, write_vtu
+    from nptcs.fe.output.bricks import spoke_bricks, tyre_bricks
+    from nptcs.fe.output.vtu import require_vtk, write_pvd, write_vtu
+    from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM, walk
 
     require_vtk()
     with solvable():

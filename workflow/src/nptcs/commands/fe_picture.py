@@ -10,8 +10,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from nptcs.config.tyre import TyreGeometry
-    from nptcs.fe.spoke import SpokeDesign, SpokeModel
-    from nptcs.fe.tyre import TyreModel, TyreState
+    from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+    from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -65,9 +65,9 @@ def design_of(arguments: argparse.Namespace) -> SpokeDesign:
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.fe.case import spoke_design
-    from nptcs.materials import PUBLISHED_PLY
     from nptcs.solvers.contract import CaseInputs
     from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values
+    from nptcs.tables.material_card import PUBLISHED_PLY
 
     given = {
         "spacing_mm": arguments.spacing,
@@ -90,8 +90,8 @@ def solvable() -> Iterator[None]:
     InputError
     """
     from nptcs.errors import InputError
-    from nptcs.fe.spoke import SpokeError
-    from nptcs.fe.tyre import TyreError
+    from nptcs.fe.spoke.equilibrium import SpokeError
+    from nptcs.fe.tyre.equilibrium import TyreError
 
     try:
         yield
@@ -104,7 +104,7 @@ def solved(arguments: argparse.Namespace) -> SolvedTyre:
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.fe.case import loaded_tyre, spoke_table, tyre_model
-    from nptcs.fe.spoke import SpokeModel
+    from nptcs.fe.spoke.equilibrium import SpokeModel
 
     model, dimensions, design = FeModel(), TyreGeometry(), design_of(arguments)
     tyre = tyre_model(model, dimensions, spoke_table(model, design), arguments.band_c10)
@@ -117,9 +117,9 @@ def solved(arguments: argparse.Namespace) -> SolvedTyre:
 
 def run(arguments: argparse.Namespace) -> int:
     """Solve and draw."""
-    from nptcs.fe.pictures import tyre_figure
-    from nptcs.fe.spoke import SpokeModel
-    from nptcs.fe.spoke_picture import spoke_figure
+    from nptcs.fe.output.spoke_picture import spoke_figure
+    from nptcs.fe.output.tyre_picture import tyre_figure
+    from nptcs.fe.spoke.equilibrium import SpokeModel
     from nptcs.files import atomic_path
 
     with solvable():

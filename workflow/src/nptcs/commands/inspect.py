@@ -28,7 +28,7 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.inspect import describe, draft_profile, inspect_file
-    from nptcs.ingest.profiles import choose, load_profiles
+    from nptcs.ingest.reading.profiles import choose, load_profiles
 
     profiles = load_profiles(arguments.formats)
     declared = choose(arguments.format, profiles, "") if arguments.format else None

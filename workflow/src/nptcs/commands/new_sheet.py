@@ -24,7 +24,7 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.new_sheet import propose_sheet
-    from nptcs.ingest.profiles import load_profiles
+    from nptcs.ingest.reading.profiles import load_profiles
 
     folder = arguments.folder
     if not folder.is_dir():

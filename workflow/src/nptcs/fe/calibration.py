@@ -19,9 +19,9 @@ from scipy.optimize import lsq_linear
 from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.fe.spoke import SpokeError, SpokeModel
-from nptcs.fe.spoke_pull import spoke_stiffness
-from nptcs.fe.tyre import TyreError
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.spoke.pull import spoke_stiffness
+from nptcs.fe.tyre.equilibrium import TyreError
 
 Array = NDArray[np.float64]
 

@@ -9,9 +9,9 @@ from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel, FeSpokeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.spoke import SpokeDesign, SpokeModel
-from nptcs.fe.spoke_table import SpokeTable, fit, sample
-from nptcs.fe.tyre import TyreModel, TyreState
+from nptcs.fe.spoke.energy_table import SpokeTable, fit, sample
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
 
 
 def spoke_design(

@@ -8,12 +8,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from nptcs.errors import InputError
-from nptcs.ingest.blocks import find_blocks
-from nptcs.ingest.columns import Test, tests_in
-from nptcs.ingest.dialect import Dialect
-from nptcs.ingest.profiles import PLAIN, FormatProfile
-from nptcs.ingest.rawtable import OpenedFile, header_labels, matching, open_file, sources_of
-from nptcs.ingest.units import DIMENSION, FACTORS, factor
+from nptcs.ingest.reading.dialect import Dialect
+from nptcs.ingest.reading.find_tables import find_blocks
+from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
+from nptcs.ingest.reading.quantities import Test, tests_in
+from nptcs.ingest.reading.raw_file import OpenedFile, header_labels, matching, open_file, sources_of
+from nptcs.ingest.reading.units import DIMENSION, FACTORS, factor
 
 ROWS_SHOWN = 3
 

@@ -10,12 +10,12 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 from nptcs.errors import InputError
-from nptcs.ingest.columns import LOADS, STRAINS, Test
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
-from nptcs.ingest.labels import LabelValue
-from nptcs.ingest.profiles import FormatProfile
-from nptcs.ingest.rawtable import header_labels
+from nptcs.ingest.reading.labels import LabelValue
+from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.quantities import LOADS, STRAINS, Test
+from nptcs.ingest.reading.raw_file import header_labels
 from nptcs.tables.specimens import COLUMNS
 
 _ROLE_WORDS = re.compile(

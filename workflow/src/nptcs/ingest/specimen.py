@@ -12,7 +12,10 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning import (
+from nptcs.ingest.conditioning.pairing import pair
+from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
+from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
     empty_after_removal,
@@ -20,14 +23,11 @@ from nptcs.ingest.conditioning import (
     mark_dead,
     zero_force,
 )
+from nptcs.ingest.conditioning.strain_origin import correct_origin
+from nptcs.ingest.conditioning.strains import orient, resolve_strains
 from nptcs.ingest.folder import find_file
-from nptcs.ingest.origin import correct_origin
-from nptcs.ingest.pairing import pair
-from nptcs.ingest.plausible import check_labels, check_machine_area, check_physics
-from nptcs.ingest.profiles import FormatProfile, choose
-from nptcs.ingest.rawtable import RawTable, read_raw
-from nptcs.ingest.signals import Signals
-from nptcs.ingest.strains import orient, resolve_strains
+from nptcs.ingest.reading.profiles import FormatProfile, choose
+from nptcs.ingest.reading.raw_file import RawTable, read_raw
 from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
@@ -59,7 +59,7 @@ def ingest_specimen(
     settings : IngestSettings
         Conditioning steps.
     profiles : mapping of str to FormatProfile
-        All known formats (`nptcs.ingest.profiles.load_profiles`).
+        All known formats (`nptcs.ingest.reading.profiles.load_profiles`).
 
     Returns
     -------

@@ -6,8 +6,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from nptcs.compare.lca import ring_shape
 from nptcs.lca.state import LcaState
-from nptcs.lca.validation import ring_shape
 
 FORMATS = (".svg", ".png", ".pdf")
 COLOURS = {"contact": "#d55e00", "compression": "#0072b2", "tension": "#009e73"}

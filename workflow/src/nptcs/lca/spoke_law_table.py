@@ -10,7 +10,7 @@ import numpy as np
 
 from nptcs.errors import InputError
 from nptcs.lca.spoke_law import SpokeLaw
-from nptcs.lca.spoke_table import OutOfRangeError
+from nptcs.lca.spoke_stiffness_table import OutOfRangeError
 
 COLUMNS = ("spoke_c10_mpa", "elongation_mm", "force_n")
 

@@ -15,8 +15,7 @@ from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import sha256_of_file
-from nptcs.materials import MaterialCard, PlyCard, RubberCard
-from nptcs.report.figures_surface import FactorLabel
+from nptcs.report.figures.surface import FactorLabel
 from nptcs.report.verdict import verdict
 from nptcs.surface.fit import Surface
 from nptcs.surface.stored import load
@@ -24,6 +23,7 @@ from nptcs.tables.cases import Design
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.io import read_table
+from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.surface import SurfaceTable
 

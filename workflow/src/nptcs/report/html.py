@@ -7,21 +7,21 @@ from importlib import resources
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
-from nptcs.report.against import against_section
 from nptcs.report.data import Results
-from nptcs.report.head import head_blocks
-from nptcs.report.lca import lca_section
-from nptcs.report.materials import materials_section
-from nptcs.report.provenance import provenance_section
-from nptcs.report.sheets import sheets_of
-from nptcs.report.specimens import specimens_section
-from nptcs.report.spokes import spoke_section
-from nptcs.report.studies import (
+from nptcs.report.sections.lca import lca_section
+from nptcs.report.sections.materials import materials_section
+from nptcs.report.sections.provenance import provenance_section
+from nptcs.report.sections.published_stiffness import against_section
+from nptcs.report.sections.specimens import specimens_section
+from nptcs.report.sections.spokes import spoke_section
+from nptcs.report.sections.studies import (
     cases_section,
     design_section,
     sensitivity_section,
     surfaces_section,
 )
+from nptcs.report.sections.summary import head_blocks
+from nptcs.report.tables.sheets import sheets_of
 
 
 def render_report(results: Results) -> str:

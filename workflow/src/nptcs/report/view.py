@@ -11,12 +11,12 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from nptcs.report import marks
-from nptcs.report.catalogue import Entry
-from nptcs.report.marks import RowClass
-from nptcs.report.sheets import Sheet
-from nptcs.report.style import to_svg
-from nptcs.report.units import Heading, heading
+from nptcs.report.figures.style import to_svg
+from nptcs.report.tables import row_classes as marks
+from nptcs.report.tables.catalogue import Entry
+from nptcs.report.tables.headings import Heading, heading
+from nptcs.report.tables.row_classes import RowClass
+from nptcs.report.tables.sheets import Sheet
 
 DIGITS = 5
 """Significant digits of numbers in the report; the CSV files and the workbook have all."""

@@ -20,9 +20,9 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.report.data import Results
-from nptcs.report.dictionary import dictionary_table
-from nptcs.report.sheets import Sheet, sheets_of
-from nptcs.report.units import heading
+from nptcs.report.tables.dictionary import dictionary_table
+from nptcs.report.tables.headings import heading
+from nptcs.report.tables.sheets import Sheet, sheets_of
 
 HEADER = PatternFill("solid", start_color="DCE6EF")
 SYNTHETIC = PatternFill("solid", start_color="FFD699")

@@ -13,7 +13,7 @@ from typing import ClassVar
 from pydantic import Field, field_validator
 
 from nptcs.config.abaqus import AbaqusModel
-from nptcs.fe.abaqus import tyre_deck
+from nptcs.decks.abaqus.deck import tyre_deck
 from nptcs.solvers.abaqus_history import load_curve
 from nptcs.solvers.abaqus_messages import (
     COMPLETED,

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 
-from nptcs.fe.abaqus import GROUND, RIM
+from nptcs.decks.abaqus.deck import GROUND, RIM
 
 ALL_ZERO = "ALL VALUES IN THIS TABLE ARE ZERO"
 

@@ -9,10 +9,10 @@ import numpy as np
 from pydantic import Field
 
 from nptcs.config.fe import FeSpokeModel, LayerlessGeometry, SpokeGeometry
-from nptcs.fe.calculix import complaints, spoke_deck, total_forces, true_thickness
+from nptcs.decks.calculix import complaints, spoke_deck, total_forces, true_thickness
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke_pull import COMPRESSION_MM, TENSION_MM
-from nptcs.origin_fit import fit_through_origin
+from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM
+from nptcs.fe.spoke.stiffness_line import fit_through_origin
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, run_command, time_for_command
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants

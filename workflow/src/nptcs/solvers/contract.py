@@ -69,7 +69,7 @@ class CaseInputs:
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
-        The nine ply constants (`nptcs.materials.PLY_CONSTANTS`), where the solver needs them.
+        The nine ply constants (`nptcs.tables.material_card.PLY_CONSTANTS`), where the solver needs them.
     options : SolverOptions
         The solver's own options.
     tables : mapping of str to a sequence of rows

@@ -6,8 +6,8 @@ import numpy as np
 
 from nptcs.config.fe import FeSpokeModel
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke import SpokeError, SpokeModel
-from nptcs.fe.spoke_pull import spoke_stiffness
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
 

@@ -12,7 +12,7 @@ from nptcs import lca
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.spoke_law_table import SpokeLawTable
-from nptcs.lca.spoke_table import OutOfRangeError, SpokeTable
+from nptcs.lca.spoke_stiffness_table import OutOfRangeError, SpokeTable
 from nptcs.lca.state import LcaState
 from nptcs.solvers.contract import (
     CaseInputs,

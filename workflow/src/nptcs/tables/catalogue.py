@@ -7,7 +7,6 @@ from dataclasses import dataclass
 
 import pandera.pandas as pa
 
-from nptcs.tables.against_published import AgainstPublished, StiffnessByLevel, StiffnessErrors
 from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
@@ -16,6 +15,7 @@ from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.problems import Problems
 from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.published_stiffness import AgainstPublished, StiffnessByLevel, StiffnessErrors
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable

@@ -10,7 +10,7 @@ import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.origin_fit import fit_through_origin
+from nptcs.fe.spoke.stiffness_line import fit_through_origin
 
 SPOKE_VALUES = ("spoke_c10_mpa", "spacing_mm", "thickness_mm", "angle_deg")
 DIRECTIONS = {"tension": 1.0, "compression": -1.0}

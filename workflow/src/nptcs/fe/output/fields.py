@@ -1,0 +1,143 @@
+"""Stresses and energy densities of finite element states, at points and as means of elements."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.fe.elements.groups import LinearBlock, RubberBlock, deformation_gradient
+from nptcs.fe.elements.lagrange import jacobians, tensor_shape
+from nptcs.fe.elements.neo_hooke import neo_hookean
+from nptcs.fe.spoke.mesh import ElementSet
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class RubberFields:
+    """Rubber at points of its elements, arrays (elements, points).
+
+    Parameters
+    ----------
+    energy_density : array
+        Strain energy per unit of reference volume, MPa.
+    mises : array
+        Von Mises equivalent of the Cauchy stress, MPa.
+    pressure : array
+        Minus the mean Cauchy stress, MPa: positive in compression.
+    """
+
+    energy_density: Array
+    mises: Array
+    pressure: Array
+
+
+def rubber_fields(block: RubberBlock, displacement: Array) -> RubberFields:
+    """Fields at the Gauss points of a block, at its present pressures."""
+    local = displacement[block.nodes]
+    return _law(block, deformation_gradient(block.gradient, local, None), block.pressure_shape)
+
+
+def rubber_at(
+    block: RubberBlock,
+    orders: Sequence[int],
+    corners: Array,
+    displacement: Array,
+    points: Array,
+) -> RubberFields:
+    """Fields of a block at any local points, not smoothed between elements.
+
+    Parameters
+    ----------
+    block : RubberBlock
+    orders : sequence of int
+        Polynomial orders of its elements.
+    corners : array (elements, nodes, directions)
+        Reference positions, mm.
+    displacement : array (nodes, directions)
+        mm.
+    points : array (points, directions)
+        Local coordinates.
+    """
+    _, slope = tensor_shape(orders, points)
+    gradient, _ = jacobians(slope, corners)
+    modes = np.column_stack([np.ones(len(points)), points])
+    modes = modes[:, : block.pressure.shape[1]]
+    return _law(block, deformation_gradient(gradient, displacement[block.nodes], None), modes)
+
+
+def _law(block: RubberBlock, deformation: Array, modes: Array) -> RubberFields:
+    mean = block.pressure @ modes.T
+    law = neo_hookean(block.c10_mpa, deformation, mean)
+    # σ - p = (a F Fᵀ - a I1/3) / J
+    deviator = law.scale[..., None, None] * (deformation @ deformation.swapaxes(-1, -2))
+    deviator -= law.third[..., None, None] * np.eye(3)
+    deviator /= law.volume[..., None, None]
+    return RubberFields(
+        energy_density=law.energy + mean * (law.volume - 1.0) - mean**2 / (2.0 * block.bulk_mpa),
+        mises=np.sqrt(1.5 * np.sum(deviator**2, axis=(-1, -2))),
+        pressure=-mean,
+    )
+
+
+def rubber_energy(block: RubberBlock, displacement: Array) -> Array:
+    """Strain energy of each element of a block, N mm."""
+    energy: Array = np.sum(block.weight * rubber_fields(block, displacement).energy_density, axis=1)
+    return energy
+
+
+def linear_energy(block: LinearBlock, displacement: Array) -> Array:
+    """Strain energy of each element of a linear block, N mm."""
+    strain = block.strain(displacement)
+    stress = np.matmul(block.stiffness, strain[..., None])[..., 0]
+    energy: Array = 0.5 * np.sum(block.weight * np.sum(stress * strain, axis=2), axis=1)
+    return energy
+
+
+def fibre_stress(block: LinearBlock, displacement: Array, angle_deg: float) -> Array:
+    """Stress along the fibres at a plate's points, MPa, array (elements, points).
+
+    Second Piola–Kirchhoff stress in axes that turn with the plate, whose strains are small.
+
+    Parameters
+    ----------
+    block : LinearBlock
+        The plates' in-plane block; the first half of its points lies in the ply +A, the second
+        in the ply -A.
+    displacement : array (nodes, 3)
+        mm.
+    angle_deg : float
+        A.
+    """
+    stress = np.matmul(block.stiffness, block.strain(displacement)[..., None])[..., 0]
+    angles = np.radians(np.repeat([angle_deg, -angle_deg], stress.shape[1] // 2))
+    c, s = np.cos(angles), np.sin(angles)
+    along: Array = c * c * stress[..., 0] + s * s * stress[..., 1] + 2.0 * c * s * stress[..., 3]
+    return along
+
+
+def extreme(values: Array) -> Array:
+    """Value of largest size in each row."""
+    largest: Array = np.take_along_axis(values, np.abs(values).argmax(axis=1)[:, None], axis=1)
+    return largest[:, 0]
+
+
+def lattice(count: int, directions: int) -> Array:
+    """Evenly spaced local points (count^directions, directions); the last runs fastest."""
+    line = np.linspace(-1.0, 1.0, count)
+    grid = np.meshgrid(*[line] * directions, indexing="ij")
+    return np.stack([part.ravel() for part in grid], axis=1)
+
+
+def at_points(
+    elements: ElementSet, orders: Sequence[int], displacement: Array, points: Array
+) -> tuple[Array, Array]:
+    """Give reference positions and displacements (elements, points, 3) at local points, mm."""
+    shape, _ = tensor_shape(orders, points)
+    return (
+        np.einsum("gn,eni->egi", shape, elements.corners),
+        np.einsum("gn,eni->egi", shape, displacement[elements.nodes]),
+    )

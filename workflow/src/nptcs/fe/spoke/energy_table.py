@@ -1,0 +1,248 @@
+"""The spoke as a super-element: a polynomial energy of the band's motion (u_r, u_θ, φ).
+
+The polynomial is fitted to energies, forces and condensed tangents of finite element states
+together, so that forces and tangents in the tyre are exact derivatives of one energy. Its variables
+are those of `chord`: it is even in β, and only states with β ≥ 0 are computed.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from itertools import chain, product
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from nptcs.config.fe import SpokeTableOptions
+from nptcs.fe.spoke.coordinates import carried, chord_of, motion_of
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel, SpokeState
+
+Array = NDArray[np.float64]
+
+SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
+# what rounding in `chord_of` may add to a state on the table's edge, in parts of the range: motions
+# are differences of lengths of a hundred millimetres, known to 1e-14
+EDGE = 1e-12
+NAMES = ("change of chord (mm)", "inclination β (rad)", "φ (rad)")
+
+
+class TableRangeError(ValueError):
+    """The tyre asks for a motion that the table does not cover."""
+
+
+@dataclass(frozen=True)
+class SpokeSamples:
+    """States of a spoke at chords (n, 3): energy (n,), its derivatives (n, 3) and (n, 3, 3)."""
+
+    chord: Array
+    energy: Array
+    force: Array
+    tangent: Array
+
+
+@dataclass(frozen=True)
+class SpokeTable:
+    """Energy of one spoke, E(s, β, φ) in N mm.
+
+    Parameters
+    ----------
+    height_mm : float
+        Length of the unloaded chord.
+    low, high : arrays (3,)
+        Range of s (mm), β (rad), φ (rad).
+    exponents : array (terms, 3)
+        Chebyshev degree of each term in each direction.
+    coefficients : array (terms,)
+        N mm.
+    narrowing : float
+        Part of the ranges of β and φ that is left at the lowest s, linear from s = 0.
+    force_residual_n : float
+        Root mean square misfit of the force along the chord at the sampled states.
+    """
+
+    height_mm: float
+    low: Array
+    high: Array
+    exponents: NDArray[np.int64]
+    coefficients: Array
+    narrowing: float
+    force_residual_n: float
+
+    def evaluate(self, motion: Array) -> tuple[Array, Array, Array]:
+        """Energy (n,), forces (n, 3) and tangents (n, 3, 3) at motions (n, 3).
+
+        Raises
+        ------
+        TableRangeError
+            If a motion lies outside the table.
+        """
+        chord, first, second = chord_of(motion, self.height_mm)
+        self._check(chord)
+        scale = 2.0 / (self.high - self.low)
+        local = (chord - self.low) * scale - 1.0
+        lines = _lines(local, self.exponents)
+        energy = _term(lines, (0, 0, 0)) @ self.coefficients
+        force = np.empty((len(motion), 3))
+        tangent = np.empty((len(motion), 3, 3))
+        for i in range(3):
+            force[:, i] = _term(lines, _order(i)) @ self.coefficients * scale[i]
+        for i, j in SECOND:
+            value = _term(lines, _order(i, j)) @ self.coefficients * scale[i] * scale[j]
+            tangent[:, i, j] = tangent[:, j, i] = value
+        return energy, *carried(force, tangent, first, second)
+
+    def _check(self, chord: Array) -> None:
+        part = side_part(chord[:, 0], self.low[0], self.narrowing)
+        shrink = np.stack([np.ones_like(part), part, part], axis=1)
+        low, high = self.low * shrink, self.high * shrink
+        rounding = EDGE * (self.high - self.low)
+        outside = ~((chord >= low - rounding) & (chord <= high + rounding))
+        if outside.any():
+            spoke, axis = np.argwhere(outside)[0]
+            raise TableRangeError(
+                f"spoke {spoke}: {NAMES[axis]} = {chord[spoke, axis]:.4g} is outside the table's "
+                f"range {low[spoke, axis]:.4g} … {high[spoke, axis]:.4g} there"
+            )
+
+
+def _order(*axes: int) -> tuple[int, int, int]:
+    counts = [0, 0, 0]
+    for axis in axes:
+        counts[axis] += 1
+    return counts[0], counts[1], counts[2]
+
+
+def _lines(local: Array, exponents: NDArray[np.int64]) -> list[list[Array]]:
+    """Chebyshev polynomials of each direction and their first two derivatives, by term."""
+    lines: list[list[Array]] = []
+    for axis in range(3):
+        degrees = exponents[:, axis]
+        unit = np.eye(int(degrees.max()) + 1)
+        axis_lines: list[Array] = []
+        for order in range(3):
+            derived = chebyshev.chebder(unit, order, axis=0) if order else unit
+            values = chebyshev.chebval(local[:, axis], derived)
+            axis_lines.append(np.atleast_2d(values).T[:, degrees].astype(float))
+        lines.append(axis_lines)
+    return lines
+
+
+def _term(lines: list[list[Array]], orders: tuple[int, int, int]) -> Array:
+    product_: Array = lines[0][orders[0]] * lines[1][orders[1]] * lines[2][orders[2]]
+    return product_
+
+
+def chebyshev_nodes(low: float, high: float, count: int) -> Array:
+    """Chebyshev points of the second kind on [low, high], both ends with them."""
+    unit = -np.cos(np.pi * np.arange(count) / (count - 1))
+    return 0.5 * (low + high) + 0.5 * (high - low) * unit
+
+
+def side_part(s: Array, lowest: float, narrowing: float) -> Array:
+    """Part of the ranges of β and φ that the table covers at these s."""
+    part: Array = 1.0 - (1.0 - narrowing) * np.clip(s / lowest, 0.0, 1.0)
+    return part
+
+
+def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
+    """Compute the spoke's states on the table's grid, walking from neighbour to neighbour.
+
+    Where a row loses its stability in compression, the samples of all rows end at its last level.
+
+    Raises
+    ------
+    SpokeError
+        If a state in tension or of the unloaded radius is not found.
+    """
+    height = model.design.geometry.height_mm
+    rows = list(_rows(model, options))
+    chords = [chord_of(np.array([state.motion for state in row]), height)[0] for row in rows]
+    lowest = max(float(chord[:, 0].min()) for chord in chords)
+    kept = np.concatenate(chords)[:, 0] >= lowest - 1e-9
+    states = [state for state, keep in zip(chain(*rows), kept, strict=True) if keep]
+    chord = np.concatenate(chords)[kept]
+    force = np.array([state.force for state in states])
+    tangent = np.array([state.tangent for state in states])
+    return SpokeSamples(
+        chord,
+        np.array([state.energy for state in states]),
+        *carried(force, tangent, *motion_of(chord, height)[1:]),
+    )
+
+
+def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeState]]:
+    """For each (β, φ): rows from s = 0 to both ends, each state from the last two."""
+    lengths = chebyshev_nodes(*options.chord_mm, options.samples[0])
+    turns = chebyshev_nodes(-options.inclination_rad, options.inclination_rad, options.samples[1])
+    rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
+    # a level of s = 0, up to rounding, is the row's start itself
+    level = np.abs(lengths) < 1e-9 * (lengths[-1] - lengths[0])
+    up, down = lengths[(lengths > 0) & ~level], lengths[(lengths < 0) & ~level][::-1]
+    start = model.rest()
+    for turn, phi in product(turns[turns > -1e-12], rotations):
+        motions = _row(model, options, turn, phi, np.array([0.0]))
+        start = model.move(start, motions[0])
+        states = [start, *model.walk(start, _row(model, options, turn, phi, up))]
+        try:
+            for state in model.walk(start, _row(model, options, turn, phi, down)):
+                states.append(state)
+        except SpokeError:
+            # the spoke buckles: `sample` ends the table at the last level that all rows reach
+            pass
+        yield states if level.any() else states[1:]
+
+
+def _row(
+    model: SpokeModel, options: SpokeTableOptions, turn: float, phi: float, lengths: Array
+) -> Array:
+    """Motions (n, 3) of a row at these changes of the chord."""
+    part = side_part(lengths, options.chord_mm[0], options.narrowing)
+    chord = np.stack([lengths, part * turn, part * phi], axis=1)
+    return motion_of(chord, model.design.geometry.height_mm)[0]
+
+
+def fit(samples: SpokeSamples, options: SpokeTableOptions, height_mm: float) -> SpokeTable:
+    """Fit the energy polynomial to energies, forces and tangents by least squares.
+
+    All data enter in units of energy: forces times the half range, tangents times its square. A
+    table that ends early has fewer levels of s, and for them a lower degree.
+    """
+    sides = (-options.inclination_rad, options.inclination_rad)
+    low, high = np.array([options.chord_mm, sides, options.phi_rad]).T
+    low[0] = samples.chord[:, 0].min()
+    narrowing = float(side_part(low[:1], options.chord_mm[0], options.narrowing)[0])
+    half = 0.5 * (high - low)
+    local = (samples.chord - low) / half - 1.0
+    radial, side = options.degrees
+    radial = min(radial, 2 * len(np.unique(samples.chord[:, 0].round(6))) - 2)
+    exponents = np.array(
+        [
+            (i, j, k)
+            for i in range(radial + 1)
+            for j in range(0, side + 1, 2)
+            for k in range(side + 1 - j)
+        ]
+    )
+    lines = _lines(local, exponents)
+    design = [_term(lines, (0, 0, 0))]
+    data = [samples.energy]
+    for i in range(3):
+        design.append(_term(lines, _order(i)))
+        data.append(samples.force[:, i] * half[i])
+    for i, j in SECOND:
+        design.append(_term(lines, _order(i, j)))
+        data.append(samples.tangent[:, i, j] * half[i] * half[j])
+    matrix, target = np.concatenate(design), np.concatenate(data)
+    coefficients, _, rank, _ = np.linalg.lstsq(matrix, target, rcond=1e-12)
+    if rank < len(exponents):
+        raise ValueError(
+            f"{len(exponents)} terms cannot be found from {len(samples.chord)} states "
+            f"(rank {rank}): lower degrees or take more samples"
+        )
+    force = _term(lines, _order(0)) @ coefficients / half[0]
+    residual = float(np.sqrt(np.mean((force - samples.force[:, 0]) ** 2)))
+    return SpokeTable(
+        height_mm, low, high, exponents, coefficients.astype(float), narrowing, residual
+    )

@@ -1,0 +1,141 @@
+"""Contact of the tread with a rigid plane that rises by δ: smoothed penalty, Coulomb friction."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.config.fe import GroundContact
+from nptcs.fe.elements.lagrange import line_shape
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+EDGE_POINTS = 4
+# tanh is 1 to rounding beyond this
+RATIO_CAP = 20.0
+LEAST_SHEAR_MPA = 1e-9
+
+
+@dataclass
+class ContactResponse:
+    """Forces and tangents of the tread's edges, and the ground's reaction.
+
+    Parameters
+    ----------
+    force : array (edges, 6)
+        Residual (internal minus external) at the edge's nodes, N.
+    tangent : array (edges, 6, 6)
+    force_slope : array (edges, 6)
+        Derivative of `force` with respect to the ground's rise, N/mm.
+    reaction_n : float
+        Vertical force on the ground.
+    reaction_slope : float
+        Its derivative with respect to the ground's rise, N/mm.
+    """
+
+    force: Array
+    tangent: Array
+    force_slope: Array
+    reaction_n: float
+    reaction_slope: float
+
+
+class Ground:
+    """The rigid plane y = -R + δ under the tread's outer edges.
+
+    The normal pressure is p(g) = ε g²/2d up to a penetration d, ε (g - d/2) beyond: its slope has
+    no jump: Newton's method does not chatter. The shear traction is µ p tanh(ε_t s / µ p)
+    with the slip s since the point last came to rest; it is remembered at each converged step.
+
+    Parameters
+    ----------
+    positions : array (nodes, 2)
+    edges : array (edges, 3)
+    width_mm : float
+        Axial width of the tread.
+    options : GroundContact
+    """
+
+    def __init__(
+        self, positions: Array, edges: Index, width_mm: float, options: GroundContact
+    ) -> None:
+        points, weights = np.polynomial.legendre.leggauss(EDGE_POINTS)
+        self._shape, slope = line_shape(2, points)
+        tangent = np.einsum("gn,eni->egi", slope, positions[edges])
+        self._area = np.linalg.norm(tangent, axis=2) * weights * width_mm
+        self._edges = edges
+        self._options = options
+        self._place = np.einsum("gn,eni->egi", self._shape, positions[edges])
+        self._radius = float(np.linalg.norm(positions[edges], axis=2).max())
+        self._anchor = np.zeros(self._area.shape)
+
+    def _pressure(self, depth: Array) -> tuple[Array, Array]:
+        stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
+        inside = np.clip(depth, 0.0, None)
+        pressure = np.where(
+            inside < smooth, stiff * inside**2 / (2.0 * smooth), stiff * (inside - smooth / 2.0)
+        )
+        return pressure, stiff * np.clip(inside / smooth, 0.0, 1.0)
+
+    def _state(self, displacement: Array, rise_mm: float) -> tuple[Array, ...]:
+        moved = np.einsum("gn,eni->egi", self._shape, displacement[self._edges])
+        depth = rise_mm - self._radius - (self._place[..., 1] + moved[..., 1])
+        pressure, slope = self._pressure(depth)
+        stiff, friction = self._options.tangential_mpa_per_mm, self._options.friction
+        limit = np.maximum(friction * pressure, LEAST_SHEAR_MPA)
+        ratio = np.clip(stiff * (moved[..., 0] - self._anchor) / limit, -RATIO_CAP, RATIO_CAP)
+        level = np.tanh(ratio)
+        shear = limit * level
+        shear_slope = stiff * (1.0 - level**2)
+        # at a fixed slip, a higher pressure carries more shear
+        cross = friction * slope * (level - ratio * (1.0 - level**2))
+        return moved[..., 0], pressure, slope, shear, shear_slope, cross
+
+    def respond(self, displacement: Array, rise_mm: float) -> ContactResponse:
+        """Compute forces and tangents for nodal displacements and the ground's rise δ."""
+        _, pressure, slope, shear, shear_slope, cross = self._state(displacement, rise_mm)
+        shape, area = self._shape, self._area
+        count = len(self._edges)
+        force = np.zeros((count, 3, 2))
+        force[..., 1] = -np.einsum("gn,eg->en", shape, area * pressure)
+        force[..., 0] = np.einsum("gn,eg->en", shape, area * shear)
+        tangent = np.zeros((count, 3, 2, 3, 2))
+        tangent[:, :, 1, :, 1] = np.einsum("gn,gm,eg->enm", shape, shape, area * slope)
+        tangent[:, :, 0, :, 0] = np.einsum("gn,gm,eg->enm", shape, shape, area * shear_slope)
+        # depth falls with u_y: sliding friction couples the shear to the pressure
+        tangent[:, :, 0, :, 1] = -np.einsum("gn,gm,eg->enm", shape, shape, area * cross)
+        force_slope = np.zeros((count, 3, 2))
+        force_slope[..., 1] = -np.einsum("gn,eg->en", shape, area * slope)
+        force_slope[..., 0] = np.einsum("gn,eg->en", shape, area * cross)
+        return ContactResponse(
+            force.reshape(count, 6),
+            tangent.reshape(count, 6, 6),
+            force_slope.reshape(count, 6),
+            float(np.sum(area * pressure)),
+            float(np.sum(area * slope)),
+        )
+
+    def advance(self, displacement: Array, rise_mm: float) -> None:
+        """Remember the slip of a converged step; points off the ground forget theirs."""
+        along, pressure, _, shear, _, _ = self._state(displacement, rise_mm)
+        self._anchor = along - np.where(
+            pressure > 0.0, shear / self._options.tangential_mpa_per_mm, 0.0
+        )
+
+    def pressure_profile(self, displacement: Array, rise_mm: float) -> tuple[Array, Array]:
+        """Place x (mm) and pressure (MPa) of all contact points, in the order of θ."""
+        along, pressure, *_ = self._state(displacement, rise_mm)
+        return (self._place[..., 0] + along).ravel(), pressure.ravel()
+
+    def energy(self, displacement: Array, rise_mm: float) -> float:
+        """Energy stored in the normal penalty, N mm."""
+        moved = np.einsum("gn,eni->egi", self._shape, displacement[self._edges])
+        depth = rise_mm - self._radius - (self._place[..., 1] + moved[..., 1])
+        stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
+        inside = np.clip(depth, 0.0, None)
+        low = stiff * inside**3 / (6.0 * smooth)
+        high = stiff * (0.5 * inside**2 - 0.5 * smooth * inside + smooth**2 / 6.0)
+        return float(np.sum(self._area * np.where(inside < smooth, low, high)))

@@ -1,0 +1,291 @@
+"""The tyre: band and tread in plane strain on spoke super-elements, pressed on the ground."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.config.fe import GroundContact, TyreMesh
+from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.elements.groups import Block, Response, element_dofs
+from nptcs.fe.elements.lagrange import line_shape
+from nptcs.fe.matrices.cyclic import BandedPattern, folded_order
+from nptcs.fe.spoke.energy_table import SpokeTable, TableRangeError
+from nptcs.fe.tyre.contact import Ground
+from nptcs.fe.tyre.element_groups import ring_rubbers, wire_blocks
+from nptcs.fe.tyre.mesh import RingMesh, build_ring
+
+Array = NDArray[np.float64]
+Index = NDArray[np.int64]
+
+MAX_ITERATIONS = 40
+# from this iteration on, steps that do not shrink are shortened
+CALM_ITERATIONS = 6
+LARGEST_STEP_MM = 6.0
+SMALLEST_STEP_N = 2.0
+FIRST_RISE_MM = 0.5
+
+
+class TyreError(RuntimeError):
+    """The load could not be reached; `path` holds what was."""
+
+    def __init__(self, message: str, path: LoadPath) -> None:
+        # both in args, so that it survives the way back from a worker process
+        super().__init__(message, path)
+        self.path = path
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+@dataclass
+class LoadPath:
+    """Converged points of the load–displacement curve."""
+
+    force_n: list[float] = field(default_factory=lambda: [0.0])
+    rise_mm: list[float] = field(default_factory=lambda: [0.0])
+    iterations: int = 0
+
+
+@dataclass(frozen=True)
+class TyreState:
+    """The loaded tyre: ring displacements (nodes, 2) mm, ground's rise mm, spokes' motions."""
+
+    displacement: Array
+    rise_mm: float
+    motion: Array
+    path: LoadPath
+
+
+@dataclass
+class _Trial:
+    """Residual and tangent of one iterate."""
+
+    force: Array
+    band: Array
+    slope: Array
+    reaction: float
+    reaction_row: Array
+    reaction_slope: float
+    internal: Array
+
+
+class TyreModel:
+    """A tyre of one table of spokes and one rubber of band and tread.
+
+    Parameters
+    ----------
+    tyre : TyreGeometry
+    table : SpokeTable
+        Energy of one whole spoke.
+    foot_width_mm : float
+        Circumferential width of a spoke's foot on the band.
+    c10_mpa : float
+        Rubber of band and tread.
+    bulk_to_shear_ratio : float
+    mesh : TyreMesh
+    contact : GroundContact
+    """
+
+    def __init__(
+        self,
+        tyre: TyreGeometry,
+        table: SpokeTable,
+        foot_width_mm: float,
+        c10_mpa: float,
+        bulk_to_shear_ratio: float,
+        mesh: TyreMesh,
+        contact: GroundContact,
+    ) -> None:
+        self.table = table
+        self.mesh = build_ring(tyre, mesh, foot_width_mm)
+        ring = self.mesh
+        self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
+        self.wires = wire_blocks(ring, tyre)
+        self._bodies: list[Block] = [*self.rubbers, *self.wires]
+        self.ground = Ground(ring.positions, ring.tread_edges, tyre.tread_width_mm, contact)
+        self.foot_operator = foot_operators(ring)
+        nodes = [*[block.nodes for block in self._bodies], ring.feet]
+        self._dofs = [element_dofs(block, 2) for block in [*nodes, ring.tread_edges]]
+        self._count = 2 * len(ring.positions)
+        rows = len(ring.radii)
+        column, row = np.divmod(np.arange(len(ring.positions)), rows)
+        node = folded_order(len(ring.theta))[column] * rows + row
+        self._place = (2 * node[:, None] + np.arange(2)).ravel()
+        self._pattern = BandedPattern([self._place[d] for d in self._dofs], self._count)
+
+    def spoke_motion(self, displacement: Array) -> Array:
+        """(u_r, u_θ, φ) of each spoke's foot, array (spokes, 3)."""
+        local = displacement[self.mesh.feet].reshape(len(self.mesh.feet), -1)
+        motion: Array = np.einsum("skn,sn->sk", self.foot_operator, local)
+        return motion
+
+    def spoke_response(self, displacement: Array) -> Response:
+        """Energy of the spokes, and their forces and tangents on the unknowns of their feet."""
+        energy, push, stiff = self.table.evaluate(self.spoke_motion(displacement))
+        lift = self.foot_operator.transpose(0, 2, 1)
+        return Response(
+            float(energy.sum()),
+            np.matmul(lift, push[..., None])[..., 0],
+            np.matmul(lift, np.matmul(stiff, self.foot_operator)),
+        )
+
+    def _trial(self, displacement: Array, rise: float) -> _Trial:
+        responses = [block.respond(displacement) for block in self._bodies]
+        spokes = self.spoke_response(displacement)
+        ground = self.ground.respond(displacement, rise)
+        forces = [*[r.force for r in responses], spokes.force]
+        tangents = [*[r.tangent for r in responses], spokes.tangent, ground.tangent]
+        internal = np.zeros(self._count)
+        for dofs, part in zip(self._dofs[:-1], forces, strict=True):
+            internal += np.bincount(dofs.ravel(), part.ravel(), minlength=self._count)
+        edge = self._dofs[-1].ravel()
+        slope = np.zeros(self._count)
+        slope += np.bincount(edge, ground.force_slope.ravel(), minlength=self._count)
+        row = np.zeros(self._count)
+        row[1::2] = slope[1::2]
+        return _Trial(
+            force=internal + np.bincount(edge, ground.force.ravel(), minlength=self._count),
+            band=self._pattern.assemble(tangents),
+            slope=slope,
+            reaction=ground.reaction_n,
+            reaction_row=row,
+            reaction_slope=ground.reaction_slope,
+            internal=internal,
+        )
+
+    def _linear(self, trial: _Trial) -> Array:
+        """Solve the iterate's equations for its residual and for the ground's rise."""
+        rhs = np.empty((self._count, 2))
+        rhs[self._place] = np.stack([trial.force, trial.slope], axis=1)
+        return self._pattern.solve(trial.band, rhs)[self._place]
+
+    def _solve(
+        self, displacement: Array, rise: float, load: float | None, path: LoadPath
+    ) -> tuple[Array, float]:
+        """Newton's method at a given load, or at a given rise if `load` is None."""
+        before, part = np.inf, 1.0
+        for count in range(MAX_ITERATIONS):
+            path.iterations += 1
+            trial = self._trial(displacement, rise)
+            solved = self._linear(trial)
+            step, follow = -solved[:, 0], -solved[:, 1]
+            change = 0.0
+            if load is not None:
+                missing = load - trial.reaction - trial.reaction_row @ step
+                change = float(missing / (trial.reaction_slope + trial.reaction_row @ follow))
+                step = step + change * follow
+            largest = float(np.abs(step).max())
+            if not np.isfinite(largest):
+                raise FloatingPointError("the iteration has left the range of numbers")
+            if count >= CALM_ITERATIONS:
+                # two contact states that take turns: go half-way, twice as far when that helps
+                part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
+            before = largest
+            damp = min(part, LARGEST_STEP_MM / max(largest, 1e-12))
+            move = step.reshape(-1, 2)
+            displacement = displacement + damp * move
+            rise += damp * change
+            for block in self.rubbers:
+                block.update_pressure(move, damp)
+            if largest < 1e-6 and abs(change) < 1e-6:
+                return displacement, rise
+        raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
+
+    def load(self, loads_n: Sequence[float]) -> TyreState:
+        """Press the tyre on the ground through a rising sequence of loads.
+
+        Raises
+        ------
+        TyreError
+            If a load is not reached with steps down to 2 N, or a spoke leaves its table.
+        """
+        path = LoadPath()
+        displacement = np.zeros_like(self.mesh.positions)
+        for block in self.rubbers:
+            block.pressure[:] = 0.0
+        try:
+            displacement, rise = self._solve(displacement, FIRST_RISE_MM, None, path)
+            self.ground.advance(displacement, rise)
+            reached = self.ground.respond(displacement, rise).reaction_n
+            path.force_n.append(reached)
+            path.rise_mm.append(rise)
+            for load in loads_n:
+                while reached < load:
+                    displacement, rise, reached = self._advance(
+                        displacement, rise, reached, load, path
+                    )
+        except (FloatingPointError, TableRangeError) as error:
+            last = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
+            raise TyreError(f"{error}; {last}", path) from error
+        return TyreState(displacement, rise, self.spoke_motion(displacement), path)
+
+    def _advance(
+        self, displacement: Array, rise: float, reached: float, load: float, path: LoadPath
+    ) -> tuple[Array, float, float]:
+        """One load step, halved until it converges."""
+        step = load - reached
+        pressures = [block.pressure.copy() for block in self.rubbers]
+        while True:
+            target = load if step >= load - reached else reached + step
+            try:
+                moved, new_rise = self._solve(displacement, rise, target, path)
+            except (FloatingPointError, TableRangeError):
+                step /= 2.0
+                if step < SMALLEST_STEP_N:
+                    raise
+                for block, pressure in zip(self.rubbers, pressures, strict=True):
+                    block.pressure = pressure.copy()
+                continue
+            self.ground.advance(moved, new_rise)
+            path.force_n.append(target)
+            path.rise_mm.append(new_rise)
+            return moved, new_rise, target
+
+    def energy(self, state: TyreState) -> dict[str, float]:
+        """Energy of each part at a state, N mm."""
+        return {
+            "rubber": sum(block.respond(state.displacement).energy for block in self.rubbers),
+            "wires": sum(wire.respond(state.displacement).energy for wire in self.wires),
+            "spokes": self.spoke_response(state.displacement).energy,
+            "contact": self.ground.energy(state.displacement, state.rise_mm),
+        }
+
+    def neutral_line(self, displacement: Array) -> Array:
+        """Deformed positions (columns, 2) of the band's middle, x and y in mm."""
+        moved = self.mesh.positions + displacement
+        line: Array = moved[self.mesh.middle_row :: len(self.mesh.radii)]
+        return line
+
+
+def foot_operators(ring: RingMesh) -> Array:
+    """Mean motion of each foot: (u_r, u_θ, φ) = L u, array (spokes, 3, 2 × nodes of a foot).
+
+    u_r and u_θ are means over the foot, φ = ∫ s u_r ds / ∫ s² ds with s along +θ from its middle.
+    """
+    feet = ring.feet
+    elements = (feet.shape[1] - 1) // 2
+    points, weights = np.polynomial.legendre.leggauss(3)
+    shape, slope = line_shape(2, points)
+    operators = np.zeros((len(feet), 3, feet.shape[1], 2))
+    length, moment = np.zeros(len(feet)), np.zeros(len(feet))
+    outward = np.stack([np.sin(ring.spoke_angle), -np.cos(ring.spoke_angle)], axis=1)
+    along = np.stack([np.cos(ring.spoke_angle), np.sin(ring.spoke_angle)], axis=1)
+    for element in range(elements):
+        local = slice(2 * element, 2 * element + 3)
+        corner = ring.positions[feet[:, local]]
+        stretch = np.linalg.norm(np.einsum("gn,sni->sgi", slope, corner), axis=2) * weights
+        arm = np.einsum("gn,sni,si->sg", shape, corner, along)
+        length += stretch.sum(axis=1)
+        moment += np.sum(stretch * arm**2, axis=1)
+        mean = np.einsum("gn,sg->sn", shape, stretch)
+        operators[:, 0, local] += mean[..., None] * outward[:, None]
+        operators[:, 1, local] += mean[..., None] * along[:, None]
+        turning = np.einsum("gn,sg->sn", shape, stretch * arm)
+        operators[:, 2, local] += turning[..., None] * outward[:, None]
+    operators[:, :2] /= length[:, None, None, None]
+    operators[:, 2] /= moment[:, None, None]
+    return operators.reshape(len(feet), 3, -1)

@@ -1,0 +1,121 @@
+"""Checks against physics: a wrong unit or area is an error, not a number."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import numpy as np
+
+from nptcs.config.ingest import Plausible
+from nptcs.errors import InputError
+from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.reading.raw_file import RawTable
+from nptcs.tables.specimens import Specimen
+
+
+def check_machine_area(
+    signals: Signals, specimen: Specimen, table: RawTable, settings: Plausible
+) -> None:
+    """Compare the machine's stress with force over the measured area.
+
+    Raises
+    ------
+    InputError
+        If they differ by more than a factor 2: a unit must be wrong.
+    """
+    if "stress" not in signals.values or "force" not in table.values:
+        return
+    force, stress = np.abs(signals.values["force"]), np.abs(signals.values["stress"])
+    loaded = (force > 0.2 * np.nanmax(force)) & (stress > 0)
+    if not loaded.any():
+        return
+    area = float(np.median(force[loaded] / stress[loaded]))
+    ratio = area / specimen.area_mm2
+    if not 0.5 < ratio < 2:
+        raise InputError(
+            f"force ({table.units['force']}) and stress ({table.units['stress']}) of the file "
+            f"give an area of {area:.4g} mm², the sheet {specimen.area_mm2:.4g} mm²",
+            "correct the area in the sheet, or the unit by a profile's wrong_units",
+            table.path,
+            column=table.columns["stress"],
+            specimen=specimen.specimen,
+        )
+    if abs(ratio - 1) > settings.area_difference:
+        signals.flags.append(
+            f"machine area {area:.5g} mm² differs from the sheet's {specimen.area_mm2:.5g} mm²; "
+            "the sheet's was used"
+        )
+
+
+def check_labels(
+    signals: Signals, specimen: Specimen, table: RawTable, settings: Plausible
+) -> None:
+    """Flag dimensions in the file's header that differ from the sheet's."""
+    sheet = {
+        "width": specimen.mean_width_mm,
+        "thickness": specimen.mean_thickness_mm,
+        "area": specimen.area_mm2,
+    }
+    for name, ours in sheet.items():
+        found = table.labels.get(name)
+        if found is None or found.value is None or ours is None:
+            continue
+        if abs(found.value / ours - 1) > settings.area_difference:
+            unit = "mm²" if name == "area" else "mm"
+            signals.flags.append(
+                f"{name} in {table.path.name} is {found.value:.5g} {unit}, "
+                f"in the sheet {ours:.5g} {unit}; the sheet's was used"
+            )
+
+
+def check_physics(
+    signals: Signals, specimen: Specimen, tables: Sequence[RawTable], settings: Plausible
+) -> None:
+    """Stop if strain or apparent modulus cannot be.
+
+    Raises
+    ------
+    InputError
+        With the units as read, since one of them is probably wrong.
+    """
+    rubber = specimen.test.is_rubber
+    units = "; ".join(
+        f"{table.path.name}: "
+        + ", ".join(f"{name} in {unit}" for name, unit in table.units.items())
+        for table in tables
+    )
+    remedy = (
+        f"check units ({units}), width and thickness; state a wrong unit in a profile under "
+        "wrong_units, other limits under ingest: plausible"
+    )
+    strain = float(np.nanmax(np.abs(signals.values["strain_axial"])))
+    limit = settings.strain_rubber if rubber else settings.strain_composite
+    if strain > limit:
+        raise InputError(
+            f"largest strain {strain:.4g} is beyond {limit:g} (dimensionless)",
+            remedy,
+            tables[-1].path,
+            specimen=specimen.specimen,
+        )
+    low, high = settings.modulus_rubber_mpa if rubber else settings.modulus_composite_mpa
+    modulus = apparent_modulus(signals)
+    if modulus is not None and not low <= modulus <= high:
+        raise InputError(
+            f"apparent modulus {modulus:.4g} MPa is outside {low:g} to {high:g} MPa",
+            remedy,
+            tables[-1].path,
+            specimen=specimen.specimen,
+        )
+
+
+def apparent_modulus(signals: Signals) -> float | None:
+    """Secant modulus between 10 and 50 % of the largest stress that has a strain, in MPa."""
+    stress, strain = np.abs(signals.values["stress"]), np.abs(signals.values["strain_axial"])
+    measured = ~np.isnan(strain)
+    stress, strain = stress[measured], strain[measured]
+    if len(stress) < 2:
+        return None
+    peak = int(np.argmax(stress))
+    low, high = (int(np.argmax(stress[: peak + 1] >= share * stress[peak])) for share in (0.1, 0.5))
+    rise = strain[high] - strain[low]
+    return float((stress[high] - stress[low]) / rise) if rise > 0 else None

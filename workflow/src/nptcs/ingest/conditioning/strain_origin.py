@@ -1,0 +1,138 @@
+"""Preload and toe: put the origin of strain where the curve, extended, meets zero force."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.config.ingest import OriginOfStrain
+from nptcs.ingest.conditioning.signals import Array, Signals
+from nptcs.ingest.conditioning.steps import STRAINS
+
+_ITERATIONS = 20
+_CONVERGED = 1e-7
+
+
+@dataclass(frozen=True)
+class OriginFit:
+    """Parabola strain = c0 + c1·σ + c2·σ² over the window; c0 is the shift."""
+
+    coefficients: Array
+    standard_error: float
+    scatter: float
+    r_squared: float
+    rows: NDArray[np.intp]
+
+
+def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> None:
+    """Shift each strain to its own origin and cut the toe.
+
+    The toe compensation of ASTM D638 annex A1 extends the straight part to zero stress. Here
+    the part above the toe is a parabola, strain = c0 + c1·σ + c2·σ² (least squares), which is
+    the line where the material is linear and does not bias it where it is not (±45° and
+    rubber). All strains are shifted by their c0. A preload is thereby a true force, whose
+    strain was lost when the strain was set to zero.
+
+    Parameters
+    ----------
+    signals : Signals
+        With ``stress`` (MPa) and the strains; is changed.
+    settings : OriginOfStrain
+        Window, fewest points, poorest fit.
+    rubber : bool
+        Takes the rubber window.
+    """
+    if not settings.enabled:
+        signals.skipped("strain origin")
+        return
+    window = settings.window_rubber if rubber else settings.window
+    stress, strain = signals.values["stress"], signals.values["strain_axial"]
+    sign = np.sign(stress[int(np.argmax(np.abs(stress)))])
+    fit, why = _fit(sign * strain, sign * stress, window, settings.smallest_points)
+    if fit is None or fit.r_squared < settings.worst_r_squared:
+        why = why if fit is None else f"R² {fit.r_squared:.4f} is below the limit"
+        signals.note("strain origin", f"not corrected: {why}")
+        signals.flags.append(f"preload and toe not corrected: {why}")
+        return
+    shifts = _shift(signals, fit, sign)
+    toe = _toe_end(sign * strain, sign * stress, fit)
+    signals.take(np.arange(toe, len(signals)))
+    signals.note(
+        "strain origin",
+        f"strain shifted by {-sign * shifts['strain_axial']:+.3e}, {toe} toe rows cut",
+        standard_error=fit.standard_error,
+        r_squared=fit.r_squared,
+        points=len(fit.rows),
+        toe_rows=toe,
+        **{f"shift_{name}": -sign * shift for name, shift in shifts.items()},
+    )
+
+
+def _fit(
+    strain: Array, stress: Array, window: tuple[float, float], fewest: int
+) -> tuple[OriginFit | None, str]:
+    """Fit, with the window counted from the origin that the fit itself finds."""
+    measured = np.flatnonzero(~np.isnan(strain[: int(np.argmax(stress)) + 1]))
+    if len(measured) < fewest:
+        return None, f"{len(measured)} readings with strain before the largest force"
+    start = float(np.median(strain[measured[:3]]))
+    low, high = window
+    ultimate = float(strain[measured].max()) - start
+    if ultimate < 2 * high:
+        low, high = 0.1 * ultimate, 0.5 * ultimate
+    origin, fit = start, None
+    for _ in range(_ITERATIONS):
+        rows = _rows_in_window(strain, measured, origin + low, origin + high)
+        if len(rows) < fewest:
+            return None, f"{len(rows)} readings between strain {low:.2g} and {high:.2g}"
+        fit = _parabola(strain, stress, rows)
+        moved, origin = abs(fit.coefficients[0] - origin), float(fit.coefficients[0])
+        if moved < _CONVERGED:
+            break
+    return fit, ""
+
+
+def _rows_in_window(
+    strain: Array, measured: NDArray[np.intp], low: float, high: float
+) -> NDArray[np.intp]:
+    """Find the readings of the first passage through the window."""
+    beyond = np.flatnonzero(strain[measured] > high)
+    first_pass = measured[: int(beyond[0])] if len(beyond) else measured
+    return first_pass[strain[first_pass] >= low]
+
+
+def _parabola(strain: Array, stress: Array, rows: NDArray[np.intp]) -> OriginFit:
+    scale = float(np.abs(stress[rows]).max()) or 1.0
+    design = np.vander(stress[rows] / scale, 3, increasing=True)
+    scaled, *_ = np.linalg.lstsq(design, strain[rows])
+    residuals = strain[rows] - design @ scaled
+    variance = float(residuals @ residuals) / max(len(rows) - 3, 1)
+    error = float(np.sqrt(variance * np.linalg.pinv(design.T @ design)[0, 0]))
+    total = float(((strain[rows] - strain[rows].mean()) ** 2).sum())
+    r_squared = 1 - float(residuals @ residuals) / total if total else 0.0
+    coefficients = scaled / scale ** np.arange(3)
+    return OriginFit(coefficients, error, variance**0.5, r_squared, rows)
+
+
+def _shift(signals: Signals, fit: OriginFit, sign: float) -> dict[str, float]:
+    """Subtract each strain's own c0 over the same readings."""
+    shifts = {}
+    stress = sign * signals.values["stress"]
+    for name in STRAINS:
+        readings = sign * signals.values[name]
+        rows = fit.rows[~np.isnan(readings[fit.rows])]
+        if len(rows) < 4:
+            continue
+        shifts[name] = float(_parabola(readings, stress, rows).coefficients[0])
+        signals.values[name] = sign * (readings - shifts[name])
+    return shifts
+
+
+def _toe_end(strain: Array, stress: Array, fit: OriginFit) -> int:
+    """First row after the last one below the window that is off the parabola."""
+    before = np.arange(int(fit.rows[0]))
+    predicted = np.polynomial.polynomial.polyval(stress[before], fit.coefficients)
+    off = np.abs(strain[before] - predicted) > 4 * fit.scatter
+    return int(np.flatnonzero(off)[-1]) + 1 if off.any() else 0

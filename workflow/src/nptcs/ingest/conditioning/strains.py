@@ -1,0 +1,206 @@
+"""From the channels of a test to axial and transverse strain, and the sign of the load."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import numpy as np
+
+from nptcs.errors import InputError
+from nptcs.ingest.conditioning.signals import Array, Signals, largest
+from nptcs.ingest.reading.profiles import normalise
+from nptcs.tables.specimens import Specimen, TestType
+
+AMBIGUOUS_RATIO = 0.9
+"""Two in-plane strains closer than this cannot be told apart."""
+
+
+def resolve_strains(
+    signals: Signals,
+    specimen: Specimen,
+    columns: Mapping[str, str],
+    source: str,
+    compliance_mm_per_n: float | None,
+    path: Path,
+) -> str:
+    """Replace the channels by ``strain_axial``, ``strain_transverse``, ``strain_axial_back``.
+
+    Parameters
+    ----------
+    signals : Signals
+        With ``force``; is changed.
+    specimen : Specimen
+        Its gauge length, test and stated axis.
+    columns : mapping of str to str
+        Quantity → column name.
+    source : str
+        Strain source by the profile, or ``unspecified``.
+    compliance_mm_per_n : float or None
+        Of machine and grips, for crosshead travel.
+    path : Path
+        Strain file, for messages.
+
+    Returns
+    -------
+    str
+        Strain source.
+    """
+    values = signals.values
+    transverse: Array | None = values.get("strain_transverse")
+    if "strain_xx" in values and "strain_yy" in values and "strain" not in values:
+        axial, transverse = _axes(signals, specimen, columns, path)
+        source = "dic" if source == "unspecified" else source
+    else:
+        name, axial, source = _single(signals, specimen, source, compliance_mm_per_n, path)
+        signals.note("axial strain", f"column '{columns[name]}'")
+    empty = np.full(len(signals), np.nan)
+    values["strain_axial"] = axial
+    values["strain_transverse"] = empty if transverse is None else transverse
+    values["strain_axial_back"] = values.pop("strain_back", empty)
+    if source == "crosshead":
+        signals.flags.append("crosshead strain: modulus and strains hold machine and grips")
+    elif source == "unspecified":
+        signals.flags.append("the file does not say what measured the strain")
+    return source
+
+
+def _single(
+    signals: Signals, specimen: Specimen, source: str, compliance: float | None, path: Path
+) -> tuple[str, Array, str]:
+    """One channel along the load, the best that is there: its name, strain and source."""
+    values = signals.values
+    if "strain" in values:
+        if _follows(values["strain"], values.get("displacement")):
+            source = "crosshead"
+        return "strain", values["strain"], source
+    for name in ("strain_xx", "strain_yy"):
+        if name in values:
+            return name, values[name], "dic" if source == "unspecified" else source
+    if "stretch" in values:
+        return "stretch", values["stretch"] - 1.0, source
+    name = "extension" if "extension" in values else "displacement"
+    if name not in values:
+        raise InputError(
+            "no strain", "name a strain_file in the sheet", path, specimen=specimen.specimen
+        )
+    if specimen.gauge_length_mm is None:
+        raise InputError(
+            f"gauge_length_mm is empty: {name} cannot become strain",
+            "give the gauge length (grip distance for crosshead travel) in the sheet",
+            path,
+            specimen=specimen.specimen,
+        )
+    length = values[name] - values[name][~np.isnan(values[name])][0]
+    if name == "displacement" and compliance is not None:
+        length = length - compliance * values["force"]
+        signals.note("compliance", "travel - compliance × force", compliance_mm_per_n=compliance)
+    if name == "extension":
+        source = "extensometer" if source in ("unspecified", "crosshead") else source
+    else:
+        source = "crosshead"
+    return name, length / specimen.gauge_length_mm, source
+
+
+def _follows(strain: Array, travel: Array | None) -> bool:
+    """Tell whether a strain is nothing but the crosshead travel over a length."""
+    if travel is None:
+        return False
+    moved = np.abs(travel - travel[0]) > 0.01 * np.nanmax(np.abs(travel - travel[0]))
+    ratio = (strain[moved] - strain[0]) / (travel[moved] - travel[0])
+    if not len(ratio) or np.isnan(ratio).all():
+        return False
+    middle = float(np.nanmedian(ratio))
+    return bool(np.nanmax(np.abs(ratio - middle)) <= 1e-3 * abs(middle))
+
+
+def _axes(
+    signals: Signals, specimen: Specimen, columns: Mapping[str, str], path: Path
+) -> tuple[Array, Array]:
+    """Axial and transverse out of exx and eyy: axial follows the load, and is the larger."""
+    slopes = {name: _slope(signals, name) for name in ("strain_xx", "strain_yy")}
+    ordered = sorted(slopes, key=lambda name: abs(slopes[name]), reverse=True)
+    stated = _stated_axis(specimen, columns)
+    found = ", ".join(f"'{columns[name]}' {1e6 * slopes[name]:.4g} µε/N" for name in slopes)
+    ratio = abs(slopes[ordered[1]] / slopes[ordered[0]]) if slopes[ordered[0]] else 1.0
+    if stated is None and ratio > AMBIGUOUS_RATIO:
+        raise InputError(
+            f"the axial strain cannot be told from the data: {found}",
+            "name the column as strain_axis in the sheet",
+            path,
+            specimen=specimen.specimen,
+        )
+    axial = stated or ordered[0]
+    if axial != ordered[0] and ratio < AMBIGUOUS_RATIO:
+        raise InputError(
+            f"strain_axis is '{specimen.strain_axis}', but the other strain is larger: {found}",
+            "correct strain_axis, or leave it empty",
+            path,
+            specimen=specimen.specimen,
+        )
+    other = "strain_yy" if axial == "strain_xx" else "strain_xx"
+    how = "stated in the sheet" if stated else "found: the larger one"
+    signals.note("axial strain", f"column '{columns[axial]}', {how} ({found})")
+    return signals.values[axial], signals.values[other]
+
+
+def _slope(signals: Signals, name: str) -> float:
+    """Least-squares slope of a strain over force, up to the largest force."""
+    force = signals.values["force"]
+    rows = np.arange(len(force)) <= int(np.nanargmax(np.abs(force)))
+    rows &= ~np.isnan(signals.values[name]) & ~np.isnan(force)
+    if rows.sum() < 2 or np.ptp(force[rows]) == 0:
+        return 0.0
+    return float(np.polyfit(force[rows], signals.values[name][rows], 1)[0])
+
+
+def _stated_axis(specimen: Specimen, columns: Mapping[str, str]) -> str | None:
+    if not specimen.strain_axis:
+        return None
+    wanted = normalise(specimen.strain_axis)
+    for name in ("strain_xx", "strain_yy"):
+        short = name.replace("strain_", "e")
+        if wanted in (short, name, normalise(columns[name])):
+            return name
+    raise InputError(
+        "strain_axis is no strain of the file",
+        f"use '{columns['strain_xx']}' or '{columns['strain_yy']}'",
+        specimen=specimen.specimen,
+        column="strain_axis",
+        value=specimen.strain_axis,
+    )
+
+
+def orient(signals: Signals, specimen: Specimen, path: Path) -> None:
+    """Make tension positive and compression negative, whatever the machine's habit.
+
+    The force's sign is that of its largest reading; the strain's that of its slope over the
+    force, which an offset does not turn.
+
+    Raises
+    ------
+    InputError
+        If a tension test shortens under its load.
+    """
+    values = signals.values
+    wanted = -1.0 if specimen.test is TestType.COMPRESSION else 1.0
+    force = np.sign(largest(values["force"]))
+    slope = _slope(signals, "strain_axial")
+    strain = force * np.sign(slope)
+    if wanted > 0 and strain < 0:
+        raise InputError(
+            f"axial strain falls while a {specimen.test} test loads",
+            "check test, strain_axis and the files of this specimen in the sheet",
+            path,
+            specimen=specimen.specimen,
+            value=f"{1e6 * slope:.3g} µε/N",
+        )
+    turned = []
+    if force != wanted:
+        values["force"] = -values["force"]
+        turned.append("force")
+    if strain != wanted:
+        for name in ("strain_axial", "strain_axial_back"):
+            values[name] = -values[name]
+        turned.append("axial strain")
+    signals.note("sign", f"turned: {', '.join(turned)}" if turned else "as recorded")

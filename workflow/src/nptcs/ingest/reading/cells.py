@@ -1,0 +1,287 @@
+"""Text files and workbook sheets as rows of cells, and their columns as numbers."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import Literal, Protocol
+
+import numpy as np
+import pandas as pd
+from numpy.typing import NDArray
+
+from nptcs.errors import InputError
+from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
+from nptcs.ingest.reading.table_columns import Block
+
+NOTHING = "nan"
+Kind = Literal["data", "odd data", "empty", "remark", "names", "other"]
+"""``odd data``: a row of numbers that holds something else too."""
+
+
+class Source(Protocol):
+    """Rows of cells, whatever the file is."""
+
+    part: str
+
+    @property
+    def kinds(self) -> list[Kind]:
+        """Kind of each row."""
+        ...
+
+    def cells(self, row: int) -> list[str]:
+        """Cells of a row (from 0) as text."""
+        ...
+
+    @property
+    def widths(self) -> list[int]:
+        """Number of cells of each row."""
+        ...
+
+    def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
+        """Columns of a block as numbers, shape (rows, positions)."""
+        ...
+
+
+def kind_of(cells: Sequence[str], numbers: int) -> Kind:
+    """Kind of a row that is not all numbers, by its cells and how many of them are numbers."""
+    filled = [cell for cell in cells if cell]
+    if not filled:
+        return "empty"
+    if numbers >= 2 and 2 * numbers >= len([c for c in filled if c.casefold() not in MISSING]):
+        return "odd data"
+    if numbers == 0:
+        return "remark" if len(filled) == 1 else "names"
+    return "other"
+
+
+def split_lines(text: str) -> list[str]:
+    """Lines of a text, ended by LF, CRLF or a bare CR."""
+    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+
+
+@dataclass
+class TextSource:
+    """A text file whose dialect is known."""
+
+    path: Path
+    lines: list[str]
+    dialect: Dialect
+    missing: frozenset[str]
+    part: str = ""
+
+    @cached_property
+    def _row(self) -> re.Pattern[str]:
+        """All of a row is numbers or empty, in this dialect."""
+        number = _number(self.dialect.decimal, self.dialect.thousands).pattern
+        if self.dialect.delimiter == "spaces":
+            return re.compile(rf"\s*{number}(?:\s+{number})+\s*", re.ASCII)
+        blank = "[ ]*" if self.dialect.delimiter == "\t" else r"[ \t]*"
+        bare = rf"(?:{number})?" if self._marks_apart else ""
+        cell = rf'{blank}(?:"{number}"|{bare}){blank}'
+        mark = re.escape(self.dialect.delimiter)
+        return re.compile(rf"{cell}(?:{mark}{cell})+", re.ASCII)
+
+    @cached_property
+    def _full_row(self) -> re.Pattern[str]:
+        """Every cell of a row is a bare number, in this dialect: the usual row, found fast."""
+        number = _number(self.dialect.decimal, "").pattern
+        spaces = self.dialect.delimiter == "spaces"
+        mark = r"[ \t]+" if spaces else re.escape(self.dialect.delimiter)
+        return re.compile(rf"{number}(?:{mark}{number})+", re.ASCII)
+
+    @property
+    def _marks_apart(self) -> bool:
+        """The delimiter is neither decimal nor thousands mark, so numbers need no quotes."""
+        return self.dialect.delimiter not in (self.dialect.decimal, self.dialect.thousands)
+
+    @cached_property
+    def kinds(self) -> list[Kind]:
+        """Kind of each row."""
+        usual = self._full_row.fullmatch if self._marks_apart else re.compile("(?!)").fullmatch
+        return ["data" if usual(line) else self._kind(line) for line in self.lines]
+
+    def _kind(self, line: str) -> Kind:
+        if not line.strip():
+            return "empty"
+        if self._row.fullmatch(line):
+            cells = self.dialect.split(line)
+            filled = sum(bool(cell) for cell in cells)
+            return "data" if filled >= 2 else "other" if filled else "empty"
+        cells = self.dialect.split(line)
+        return kind_of(cells, sum(self.dialect.is_number(cell) for cell in cells))
+
+    def cells(self, row: int) -> list[str]:
+        """Cells of a row as text."""
+        return self.dialect.split(self.lines[row])
+
+    @cached_property
+    def widths(self) -> list[int]:
+        """Number of cells of each row."""
+        delimiter = self.dialect.delimiter
+        if delimiter == "spaces":
+            return [len(line.split()) for line in self.lines]
+        return [
+            len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
+            for line in self.lines
+        ]
+
+    def header_cells(self, row: int, width: int) -> list[str]:
+        """Cells of a row of names: with blanks in the names where blanks also separate."""
+        line = self.lines[row].strip()
+        if self.dialect.delimiter != "spaces":
+            return self.cells(row)
+        wide = re.split(r"\s{2,}|\t", line)
+        return wide if len(wide) == width else line.split()
+
+    def is_missing(self, cell: str) -> bool:
+        """Tell whether the cell says that there is no value."""
+        return cell.casefold() in MISSING or cell in self.missing
+
+    def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
+        """Columns of a block as numbers; a cell that is none raises with its place."""
+        lines = [self._line_for_pandas(block, row, positions) for row in block.rows_of_data]
+        text = "\n".join(lines)
+        if self._uses_thousands(text):
+            return self._numbers_with_thousands(block, positions)
+        frame = pd.read_csv(
+            io.StringIO(text),
+            sep=r"\s+" if self.dialect.delimiter == "spaces" else self.dialect.delimiter,
+            decimal=self.dialect.decimal,
+            header=None,
+            names=list(range(block.width)),
+            usecols=list(dict.fromkeys(positions)),
+            index_col=False,
+            dtype=np.float64,
+            na_values=["", NOTHING],
+            keep_default_na=False,
+            skipinitialspace=True,
+        )
+        values = frame[list(positions)].to_numpy()
+        self._refuse_infinite(block, values, positions)
+        return values
+
+    def _line_for_pandas(self, block: Block, row: int, positions: Sequence[int]) -> str:
+        """Return the line as it is if it is all numbers, else only the checked cells."""
+        if self.kinds[row] == "data":
+            return self.lines[row]
+        self._check_cells(block, row, positions)
+        cells = [
+            cell if position in positions and not self.is_missing(cell) else NOTHING
+            for position, cell in enumerate(self.cells(row))
+        ]
+        if self.dialect.delimiter == "spaces":
+            return " ".join(cells)
+        return self.dialect.delimiter.join(f'"{cell}"' for cell in cells)
+
+    def _check_cells(self, block: Block, row: int, positions: Sequence[int]) -> None:
+        cells = self.cells(row)
+        for position in positions:
+            cell = cells[position] if position < len(cells) else ""
+            if not self.dialect.is_number(cell) and not self.is_missing(cell):
+                raise InputError(
+                    "not a number",
+                    "correct the file, or name the word in the profile's 'missing'",
+                    self.path,
+                    row + 1,
+                    block.columns[position].name or f"number {position + 1}",
+                    value=cell,
+                )
+
+    def _uses_thousands(self, text: str) -> bool:
+        mark = self.dialect.thousands
+        if not mark:
+            return False
+        before = r"\d" if self._marks_apart else r'"[+-]?\d{1,3}'
+        return re.search(rf"{before}{re.escape(mark)}\d{{3}}", text, re.ASCII) is not None
+
+    def _numbers_with_thousands(
+        self, block: Block, positions: Sequence[int]
+    ) -> NDArray[np.float64]:
+        def plain(cell: str) -> str:
+            if self.is_missing(cell):
+                return "nan"
+            return cell.replace(self.dialect.thousands, "").replace(self.dialect.decimal, ".")
+
+        rows = [self.cells(row) for row in block.rows_of_data]
+        text = [[plain(c[p]) if p < len(c) else "nan" for p in positions] for c in rows]
+        return np.array(text, dtype=np.float64)
+
+    def _refuse_infinite(
+        self, block: Block, values: NDArray[np.float64], positions: Sequence[int]
+    ) -> None:
+        for index, column in np.argwhere(np.isinf(values))[:1]:
+            raise InputError(
+                "number is too large",
+                "correct the file",
+                self.path,
+                block.rows_of_data[index] + 1,
+                block.columns[positions[column]].name,
+            )
+
+
+@dataclass
+class SheetSource:
+    """One sheet of a workbook: native numbers and texts."""
+
+    path: Path
+    part: str
+    rows: list[tuple[object, ...]]
+    missing: frozenset[str]
+
+    @cached_property
+    def kinds(self) -> list[Kind]:
+        """Kind of each row."""
+        return [self._kind(row) for row in self.rows]
+
+    def _kind(self, row: tuple[object, ...]) -> Kind:
+        numbers = sum(_is_native_number(cell) for cell in row)
+        filled = sum(cell is not None and str(cell).strip() != "" for cell in row)
+        if numbers >= 2 and numbers == filled:
+            return "data"
+        return kind_of([_text(cell) for cell in row], numbers)
+
+    def cells(self, row: int) -> list[str]:
+        """Cells of a row as text."""
+        return [_text(cell) for cell in self.rows[row]]
+
+    @cached_property
+    def widths(self) -> list[int]:
+        """Number of cells of each row."""
+        return [len(row) for row in self.rows]
+
+    def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
+        """Columns of a block as numbers; a cell that is none raises with its place."""
+        values = [
+            [self._number(block, row, position) for position in positions]
+            for row in block.rows_of_data
+        ]
+        return np.array(values, dtype=np.float64)
+
+    def _number(self, block: Block, row: int, position: int) -> float:
+        cell = self.rows[row][position] if position < len(self.rows[row]) else None
+        if _is_native_number(cell):
+            return float(cell)  # type: ignore[arg-type]
+        text = _text(cell)
+        if text.casefold() in MISSING or text in self.missing:
+            return float("nan")
+        raise InputError(
+            f"sheet '{self.part}': cell is not a number",
+            "store numbers as numbers, not as text or dates",
+            self.path,
+            row + 1,
+            block.columns[position].name or f"number {position + 1}",
+            value=text,
+        )
+
+
+def _is_native_number(cell: object) -> bool:
+    return isinstance(cell, int | float) and not isinstance(cell, bool) and np.isfinite(cell)
+
+
+def _text(cell: object) -> str:
+    return "" if cell is None else str(cell).strip()

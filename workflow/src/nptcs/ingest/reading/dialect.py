@@ -1,0 +1,239 @@
+"""How a text file writes its numbers: delimiter, decimal mark, thousands mark.
+
+Nothing is guessed in silence: a dialect is taken if it alone makes the rows readable. A table
+that two dialects read as different numbers (``1,234``) is refused with the choices.
+"""
+
+from __future__ import annotations
+
+import csv
+import re
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import lru_cache
+from pathlib import Path
+
+from nptcs.errors import InputError
+from nptcs.ingest.reading.profiles import DELIMITERS, FormatProfile
+
+MISSING = frozenset(
+    ["", "nan", "n/a", "#n/a", "na", "-", "--", "---", "*", "****", "1.#qnan", "-1.#ind", "null"]
+)
+SMALLEST_TABLE = 3
+"""Rows of numbers that a dialect must read before it is believed."""
+_HEAD = 120
+SEPARATOR_NAMES = {"\t": "tab", "spaces": "spaces"}
+
+
+@dataclass(frozen=True)
+class Dialect:
+    """Delimiter (a character or ``spaces``), decimal mark, thousands mark (or empty)."""
+
+    delimiter: str
+    decimal: str
+    thousands: str = ""
+
+    def describe(self) -> str:
+        """Return it in words."""
+        text = f"delimiter {SEPARATOR_NAMES.get(self.delimiter, repr(self.delimiter))}"
+        text += f", decimal mark {self.decimal!r}"
+        return text + (f", thousands mark {self.thousands!r}" if self.thousands else "")
+
+    def split(self, line: str) -> list[str]:
+        """Cells of one line, stripped, without quotes."""
+        if self.delimiter == "spaces":
+            return line.split()
+        if '"' in line:
+            try:
+                cells = next(csv.reader([line], delimiter=self.delimiter, skipinitialspace=True))
+            except (csv.Error, StopIteration):
+                cells = line.split(self.delimiter)
+        else:
+            cells = line.split(self.delimiter)
+        return [cell.strip() for cell in cells]
+
+    def is_number(self, cell: str) -> bool:
+        """Tell whether `cell` is a number in this dialect."""
+        return _number(self.decimal, self.thousands).fullmatch(cell) is not None
+
+    def is_data(self, cells: Sequence[str]) -> bool:
+        """Tell whether this is a row of a table: two or more numbers, and mostly numbers."""
+        filled = [cell for cell in cells if cell.casefold() not in MISSING]
+        numbers = sum(self.is_number(cell) for cell in filled)
+        return numbers >= 2 and 2 * numbers >= len(filled)
+
+
+@lru_cache
+def _number(decimal: str, thousands: str) -> re.Pattern[str]:
+    mark = re.escape(decimal)
+    exponent = r"(?:[eE][+-]?\d+)?"
+    plain = rf"(?:\d+(?:{mark}\d*)?|{mark}\d+){exponent}"
+    if not thousands:
+        return re.compile(rf"[+-]?{plain}", re.ASCII)
+    grouped = rf"[1-9]\d{{0,2}}(?:{re.escape(thousands)}\d{{3}})+(?:{mark}\d*)?"
+    return re.compile(rf"[+-]?(?:{plain}|{grouped})", re.ASCII)
+
+
+def candidates(profile: FormatProfile, lines: Sequence[str]) -> list[Dialect]:
+    """Dialects to try: those that the profile allows and whose marks occur in the lines."""
+    delimiters = (
+        [DELIMITERS[profile.delimiter]] if profile.delimiter else _delimiters_in(_sample(lines))
+    )
+    if profile.decimal:
+        return [Dialect(delimiter, profile.decimal, profile.thousands) for delimiter in delimiters]
+    point, comma = (any(mark in line for line in lines) for mark in ".,")
+    found = [Dialect(delimiter, ".") for delimiter in delimiters]
+    if comma:
+        found += [Dialect(delimiter, ",") for delimiter in delimiters]
+        found += [Dialect(delimiter, ".", ",") for delimiter in delimiters]
+    if point:
+        found += [Dialect(delimiter, ",", ".") for delimiter in delimiters]
+    return found
+
+
+def _delimiters_in(lines: Sequence[str]) -> list[str]:
+    """Delimiters that occur in as many lines as make a table."""
+
+    def occurs(delimiter: str) -> bool:
+        mark = " " if delimiter == "spaces" else delimiter
+        return sum(mark in line.strip() for line in lines) >= SMALLEST_TABLE
+
+    return [delimiter for delimiter in DELIMITERS.values() if occurs(delimiter)]
+
+
+def find_dialect(lines: Sequence[str], profile: FormatProfile, path: Path) -> Dialect:
+    """Find the one dialect that reads the table.
+
+    Parameters
+    ----------
+    lines : sequence of str
+        All lines of the file.
+    profile : FormatProfile
+        What it declares is not tried otherwise.
+    path : Path
+        For messages.
+
+    Raises
+    ------
+    InputError
+        If no dialect reads a table, or several read different numbers.
+    """
+    sample = _sample(lines)
+    tied = _tied(candidates(profile, lines), sample)
+    if not tied:
+        raise InputError(
+            "no table of numbers found",
+            "check that the raw data were exported, not only the results; numbers need one "
+            "decimal mark and one delimiter",
+            path,
+        )
+    best = _different(tied)
+    unseen = lines[_HEAD:] if len(sample) < len(lines) else []
+    others = [dialect for dialect in tied if _may_differ(dialect, best[0], unseen)]
+    if len(best) > 1 or others:
+        best = _different(_tied([best[0], *best[1:], *others], lines))
+    if len(best) > 1:
+        raise _ambiguous(best, lines, path)
+    return best[0]
+
+
+Reading = tuple[tuple[str, ...], ...]
+
+
+def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Reading]:
+    """Dialects that read most rows with fewest cells left, and the numbers that they read.
+
+    A thousands mark is believed if a number proves it (``1.234,5`` or ``1,234,567``). Without
+    such a number it cannot win, but a draw still makes the table ambiguous.
+    """
+    readings = {dialect: _rows(dialect, lines) for dialect in dialects}
+    declared = len({(dialect.decimal, dialect.thousands) for dialect in dialects}) == 1
+    proven = [dialect for dialect, rows in readings.items() if declared or _proven(dialect, rows)]
+    most = max((len(readings[dialect]) for dialect in proven), default=0)
+    if most < SMALLEST_TABLE:
+        return {}
+    full = {dialect: rows for dialect, rows in readings.items() if len(rows) == most}
+    unread = {dialect: _unread(dialect, rows) for dialect, rows in full.items()}
+    least = min(unread[dialect] for dialect in proven if dialect in full)
+    return {
+        dialect: _numbers(dialect, rows)
+        for dialect, rows in full.items()
+        if unread[dialect] == least
+    }
+
+
+def _proven(dialect: Dialect, rows: list[list[str]]) -> bool:
+    if not dialect.thousands:
+        return True
+    mark, decimal = re.escape(dialect.thousands), re.escape(dialect.decimal)
+    proof = re.compile(rf"[+-]?[1-9]\d{{0,2}}{mark}\d{{3}}(?:{mark}\d{{3}}|{decimal}\d)")
+    return any(proof.match(cell) and dialect.is_number(cell) for cells in rows for cell in cells)
+
+
+def _different(tied: dict[Dialect, Reading]) -> list[Dialect]:
+    """One dialect, the first, for each different reading."""
+    first: dict[Reading, Dialect] = {}
+    for dialect, reading in tied.items():
+        first.setdefault(reading, dialect)
+    return list(first.values())
+
+
+def _may_differ(dialect: Dialect, chosen: Dialect, lines: Sequence[str]) -> bool:
+    """Tell whether a file has marks that two dialects, equal in the sample, may read apart."""
+    if (dialect.decimal, dialect.thousands) == (chosen.decimal, chosen.thousands):
+        return False
+    marks = {dialect.decimal, dialect.thousands} ^ {chosen.decimal, chosen.thousands}
+    if dialect.delimiter in marks:
+        return any('"' in line for line in lines)
+    return any(mark in line for mark in marks if mark for line in lines)
+
+
+def _sample(lines: Sequence[str]) -> Sequence[str]:
+    """Head, middle and end of a long file."""
+    if len(lines) <= 2 * _HEAD:
+        return lines
+    middle = len(lines) // 2
+    return [*lines[:_HEAD], *lines[middle : middle + 60], *lines[-60:]]
+
+
+def _rows(dialect: Dialect, lines: Sequence[str]) -> list[list[str]]:
+    rows = (dialect.split(line) for line in lines)
+    return [cells for cells in rows if dialect.is_data(cells)]
+
+
+def _unread(dialect: Dialect, rows: list[list[str]]) -> int:
+    """Count the cells that are neither a number nor 'no value'."""
+    return sum(
+        not dialect.is_number(cell) and cell.casefold() not in MISSING
+        for cells in rows
+        for cell in cells
+    )
+
+
+def _numbers(dialect: Dialect, rows: list[list[str]]) -> Reading:
+    """Return the numbers as text in one notation, so that equal readings compare equal."""
+
+    def plain(cell: str) -> str:
+        text = cell.replace(dialect.thousands, "") if dialect.thousands else cell
+        return text.replace(dialect.decimal, ".")
+
+    return tuple(tuple(plain(cell) for cell in cells if dialect.is_number(cell)) for cells in rows)
+
+
+def _ambiguous(best: Sequence[Dialect], lines: Sequence[str], path: Path) -> InputError:
+    """Name the first line that the dialects read differently."""
+
+    def readings(line: str) -> set[Reading]:
+        cells = [(dialect, dialect.split(line)) for dialect in best]
+        return {_numbers(dialect, [row] if dialect.is_data(row) else []) for dialect, row in cells}
+
+    number = next(number for number, line in enumerate(lines) if len(readings(line)) > 1)
+    return InputError(
+        f"the numbers can be read in {len(best)} ways: "
+        + "; or ".join(dialect.describe() for dialect in best),
+        "name a profile that states 'decimal' (and 'thousands') in the sheet's "
+        "force_format or strain_format",
+        path,
+        number + 1,
+        value=lines[number].strip()[:80],
+    )

@@ -1,0 +1,157 @@
+"""Find the tables of a source: several may stand in one file, with different columns."""
+
+from __future__ import annotations
+
+from itertools import groupby
+from pathlib import Path
+
+from nptcs.errors import InputError
+from nptcs.ingest.reading.cells import SheetSource, Source, TextSource
+from nptcs.ingest.reading.table_columns import SMALLEST_BLOCK, Block, describe_columns
+
+DATA = ("data", "odd data")
+_ROWS_ABOVE = 3
+
+
+def find_blocks(source: Source, path: Path, unnamed: str) -> list[Block]:
+    """Find every table of at least `SMALLEST_BLOCK` rows.
+
+    Blank rows and one-cell remarks inside a table are left out and noted. A row that is
+    neither numbers nor remark nor names, in the middle of a table, stops the file.
+
+    Parameters
+    ----------
+    source : Source
+        Rows of cells.
+    path : Path
+        For messages.
+    unnamed : str
+        Where surplus columns without a name stand (`FormatProfile.unnamed_columns`).
+    """
+    blocks = [block for block in _runs(source) if len(block.rows_of_data) >= SMALLEST_BLOCK]
+    for number, block in enumerate(blocks, 1):
+        block.part = str(number)
+        _refuse_broken(source, block, path)
+        _trim(source, block, path)
+        above = _rows_above(source, block)
+        describe_columns(block, above, unnamed)
+        _settle_unnamed(source, block, unnamed, path)
+    return blocks
+
+
+def _refuse_broken(source: Source, block: Block, path: Path) -> None:
+    for row in block.broken:
+        raise InputError(
+            "row inside a table is not one of numbers",
+            "correct or delete the row",
+            path,
+            row + 1,
+            value=" | ".join(source.cells(row))[:80],
+        )
+
+
+def _settle_unnamed(source: Source, block: Block, unnamed: str, path: Path) -> None:
+    """Drop phantom columns at the end; a column of numbers without a name is an error."""
+    surplus = block.unnamed_at_end
+    if not surplus or unnamed == "last":
+        return
+    first = block.width - surplus
+    for row in block.rows_of_data:
+        if any(source.cells(row)[first:]):
+            raise InputError(
+                f"{block.width} columns, but {first} names: it is open which has none",
+                "state unnamed_columns (first or last) in a profile",
+                path,
+                row + 1,
+            )
+    block.columns = block.columns[:first]
+    block.notes.append(f"{surplus} phantom column(s) without name and values left out")
+
+
+def _runs(source: Source) -> list[Block]:
+    """Consecutive rows of data; what may interrupt a table is decided here."""
+    runs: list[Block] = []
+    gap: list[int] = []
+    kinds, widths = source.kinds, source.widths
+    for is_data, group in groupby(range(len(kinds)), lambda row: kinds[row] in DATA):
+        rows = list(group)
+        if not is_data:
+            gap = rows
+            continue
+        width = max(widths[row] for row in rows)
+        last = runs[-1] if runs else None
+        if last is not None and _continues(source, last, gap, widths[rows[0]]):
+            _note_gap(source, last, gap)
+            last.rows_of_data += rows
+            last.last = rows[-1] + 1
+            last.width = max(last.width, width)
+        else:
+            _note_end(source, runs, gap)
+            runs.append(Block(rows[0], rows[-1] + 1, width, rows_of_data=rows))
+        gap = []
+    _note_end(source, runs, gap)
+    return runs
+
+
+def _note_end(source: Source, runs: list[Block], gap: list[int]) -> None:
+    """Say where a table ends if something that is not blank follows."""
+    row = next((row for row in gap if source.kinds[row] != "empty"), None)
+    if runs and row is not None:
+        text = " ".join(cell for cell in source.cells(row) if cell)
+        runs[-1].notes.append(f"the table ends above line {row + 1}: {text[:60]!r}")
+
+
+def _continues(source: Source, block: Block, gap: list[int], width: int) -> bool:
+    """Tell whether the table goes on after the rows of `gap`."""
+    kinds = [source.kinds[row] for row in gap]
+    if "names" in kinds:
+        return False
+    return "other" not in kinds or abs(width - block.width) <= 1
+
+
+def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
+    for row in gap:
+        kind = source.kinds[row]
+        if kind == "other":
+            block.broken.append(row)
+        if kind == "remark":
+            text = " ".join(cell for cell in source.cells(row) if cell)
+            block.notes.append(f"line {row + 1} is a remark: {text[:60]!r}")
+
+
+def _trim(source: Source, block: Block, path: Path) -> None:
+    """Refuse rows that lack cells in the middle; drop a last line that was cut off."""
+    widths = source.widths
+    lengths = [widths[row] for row in block.rows_of_data]
+    if len(lengths) > 1 and lengths[-1] < lengths[-2]:
+        row = block.rows_of_data.pop()
+        lengths.pop()
+        block.notes.append(f"line {row + 1}, the last, is cut off and was dropped")
+    for index in range(1, len(lengths)):
+        if lengths[index] > lengths[index - 1]:
+            raise InputError(
+                f"row has {lengths[index - 1]} cells, the next one {lengths[index]}",
+                "complete or delete the row",
+                path,
+                block.rows_of_data[index - 1] + 1,
+            )
+
+
+def _rows_above(source: Source, block: Block) -> list[tuple[int, list[str]]]:
+    """Collect the filled rows above a table, nearest first; in a text a blank row ends it."""
+    found: list[tuple[int, list[str]]] = []
+    for row in range(block.first - 1, max(block.first - 8, -1), -1):
+        kind = source.kinds[row]
+        if kind in DATA or len(found) == _ROWS_ABOVE:
+            break
+        if kind == "empty":
+            if len(found) >= 1 and not isinstance(source, SheetSource):
+                break
+            continue
+        cells = (
+            source.header_cells(row, block.width)
+            if isinstance(source, TextSource)
+            else source.cells(row)
+        )
+        found.append((row, cells))
+    return found

@@ -1,0 +1,184 @@
+"""Format profiles: what a vendor's export looks like, declared in YAML, one file each."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from fnmatch import fnmatchcase
+from pathlib import Path
+from typing import Literal, Self
+
+import yaml
+from pydantic import Field, ValidationError, model_validator
+
+from nptcs.config.base import Strict
+from nptcs.errors import InputError
+from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
+
+Quantity = Literal[
+    "time",
+    "force",
+    "stress",
+    "displacement",
+    "extension",
+    "strain",
+    "strain_transverse",
+    "strain_back",
+    "strain_xx",
+    "strain_yy",
+    "stretch",
+]
+Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
+StrainSource = Literal["extensometer", "dic", "strain_gauge", "crosshead", "unspecified"]
+DELIMITERS = {",": ",", ";": ";", "tab": "\t", "|": "|", "spaces": "spaces"}
+PLAIN = "plain"
+
+
+class FormatProfile(Strict):
+    """One export format. What is left out is detected, and detection explains itself."""
+
+    name: str = Field(pattern=r"^[a-z0-9][a-z0-9-]*$", description="As in the specimen sheet")
+    title: str = Field(description="Machine, program, language")
+    signature: tuple[str, ...] = Field(
+        (), description="Regular expressions that all must occur in the head of such a file"
+    )
+    kind: Literal["text", "workbook"] = Field("text", description="text or workbook (XLSX, XLS)")
+    encoding: str = Field("", description="E.g. cp1252, gb18030; empty: detect")
+    delimiter: Literal["", ",", ";", "tab", "|", "spaces"] = Field("", description="empty: detect")
+    decimal: Literal["", ".", ","] = Field("", description="Decimal mark; empty: detect")
+    decimal_in_head: str = Field(
+        "", description="Regular expression whose group 1 is the decimal mark in the file's head"
+    )
+    thousands: Literal["", ".", ",", " ", "'"] = Field(
+        "", description="Thousands mark; counts only with a declared decimal mark"
+    )
+    columns: dict[Quantity, tuple[str, ...]] = Field(
+        default_factory=dict,
+        description="Quantity → column names, first match wins; case, blanks and unit do not "
+        "count, * stands for anything",
+    )
+    columns_in_order: tuple[Quantity | Literal["-"], ...] = Field(
+        (), description="For tables without names: the quantity of each column, '-' to skip it"
+    )
+    units: dict[Quantity, str] = Field(
+        default_factory=dict, description="Units where the file states none"
+    )
+    wrong_units: dict[Quantity, str] = Field(
+        default_factory=dict, description="Units that replace what the file states wrongly"
+    )
+    part: str = Field("", description="Workbook sheet or table number, if always the same")
+    unnamed_columns: Literal["", "first", "last"] = Field(
+        "", description="Where the surplus columns stand if there are fewer names than columns"
+    )
+    missing: tuple[str, ...] = Field((), description="Further words for 'no value'")
+    strain_source: StrainSource = Field("unspecified", description="What measures the strain")
+    labels: dict[Label, tuple[str, ...]] = Field(
+        default_factory=dict, description="Header keys of dimensions and specimen id"
+    )
+
+    @model_validator(mode="after")
+    def _coherent(self) -> Self:
+        for pattern in (*self.signature, self.decimal_in_head):
+            try:
+                re.compile(pattern)
+            except re.error as error:
+                raise ValueError(f"expression {pattern!r}: {error}") from error
+        for quantity, unit in [*self.units.items(), *self.wrong_units.items()]:
+            if find_unit(DIMENSION[quantity], unit) is None:
+                choices = ", ".join(FACTORS[DIMENSION[quantity]])
+                raise ValueError(f"{unit!r} is no unit of {quantity}; use one of {choices}")
+        if self.thousands and (not self.decimal or self.thousands == self.decimal):
+            raise ValueError("a thousands mark needs a declared, different decimal mark")
+        if self.delimiter and self.delimiter == self.decimal:
+            raise ValueError("delimiter and decimal mark are the same")
+        return self
+
+    def for_head(self, head: str) -> FormatProfile:
+        """Return the profile with the decimal mark that a file's head states."""
+        found = re.search(self.decimal_in_head, head) if self.decimal_in_head else None
+        return self.model_copy(update={"decimal": found.group(1)}) if found else self
+
+    def matches(self, head: str) -> bool:
+        """Tell whether every expression of the signature occurs in `head`."""
+        return bool(self.signature) and all(
+            re.search(pattern, head, re.MULTILINE) for pattern in self.signature
+        )
+
+
+def normalise(name: str) -> str:
+    """Write a column name the one way in which names are compared."""
+    return re.sub(r"[\s_]+", " ", name.replace('"', " ")).strip().strip(":").strip().casefold()
+
+
+def name_matches(name: str, pattern: str) -> bool:
+    """Tell whether a column name (without its unit) is what a profile calls it."""
+    return fnmatchcase(normalise(name), normalise(pattern))
+
+
+def read_profile(path: str | Path) -> FormatProfile:
+    """Read one profile; raise InputError with the key at fault."""
+    path = Path(path)
+    try:
+        content = yaml.safe_load(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", "check the path", path) from error
+    except UnicodeDecodeError as error:
+        raise InputError("is not UTF-8", "save it as UTF-8", path) from error
+    except yaml.YAMLError as error:
+        mark = getattr(error, "problem_mark", None)
+        line = None if mark is None else mark.line + 1
+        raise InputError("is not YAML", "quote texts with special marks", path, line) from error
+    if not isinstance(content, dict):
+        raise InputError("is not a profile", "write 'key: value' lines", path)
+    try:
+        return FormatProfile(**content)
+    except (ValidationError, TypeError) as error:
+        raise _profile_error(path, error) from error
+
+
+def _profile_error(path: Path, error: ValidationError | TypeError) -> InputError:
+    if isinstance(error, TypeError):
+        return InputError("keys must be words", "quote the keys", path)
+    problem = error.errors()[0]
+    key = ".".join(str(part) for part in problem["loc"])
+    keys = ", ".join(FormatProfile.model_fields)
+    return InputError(problem["msg"], f"keys of a profile: {keys}", path, column=key or None)
+
+
+def load_profiles(folder: str | Path) -> dict[str, FormatProfile]:
+    """Read every ``*.yaml`` of a folder.
+
+    Returns
+    -------
+    dict of str to FormatProfile
+        By name, in alphabetical order.
+
+    Raises
+    ------
+    InputError
+        If a profile is not valid, two have the same name, or there is none.
+    """
+    folder = Path(folder)
+    profiles: dict[str, FormatProfile] = {}
+    for path in sorted(folder.glob("*.yaml")):
+        profile = read_profile(path)
+        if profile.name != path.stem:
+            raise InputError(
+                "name and file name differ", f"call it {path.stem}", path, column="name"
+            )
+        profiles[profile.name] = profile
+    if PLAIN not in profiles:
+        raise InputError(f"no profile '{PLAIN}.yaml'", "restore it, detection needs it", folder)
+    return profiles
+
+
+def choose(name: str, profiles: Mapping[str, FormatProfile], specimen: str) -> FormatProfile:
+    """Return the profile that the sheet names."""
+    if name not in profiles:
+        raise InputError(
+            "unknown format",
+            "use one of " + ", ".join(profiles) + ", or leave it empty to detect",
+            specimen=specimen,
+            value=name,
+        )
+    return profiles[name]

@@ -1,0 +1,130 @@
+"""The tables of a file: where each begins and ends, its names and its units."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+
+from nptcs.ingest.reading.profiles import normalise
+from nptcs.ingest.reading.units import is_unit, split_unit
+
+SMALLEST_BLOCK = 5
+"""Rows that a table must have to be a test."""
+
+
+@dataclass
+class Column:
+    """One column: its position from 0, its name and unit as found, the group above it."""
+
+    position: int
+    name: str
+    unit: str | None = None
+    group: str = ""
+
+
+@dataclass
+class Block:
+    """One table: the rows [first, last) of the file (from 0) and its columns."""
+
+    first: int
+    last: int
+    width: int
+    columns: list[Column] = field(default_factory=list)
+    names_row: int | None = None
+    part: str = ""
+    notes: list[str] = field(default_factory=list)
+    rows_of_data: list[int] = field(default_factory=list)
+    unnamed_at_end: int = 0
+    broken: list[int] = field(default_factory=list)
+
+
+def describe_columns(block: Block, above: Sequence[tuple[int, list[str]]], unnamed: str) -> None:
+    """Find names, units and groups in the rows above a table and note them in `block`.
+
+    Parameters
+    ----------
+    block : Block
+        Gets ``columns``, ``names_row`` and ``notes``.
+    above : sequence of (int, list of str)
+        The filled rows above it with their numbers, nearest first; three are enough.
+    unnamed : str
+        ``first`` or ``last``: where columns without a name stand; empty: not declared.
+    """
+    rows = list(above)
+    units: list[str] = []
+    if rows and _is_unit_row(rows[0][1], block.width):
+        units = rows.pop(0)[1]
+    if not rows or not _is_names_row(rows[0][1]):
+        block.columns = [
+            Column(position, "", _cell(units, position) or None) for position in range(block.width)
+        ]
+        return
+    block.names_row, names = rows.pop(0)
+    shift = _shift(block, names, unnamed)
+    groups = _groups(rows[0][1], len(names)) if rows else []
+    for position in range(block.width):
+        text = _cell(names, position - shift)
+        name, unit = split_unit(text)
+        unit = _cell(units, position - shift) or unit
+        block.columns.append(Column(position, name, unit, _cell(groups, position - shift)))
+
+
+def _cell(cells: Sequence[str], position: int) -> str:
+    return cells[position].strip() if 0 <= position < len(cells) else ""
+
+
+def _is_unit_row(cells: list[str], width: int) -> bool:
+    filled = [cell for cell in cells if cell.strip()]
+    known = sum(is_unit(cell) or not cell.strip("()[] ") for cell in filled)
+    return bool(filled) and known >= max(1, 0.6 * len(filled)) and len(cells) <= width + 2
+
+
+def _is_names_row(cells: list[str]) -> bool:
+    return any(any(letter.isalpha() or letter == "%" for letter in cell) for cell in cells)
+
+
+def _shift(block: Block, names: list[str], unnamed: str) -> int:
+    """How many columns stand unnamed before the first name."""
+    while names and not names[-1].strip():
+        names.pop()
+    surplus = block.width - len(names)
+    if surplus <= 0:
+        return 0
+    if unnamed == "first":
+        return surplus
+    block.unnamed_at_end = surplus
+    return 0
+
+
+def _groups(cells: list[str], width: int) -> list[str]:
+    """Labels above the names, carried on to the right, if the row is one of labels."""
+    filled = [cell for cell in cells if cell.strip()]
+    if not filled or len(cells) < max(2, width - 1) or any(is_unit(cell) for cell in filled):
+        return []
+    labels, label = [], ""
+    for position in range(width):
+        label = _cell(cells, position) or label
+        labels.append(label)
+    return labels
+
+
+def side_by_side(columns: Sequence[Column]) -> list[str]:
+    """Find groups of equal names next to each other: one test each.
+
+    Returns
+    -------
+    list of str
+        Part of each column: the label above it, or the number of the repetition; empty for a
+        column whose name is not repeated.
+    """
+    names = [normalise(column.name) for column in columns]
+    repeated = {name for name in names if name and names.count(name) > 1}
+    seen: dict[str, int] = {}
+    parts = []
+    for column, name in zip(columns, names, strict=True):
+        if name not in repeated:
+            parts.append("")
+            continue
+        seen[name] = seen.get(name, 0) + 1
+        parts.append(column.group or str(seen[name]))
+    return parts

@@ -1,0 +1,73 @@
+"""Figure of the single spoke: figure 13 of the paper."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from matplotlib.lines import Line2D
+
+from nptcs.report.figures.style import COLOURS, MARKERS, mark_synthetic, panel, styled
+from nptcs.tables.spoke_stiffness import DIRECTIONS
+
+TRAVEL = {"tension": "elongation [mm]", "compression": "shortening [mm]"}
+
+
+@styled
+def force_displacement(
+    curves: pd.DataFrame, lines: pd.DataFrame, direction: str, synthetic: bool = False
+) -> Figure:
+    """Draw force against displacement for each C10, with the lines through the origin.
+
+    Full lines are computed, dashed ones go through the origin; a hollow mark stands where the
+    line of table 10 ends.
+
+    Parameters
+    ----------
+    curves : DataFrame
+        Rows of ``spoke_curves.csv`` of one study and solver.
+    lines : DataFrame
+        The same of ``spoke_stiffness.csv``.
+    direction : {"tension", "compression"}
+        Which half of the curves.
+    synthetic : bool
+        Whether the materials are synthetic.
+    """
+    solver, stiffness = curves["solver"].iloc[0], f"{direction}_stiffness_n_per_mm"
+    figure, axes = panel(f"{solver}, {direction}", TRAVEL[direction], "force [N]")
+    by_case = {line["case_id"]: line for line in lines.to_dict("records")}
+    for number, (case_id, curve) in enumerate(curves.groupby("case_id", sort=False)):
+        line = by_case[case_id]
+        place = DIRECTIONS[direction] * curve["displacement_mm"]
+        half = pd.DataFrame({"x": place, "f": DIRECTIONS[direction] * curve["force_n"]})
+        half = half[half["x"] >= 0].sort_values("x")
+        end = float(half["x"].max())
+        colour = COLOURS[number % len(COLOURS)]
+        axes.plot(half["x"], half["f"], color=colour, label=f"{line['spoke_c10_mpa']:g}")
+        axes.plot([0, end], [0, end * line[stiffness]], color=colour, linestyle="--", linewidth=0.9)
+        if np.isfinite(line[f"published_{stiffness}"]):
+            axes.plot(
+                [end],
+                [end * line[f"published_{stiffness}"]],
+                MARKERS[number % len(MARKERS)],
+                mfc="none",
+                mec=colour,
+                ms=7,
+                clip_on=False,
+            )
+    axes.set_xlim(left=0)
+    axes.set_ylim(bottom=0)
+    axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2, loc="upper left")
+    kinds = [
+        Line2D([], [], color="black", label="computed"),
+        Line2D([], [], color="black", linestyle="--", linewidth=0.9, label="line through origin"),
+    ]
+    if lines[f"published_{stiffness}"].notna().any():
+        kinds.append(
+            Line2D(
+                [], [], linestyle="", marker="o", mfc="none", mec="black", label="table 10's end"
+            )
+        )
+    figure.legend(handles=kinds, ncols=3, loc="outside lower center")
+    mark_synthetic(figure, synthetic)
+    return figure

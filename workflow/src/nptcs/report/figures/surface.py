@@ -1,0 +1,179 @@
+"""Figures of response surfaces: figures 11 and 12 of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from nptcs.report.figures.style import COLOURS, MAP, MARKERS, mark_synthetic, panel, styled
+from nptcs.surface.fit import Surface
+
+STIFFNESS = "vertical_stiffness_n_per_mm"
+STIFFNESS_LABEL = "vertical stiffness [N/mm]"
+GRID = 41
+
+
+@dataclass(frozen=True)
+class FactorLabel:
+    """Name and unit of a factor in figures."""
+
+    label: str
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.label} [{self.unit}]"
+
+
+def middle_level(levels: Sequence[float]) -> float:
+    """Return the middle one of sorted levels (the lower one of two)."""
+    ordered = sorted(set(levels))
+    return ordered[(len(ordered) - 1) // 2]
+
+
+def pairs(surface: Surface) -> list[tuple[str, str]]:
+    """List the pairs of factors of a surface: each gives one panel."""
+    return list(combinations(surface.polynomial.factors, 2))
+
+
+def _grid(
+    surface: Surface, cases: pd.DataFrame, x_name: str, y_name: str
+) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+    """Evaluate a surface over two factors, the others at their middle levels."""
+    factors = list(surface.polynomial.factors)
+    limits = dict(zip(factors, zip(surface.lower, surface.upper, strict=True), strict=True))
+    x, y = np.meshgrid(np.linspace(*limits[x_name], GRID), np.linspace(*limits[y_name], GRID))
+    columns = {name: np.full(x.size, middle_level(list(cases[name]))) for name in factors}
+    columns |= {x_name: x.ravel(), y_name: y.ravel()}
+    points = np.column_stack([columns[name] for name in factors])
+    return x, y, surface.predict(points).reshape(x.shape)
+
+
+def at_middle(
+    surface: Surface, cases: pd.DataFrame, varied: Sequence[str]
+) -> tuple[pd.DataFrame, dict[str, float]]:
+    """Take the cases whose other factors are at their middle levels, and name these levels."""
+    held = {
+        name: middle_level(list(cases[name]))
+        for name in surface.polynomial.factors
+        if name not in varied
+    }
+    inside = np.ones(len(cases), dtype=bool)
+    for name, level in held.items():
+        inside &= np.isclose(cases[name], level)
+    return cases[inside], held
+
+
+def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLabel]) -> str:
+    """Name the solver and the levels of the factors that stay fixed."""
+    levels = [
+        f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
+    ]
+    return f"{solver}, at {', '.join(levels)}" if levels else f"solver {solver}"
+
+
+@styled
+def contours(
+    surface: Surface,
+    cases: pd.DataFrame,
+    pair: tuple[str, str],
+    labels: Mapping[str, FactorLabel],
+    synthetic: bool = False,
+) -> Figure:
+    """Draw a surface over two factors, and the cases at the same colour scale.
+
+    A disc that stands out of its surroundings is a case that the surface misses.
+
+    Parameters
+    ----------
+    surface : Surface
+        As fitted.
+    cases : DataFrame
+        The solved cases of one solver: ``solver``, a column for each factor, the stiffness.
+    pair : tuple of str
+        Factors on the x and y axis; the others stay at their middle levels.
+    labels : mapping of str to FactorLabel
+        How factors are written.
+    synthetic : bool
+        Whether the materials are synthetic.
+    """
+    shown, held = at_middle(surface, cases, pair)
+    x, y, z = _grid(surface, cases, *pair)
+    title = _title(cases["solver"].iloc[0], held, labels)
+    figure, axes = panel(title, str(labels[pair[0]]), str(labels[pair[1]]))
+    low = min(z.min(), shown[STIFFNESS].min())
+    high = max(z.max(), shown[STIFFNESS].max())
+    levels = np.linspace(low, high, 13)
+    filled = axes.contourf(x, y, z, levels=levels, cmap=MAP)
+    lines = axes.contour(x, y, z, levels=levels[1::2], colors="white", linewidths=0.6)
+    axes.clabel(lines, fmt="%.0f", fontsize=7)
+    axes.scatter(
+        shown[pair[0]],
+        shown[pair[1]],
+        c=shown[STIFFNESS],
+        cmap=MAP,
+        vmin=low,
+        vmax=high,
+        s=42,
+        edgecolors="white",
+        linewidths=1.0,
+        clip_on=False,
+        zorder=5,
+    )
+    figure.colorbar(filled, ax=axes, label=STIFFNESS_LABEL, format="%.0f")
+    axes.grid(visible=False)
+    mark_synthetic(figure, synthetic)
+    return figure
+
+
+@styled
+def slices(
+    surface: Surface,
+    cases: pd.DataFrame,
+    varied: Sequence[str],
+    labels: Mapping[str, FactorLabel],
+    synthetic: bool = False,
+) -> Figure:
+    """Draw the stiffness over one factor, a line for each level of a second one if there is one.
+
+    Lines are the surface, marks are the cases; the other factors are at their middle levels.
+
+    Parameters
+    ----------
+    surface, cases, labels, synthetic
+        As in `contours`.
+    varied : sequence of str
+        The factor on the x axis, then the one whose levels make the lines.
+    """
+    shown, held = at_middle(surface, cases, varied)
+    title = _title(cases["solver"].iloc[0], held, labels)
+    figure, axes = panel(title, str(labels[varied[0]]), STIFFNESS_LABEL)
+    factors = list(surface.polynomial.factors)
+    axis = factors.index(varied[0])
+    x = np.linspace(surface.lower[axis], surface.upper[axis], GRID)
+    levels = sorted(set(shown[varied[1]])) if len(varied) > 1 else [None]
+    for number, level in enumerate(levels):
+        at_level = shown if level is None else shown[shown[varied[1]] == level]
+        fixed = held if level is None else {**held, varied[1]: level}
+        points = np.column_stack(
+            [x if name == varied[0] else np.full(GRID, fixed[name]) for name in factors]
+        )
+        colour = COLOURS[number % len(COLOURS)]
+        axes.plot(x, surface.predict(points), color=colour)
+        axes.plot(
+            at_level[varied[0]],
+            at_level[STIFFNESS],
+            linestyle="none",
+            color=colour,
+            marker=MARKERS[number % len(MARKERS)],
+            label="cases" if level is None else f"{level:.4g}",
+        )
+    legend_title = str(labels[varied[1]]) if len(varied) > 1 else None
+    figure.legend(title=legend_title, title_fontsize=8, ncols=5, loc="outside lower center")
+    mark_synthetic(figure, synthetic)
+    return figure

@@ -1,0 +1,109 @@
+"""Section 7 of the report: the load-bearing model against the published numbers."""
+
+from __future__ import annotations
+
+import math
+
+import pandas as pd
+
+from nptcs.report.data import Results
+from nptcs.report.figures.lca import (
+    CONTACT,
+    DIFFERENCES,
+    contact_against_load,
+    differences,
+    fem_differences,
+    load_displacement,
+    ring_shape,
+    stiffness_bars,
+)
+from nptcs.report.tables import catalogue
+from nptcs.report.tables.sheets import Sheets
+from nptcs.report.view import Block, Plot, Plots, Section, Text, plot, sheet_view
+
+
+def lca_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section."""
+    blocks: list[Block] = [
+        Text(
+            "The model is solved with the spoke stiffness of table 10. The section constants that "
+            "the paper prints are those of another bending axis; both sections stand here, the "
+            "sandwich section and the one as printed, each beside the printed results of table "
+            f"11 (shear band C10 = {results.config.lca_validation.shear_band_c10_mpa:g} MPa)."
+        ),
+        Plots(
+            "Differences from the printed angles and displacements of table 11. The grey band is "
+            "1 %; the scale is the same for both sections.",
+            tuple(_difference_plots(results)),
+        ),
+        Plots(
+            "Vertical stiffness of table 11's designs, and displacement against load at the loads "
+            "of figure 15. The paper draws figure 15 as curves without numbers, so that printed "
+            "values exist at table 11's load only.",
+            (_stiffness_plot(results), *_load_plots(results)),
+        ),
+        Plots(
+            "Difference of the stiffness from the FE values of table 7, on the same scale.",
+            tuple(_fem_plots(results)),
+        ),
+        sheet_view(sheets[catalogue.LCA_VALIDATION.sheet]),
+        sheet_view(sheets[catalogue.LCA_AGAINST_FEM.sheet]),
+        Plots(
+            "Deformed middle line of the shear band by region (figure 14 of the paper). "
+            "Displacements are to scale; the rim is drawn for orientation.",
+            tuple(_shape_plots(results)),
+        ),
+    ]
+    return Section("lca", "Load-bearing model (LCA) against the paper", tuple(blocks))
+
+
+def _difference_plots(results: Results) -> list[Plot]:
+    table = _with_printed(results)
+    largest = float(table[list(DIFFERENCES)].abs().max().max())
+    limit = math.ceil(largest + 0.5)
+    return [
+        plot(differences(rows, limit), f"Differences from table 11 in percent, section {section}")
+        for section, rows in table.groupby("section", sort=False)
+    ]
+
+
+def _fem_plots(results: Results) -> list[Plot]:
+    table = results.lca_against_fem
+    limit = math.ceil(float(table["fem_difference_percent"].abs().max()) + 0.5)
+    return [
+        plot(fem_differences(rows, limit), f"Differences from table 7, section {section}")
+        for section, rows in table.groupby("section", sort=False)
+    ]
+
+
+def _stiffness_plot(results: Results) -> Plot:
+    return plot(stiffness_bars(_with_printed(results)), "Stiffness by FEM, printed LCA and our LCA")
+
+
+def _load_plots(results: Results) -> list[Plot]:
+    sections = [rows for _, rows in results.lca_validation.groupby("section", sort=False)]
+    plots = [
+        plot(
+            load_displacement(rows), f"Displacement against load, section {rows['section'].iloc[0]}"
+        )
+        for rows in sections
+    ]
+    return plots + [
+        plot(contact_against_load(sections[0], column), f"{label} against load")
+        for column, label in CONTACT.items()
+    ]
+
+
+def _shape_plots(results: Results) -> list[Plot]:
+    rim = results.config.tyre.rim_diameter_mm
+    return [
+        plot(ring_shape(rows, rim), f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa")
+        for (_, load, c10), rows in results.lca_shape.groupby(
+            ["section", "load_n", "spoke_c10_mpa"], sort=False
+        )
+    ]
+
+
+def _with_printed(results: Results) -> pd.DataFrame:
+    table = results.lca_validation
+    return table[table["published_displacement_mm"].notna()]

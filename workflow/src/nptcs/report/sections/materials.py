@@ -1,0 +1,91 @@
+"""Section 2 of the report: the material card."""
+
+from __future__ import annotations
+
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from nptcs.calibrate.fit import Model
+from nptcs.calibrate.models import model_named
+from nptcs.report.data import Results
+from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
+from nptcs.report.tables import catalogue
+from nptcs.report.tables.headings import words
+from nptcs.report.tables.sheets import Sheets
+from nptcs.report.view import Block, Listing, Plot, Plots, Section, plot, sheet_view
+from nptcs.tables.material_card import RubberCard
+
+
+def materials_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section."""
+    blocks: list[Block] = [
+        sheet_view(sheets[catalogue.PLY.sheet]),
+        sheet_view(sheets[catalogue.RUBBERS.sheet]),
+    ]
+    checks = [f"{card.name}: {check}" for card in results.cards for check in card.checks]
+    if checks:
+        blocks.append(Listing("What the checks of the card found", tuple(checks), "warn"))
+    blocks += [
+        Plots(
+            "The rubbers' tests and their models (figure 5 of the paper): the model "
+            "within the range of its fit (full line) and beyond it (dotted). Last panel: how C10 "
+            "depends on that range.",
+            (*_fit_plots(results), *_range_plot(results)),
+        ),
+        sheet_view(sheets[catalogue.MODELS.sheet]),
+        sheet_view(sheets[catalogue.RANGES.sheet]),
+    ]
+    synthetic = results.plies_synthetic or results.rubbers_synthetic
+    return Section("materials", "Materials", tuple(blocks), synthetic)
+
+
+def _fit_plots(results: Results) -> list[Plot]:
+    """Draw one panel for each rubber and kind of test that its card rests on."""
+    return [
+        plot for rubber in results.card.rubbers.values() for plot in _fit_plots_of(results, rubber)
+    ]
+
+
+def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
+    settings = results.config.calibration.rubber
+    model = model_named(settings.model, settings.ogden_terms)
+    constants = np.array([quantity.value for quantity in rubber.constants.values()])
+    used = {name for quantity in rubber.constants.values() for name in quantity.specimens}
+    values = ", ".join(
+        f"{words(name.removesuffix('_mpa'))} = {quantity.value:.4g} {quantity.unit}".rstrip(" 1")
+        for name, quantity in rubber.constants.items()
+    )
+    modes: dict[str, list[str]] = {}
+    for specimen in results.sheet:
+        if specimen.specimen in used:
+            modes.setdefault(specimen.test.value, []).append(specimen.specimen)
+    plots = []
+    for mode, names in modes.items():
+        figure = hyperelastic_fit(
+            f"{rubber.name}, {words(mode.removeprefix('rubber_'))}",
+            {name: results.curves[name] for name in names},
+            partial(_stress, model, mode, constants),
+            f"{words(rubber.model)}\n{values}",
+            rubber.strain_range,
+            rubber.synthetic,
+        )
+        alt = f"Stress over strain of {rubber.name} and its {words(rubber.model)} fit"
+        plots.append(plot(figure, alt, rubber.synthetic))
+    return plots
+
+
+def _stress(
+    model: Model, mode: str, constants: NDArray[np.float64], stretch: NDArray[np.float64]
+) -> NDArray[np.float64]:
+    return model.stress(mode, stretch, constants)
+
+
+def _range_plot(results: Results) -> list[Plot]:
+    joint = results.ranges[results.ranges["specimen"] == "all"]
+    if joint.empty:
+        return []
+    synthetic = results.rubbers_synthetic
+    figure = c10_against_range(joint, synthetic)
+    return [plot(figure, "C10 of each rubber over the strain range of its fit", synthetic)]

@@ -1,0 +1,34 @@
+"""Which ply the solvers were given, in words, beside table 2 of the paper."""
+
+from __future__ import annotations
+
+from nptcs.report.data import Results
+from nptcs.report.tables.headings import words
+from nptcs.report.view import joined, number_text
+from nptcs.tables.material_card import PUBLISHED_PLY
+
+
+def ply_words(results: Results) -> str:
+    """Name the ply of the solvers that need one, and how it differs from table 2.
+
+    Empty where no solver needs a ply.
+    """
+    solvers = [name for name, facts in results.solvers.items() if facts.needs_ply]
+    if not solvers:
+        return ""
+    sentences = []
+    for ply in results.card.plies.values():
+        parts = []
+        for name, quantity in ply.constants.items():
+            unit = "" if quantity.unit == "1" else f" {quantity.unit}"
+            change = 100 * (quantity.value / PUBLISHED_PLY[name] - 1)
+            parts.append(
+                f"{words(name.removesuffix('_mpa'))} {number_text(quantity.value, 4)}{unit} "
+                f"({change:+.1f} %)"
+            )
+        origin = " (SYNTHETIC data)" if ply.synthetic else ""
+        sentences.append(
+            f"The ply of {joined(solvers)} is {ply.name} of the material card{origin}, not the one "
+            f"that the paper prints; in brackets the difference from table 2: {', '.join(parts)}."
+        )
+    return " ".join(sentences)

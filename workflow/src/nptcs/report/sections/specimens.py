@@ -1,0 +1,61 @@
+"""Section 1 of the report: specimens and files."""
+
+from __future__ import annotations
+
+from nptcs.report.data import Results
+from nptcs.report.figures.materials import stress_strain
+from nptcs.report.tables import catalogue
+from nptcs.report.tables.sheets import Sheets
+from nptcs.report.view import Plot, Plots, Section, Text, plot, sheet_view
+
+
+def specimens_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section."""
+    tables = (
+        catalogue.STATISTICS,
+        catalogue.SPECIMENS,
+        catalogue.SHEET,
+        catalogue.CONDITIONING,
+        catalogue.FILES,
+    )
+    curves = Plots(
+        "Stress–strain curves of each series after signal conditioning. Dashed grey: left out by "
+        "the specimen sheet. Compression is negative.",
+        tuple(_series_plots(results)),
+    )
+    return Section(
+        "specimens",
+        "Specimens and files",
+        (_counts(results), curves, *(sheet_view(sheets[entry.sheet]) for entry in tables)),
+        results.any_synthetic,
+    )
+
+
+def _counts(results: Results) -> Text:
+    counts = results.files["status"].value_counts()
+    files = ", ".join(f"{number} {status}" for status, number in counts.sort_index().items())
+    failed, left_out = len(results.failed()), len(results.left_out())
+    return Text(
+        f"{len(results.sheet)} specimens in {len(results.series())} series; "
+        f"{left_out} left out by the sheet, {failed} that could not be read. "
+        f"Files of the folder: {files}."
+    )
+
+
+def _series_plots(results: Results) -> list[Plot]:
+    left_out = list(results.left_out())
+    plots = []
+    for name, specimens in results.series().items():
+        curves = {
+            s.specimen: results.curves[s.specimen]
+            for s in specimens
+            if len(results.curves[s.specimen])
+        }
+        if not curves:
+            continue
+        synthetic = any(s.origin == "synthetic" for s in specimens)
+        figure = stress_strain(name, curves, left_out, synthetic)
+        plots.append(
+            plot(figure, f"Stress over strain of {len(curves)} specimens, series {name}", synthetic)
+        )
+    return plots

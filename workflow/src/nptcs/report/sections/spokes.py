@@ -1,0 +1,113 @@
+"""Section of the report on the single spoke: figure 13 and table 10 of the paper."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from nptcs.report.data import Results
+from nptcs.report.figures.spoke import force_displacement
+from nptcs.report.sections.ply import ply_words
+from nptcs.report.tables import catalogue
+from nptcs.report.tables.sheets import Sheets
+from nptcs.report.view import Block, Plot, Plots, Section, Text, plot, sheet_view
+from nptcs.tables.spoke_stiffness import DIRECTIONS
+
+SHOWN = [
+    "case_id",
+    "solver",
+    "spoke_c10_mpa",
+    "status",
+    *(
+        name
+        for direction in DIRECTIONS
+        for name in (
+            f"{direction}_stiffness_n_per_mm",
+            f"published_{direction}_stiffness_n_per_mm",
+            f"{direction}_difference_percent",
+            f"{direction}_r2_uncentred",
+            f"{direction}_r2_centred",
+            f"published_{direction}_r2",
+        )
+    ),
+]
+
+
+def spoke_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section."""
+    lines = results.spoke_stiffness
+    if lines.empty:
+        nothing = "No study of the configuration computes single spokes."
+        return Section("spoke", "Single spoke", (Text(nothing),))
+    sheet = sheets[catalogue.SPOKE_STIFFNESS.sheet]
+    blocks: list[Block] = [
+        Text(
+            "One spoke, clamped at the rim; its foot at the band is moved along the radius and "
+            "neither slides nor turns (section 4.3.1 of the paper). The stiffness is the slope of "
+            "the line through the origin over all points of the curve. R² stands in both "
+            "conventions, uncentred as software prints it for a line without intercept, and "
+            "centred; the paper does not say which one it prints. " + ply_words(results)
+        ),
+        *(Text(words) for words in what_differs(lines)),
+        Plots(
+            "Force on one spoke against its displacement (figure 13 of the paper). Full lines are "
+            "computed, dashed ones their lines through the origin; a hollow mark stands where the "
+            "line of table 10 ends. The paper draws its curves without numbers.",
+            tuple(_plots(results)),
+        ),
+        sheet_view(sheet, SHOWN),
+    ]
+    title = "Single spoke (section 4.3.1) against the paper"
+    return Section("spoke", title, tuple(blocks), sheet.synthetic)
+
+
+def _plots(results: Results) -> list[Plot]:
+    plots = []
+    for (study, solver), curves in results.spoke_curves.groupby(["study", "solver"], sort=False):
+        lines = results.spoke_stiffness
+        lines = lines[(lines["study"] == study) & (lines["solver"] == solver)]
+        synthetic = results.study_is_synthetic(results.config.study(str(study)), str(solver))
+        for direction in DIRECTIONS:
+            figure = force_displacement(curves, lines, direction, synthetic)
+            alt = f"Force on a spoke in {direction} by {solver}, study {study}"
+            plots.append(plot(figure, alt, synthetic))
+    return plots
+
+
+def what_differs(lines: pd.DataFrame) -> list[str]:
+    """Say in words how each solver's spokes differ from table 10."""
+    printed = lines.dropna(subset=[f"{direction}_difference_percent" for direction in DIRECTIONS])
+    return [
+        f"{solver} (study {study}) against table 10. "
+        + " ".join(_of_direction(rows.sort_values("spoke_c10_mpa"), name) for name in DIRECTIONS)
+        for (study, solver), rows in printed.groupby(["study", "solver"], sort=False)
+    ]
+
+
+def _of_direction(rows: pd.DataFrame, direction: str) -> str:
+    stiffness = f"{direction}_stiffness_n_per_mm"
+    difference = rows[f"{direction}_difference_percent"]
+    worst = rows.iloc[int(difference.abs().argmax())]
+    text = (
+        f"The {direction} stiffness differs by {difference.min():+.1f} to {difference.max():+.1f} "
+        f"%, most at C10 = {worst['spoke_c10_mpa']:g} MPa"
+    )
+    first, last = rows.iloc[0], rows.iloc[-1]
+    if len(rows) > 1:
+        text += (
+            f"; from C10 = {first['spoke_c10_mpa']:g} to {last['spoke_c10_mpa']:g} MPa it grows "
+            f"{last[stiffness] / first[stiffness]:.2f} times (table 10: "
+            f"{last[f'published_{stiffness}'] / first[f'published_{stiffness}']:.2f} times)"
+        )
+    theirs = rows[f"published_{direction}_r2"]
+    if theirs.isna().any():
+        return text + "."
+    ours = {kind: rows[f"{direction}_r2_{kind}"] for kind in ("uncentred", "centred")}
+    nearer = min(ours, key=lambda kind: float(np.abs(ours[kind] - theirs).mean()))
+    spans = ", ".join(f"{kind} {_span(values)}" for kind, values in ours.items())
+    return f"{text}. R² is {spans}; printed {_span(theirs)}, nearer to the {nearer} one."
+
+
+def _span(values: pd.Series[float]) -> str:
+    low, high = f"{values.min():.4f}", f"{values.max():.4f}"
+    return low if low == high else f"{low} … {high}"

@@ -1,0 +1,229 @@
+"""Sections 3 to 6 of the report: designs, cases, response surfaces and sensitivity."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+
+import pandas as pd
+
+from nptcs.config.study import Factor, MeasuredRubber, Study
+from nptcs.report.data import Results, SolverFacts, factor_labels
+from nptcs.report.figures.impact import impact_bars
+from nptcs.report.figures.surface import contours, pairs, slices
+from nptcs.report.sections.ranking import ranking_blocks
+from nptcs.report.tables import catalogue
+from nptcs.report.tables import row_classes as marks
+from nptcs.report.tables.headings import words
+from nptcs.report.tables.sheets import Sheets
+from nptcs.report.view import (
+    Block,
+    Plot,
+    Plots,
+    Section,
+    TableView,
+    Text,
+    joined,
+    plot,
+    sheet_view,
+    table_view,
+)
+
+COEFFICIENT_DIGITS = 10
+"""Significant digits of coefficients: a reader can evaluate the surface from the page."""
+
+FACTORS = catalogue.Entry(
+    "factors",
+    "Factors, levels and fixed values of each study",
+    "results/4_design/*.csv",
+    "design",
+    "the configuration; C10 of tested rubbers from the material card",
+)
+COUNTS = catalogue.Entry(
+    "case_counts",
+    "Cases by study, solver and status",
+    "results/tables/cases.csv",
+    "cases",
+    "the case records, counted",
+)
+
+
+def design_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section on the designs."""
+    rows = [row for study in results.config.studies for row in _factor_rows(study, results)]
+    columns = ["study", "title", "cases", "quantity", "unit", "levels", "load_n", "solvers"]
+    view = table_view(pd.DataFrame(rows, columns=columns), FACTORS)
+    return Section("design", "Design", (view,))
+
+
+def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
+    design = results.designs[study.name]
+    loaded = any(results.solvers[name].loads_tyre for name in study.solvers)
+    shared = (study.load_n if loaded else math.nan, ", ".join(study.solvers))
+    rows: list[tuple[object, ...]] = [
+        (study.name, study.title, len(design), factor.label, factor.unit, _levels(factor, design))
+        + shared
+        for factor in study.factors
+    ]
+    return rows + [
+        (study.name, study.title, len(design), f"{words(name)} (fixed)", "", _fixed(value)) + shared
+        for name, value in study.fixed.items()
+    ]
+
+
+def _fixed(value: object) -> str:
+    return value.rubber if isinstance(value, MeasuredRubber) else f"{value:g}"
+
+
+def _levels(factor: Factor, design: pd.DataFrame) -> str:
+    """Write the levels as they stand in the design, with the rubber behind each measured one."""
+    numbers = list(dict.fromkeys(design[factor.name]))
+    return ", ".join(
+        f"{number:.5g} ({level.rubber})" if isinstance(level, MeasuredRubber) else f"{number:g}"
+        for number, level in zip(numbers, factor.levels, strict=True)
+    )
+
+
+def cases_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section on the cases."""
+    solvers = [
+        f"{name}: {_about(name, facts)}{_choices(facts)}."
+        for name, facts in results.solvers.items()
+    ]
+    blocks: list[Block] = [
+        Text("Solvers. " + " — ".join(solvers)),
+        table_view(case_counts(results.cases), COUNTS, mark=marks.by_status),
+    ]
+    blocks += [_cases_of(results, study) for study in results.config.studies]
+    return Section("cases", "Cases", tuple(blocks))
+
+
+def _about(name: str, facts: SolverFacts) -> str:
+    """Return the first line of the solver's module without its name, which stands before it."""
+    return facts.about.replace("``", "").removeprefix(f"Solver {name}: ").removesuffix(".")
+
+
+def _choices(facts: SolverFacts) -> str:
+    """Name the models that the solver's options choose."""
+    sets = [
+        ", ".join(f"{words(name)}: {choice}" for name, choice in chosen.items())
+        for chosen in facts.choices
+    ]
+    return f" ({' or '.join(sets)})" if sets else ""
+
+
+def _cases_of(results: Results, study: Study) -> TableView:
+    """Lay out the cases of one study; the messages stand last."""
+    cases = results.cases[results.cases["study"] == study.name]
+    names = [str(name) for name in cases if name not in ("study", "message", "key")]
+    return table_view(
+        cases,
+        catalogue.CASES,
+        f"Cases of the study {study.name}: {study.title}",
+        [*names, "message"],
+        mark=marks.by_status,
+        synthetic=results.study_is_synthetic(study),
+    )
+
+
+def case_counts(cases: pd.DataFrame) -> pd.DataFrame:
+    """Count the cases of each study and solver by status."""
+    groups = cases.groupby(["study", "solver", "solver_version", "status"], sort=False)
+    return groups.size().rename("cases").reset_index()
+
+
+def surfaces_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section on the response surfaces."""
+    blocks: list[Block] = [
+        Text(
+            "Coefficients are fitted in coded units, each factor scaled to [−1, 1] over its range, "
+            "and given in both units at full precision: a surface can be evaluated from this "
+            "page. A printed coefficient stands beside ours as the paper rounds it."
+        ),
+        sheet_view(sheets[catalogue.QUALITY.sheet]),
+    ]
+    for study in results.config.studies:
+        blocks += _surface_blocks(results, sheets, study)
+    return Section("surfaces", "Response surfaces", tuple(blocks))
+
+
+def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Block]:
+    """Build the coefficients and the figures of one study."""
+    if not study.terms:
+        asked = f"No surface is asked for of the study {study.name}: it has no terms."
+        return [Text(study.title, "head"), Text(asked)]
+    if not results.surfaces[study.name]:
+        refused = f"No surface could be fitted to the study {study.name}; see the problems above."
+        return [Text(study.title, "head"), Text(refused, "bad")]
+    sheet = sheets[catalogue.surface_entry(study.name).sheet]
+    precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
+    blocks: list[Block] = [
+        Text(study.title, "head"),
+        sheet_view(sheet, given_digits=precise),
+    ]
+    plots = [
+        drawn
+        for solver in results.surfaces[study.name]
+        for drawn in _surface_plots(results, study, solver)
+    ]
+    held = " Factors that a panel does not show are at the middle level in its title."
+    caption = (
+        f"{study.title}: each surface over two factors, the discs are the cases on the same "
+        "colour scale; and over one factor, the lines are the surface, the marks are the cases."
+    )
+    blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
+    return blocks
+
+
+def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
+    surface, labels = results.surfaces[study.name][solver], factor_labels(study)
+    cases = results.cases
+    solved = cases[
+        (cases["study"] == study.name) & (cases["solver"] == solver) & (cases["status"] == "ok")
+    ]
+    synthetic = results.study_is_synthetic(study, solver)
+    about = f"study {study.name}, solver {solver}"
+    maps, lines = [], []
+    for pair in pairs(surface):
+        alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
+        maps.append(plot(contours(surface, solved, pair, labels, synthetic), alt, synthetic))
+    drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
+    for varied in drawn:
+        # the factor with more levels is drawn along the axis
+        by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
+        alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
+        lines.append(plot(slices(surface, solved, by_levels, labels, synthetic), alt, synthetic))
+    return maps + lines
+
+
+def sensitivity_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section on the impact values."""
+    rules = results.config.sensitivity.rules
+    plots = [
+        _impact_plot(results, str(solver), rows)
+        for solver, rows in results.impact.groupby("solver", sort=True)
+    ]
+    blocks: list[Block] = [
+        Text(
+            "Comprehensive impact value = average gradient × range of the factor (section 4.2.3 of "
+            "the paper). The paper does not state how it averages, and no single rule gives all "
+            f"its numbers: every rule stands here. The ranking and the order of the bars are by "
+            f"{words(rules[0])}."
+        ),
+        Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
+        *ranking_blocks(results),
+        sheet_view(sheets[catalogue.IMPACT.sheet]),
+    ]
+    return Section("sensitivity", "Sensitivity", tuple(blocks))
+
+
+def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:
+    studies = [study for study in results.config.studies if study.name in set(rows["study"])]
+    labels = {
+        (study.name, name): f"{label.label}\n({study.name})"
+        for study in studies
+        for name, label in factor_labels(study).items()
+    }
+    synthetic = any(results.study_is_synthetic(study, solver) for study in studies)
+    figure = impact_bars(rows, labels, results.config.sensitivity.rules, synthetic)
+    return plot(figure, f"Impact values of solver {solver} by factor and rule", synthetic)
