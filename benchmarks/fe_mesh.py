@@ -12,10 +12,10 @@ from __future__ import annotations
 import argparse
 import time
 
-from nptcs.config.fe import FeModel, SpokeMesh, SpokeTableOptions, TyreMesh
+from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
-from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.tables.material_card import PUBLISHED_PLY
@@ -35,9 +35,9 @@ SPOKE_MESHES = {
     "finest": SpokeMesh(rows=(3, 3, 9, 3, 3, 3), columns=3, plate_columns=2, gap_columns=3),
 }
 TABLES = {
-    "campaign": SpokeTableOptions(),
-    "more states": SpokeTableOptions(samples=(12, 3, 3), degrees=(16, 5)),
-    "finest": SpokeTableOptions(samples=(12, 5, 5), degrees=(16, 8)),
+    "campaign": EnergyTableOptions(),
+    "more states": EnergyTableOptions(samples=(12, 3, 3), degrees=(16, 5)),
+    "finest": EnergyTableOptions(samples=(12, 5, 5), degrees=(16, 8)),
 }
 RINGS = {
     "campaign": TyreMesh(),
@@ -78,7 +78,7 @@ def spokes(count: int) -> None:
             )
 
 
-def stiffness(model: FeModel, table: SpokeTable) -> float:
+def stiffness(model: FeModel, table: SpokeEnergyTable) -> float:
     """Secant stiffness of the tyre at 5000 N with a band of C10 5, N/mm."""
     return 5000.0 / loaded_tyre(tyre_model(model, TYRE, table, 5.0), model, 5000.0).rise_mm
 
@@ -89,7 +89,7 @@ def tyres(count: int) -> None:
         finest: float | None = None
         for name in reversed(TABLES):
             model = FeModel(table=TABLES[name])
-            table = spoke_table(model, design_of(model, values))
+            table = energy_table(model, design_of(model, values))
             found = stiffness(model, table)
             finest = finest or found
             print(

@@ -14,7 +14,7 @@ from functools import partial
 
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
+from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 ASSUMED_SPOKE, ASSUMED_BAND = 1.04, 5.0
@@ -34,7 +34,7 @@ def stiffness(spoke_c10: float, design: tuple[float, float, float]) -> list[floa
     model, tyre = FeModel(), TyreGeometry()
     names = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")
     values = dict(zip(names, (*design, spoke_c10), strict=True))
-    table = spoke_table(model, spoke_design(model, tyre, PUBLISHED_PLY, values))
+    table = energy_table(model, spoke_design(model, tyre, PUBLISHED_PLY, values))
     tyres = [tyre_model(model, tyre, table, band) for band in BANDS]
     return [5000.0 / loaded_tyre(assembled, model, 5000.0).rise_mm for assembled in tyres]
 

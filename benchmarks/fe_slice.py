@@ -20,7 +20,7 @@ import numpy as np
 
 from nptcs.config.fe import FeModel, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
+from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
 from nptcs.fe.verification.direct_tyre import DirectTyre
 from nptcs.tables.material_card import PUBLISHED_PLY
@@ -76,7 +76,7 @@ def compare_models(arguments: argparse.Namespace, model: FeModel, values: dict[s
     dimensions = TyreGeometry()
     loads = np.linspace(0.0, arguments.load, model.load_steps + 1)[1:].tolist()
     design = spoke_design(model, dimensions, PUBLISHED_PLY, values)
-    table = spoke_table(model, design)
+    table = energy_table(model, design)
     reduced_tyre = tyre_model(model, dimensions, table, arguments.band_c10)
     reduced = solve("reduced", reduced_tyre, model, arguments.load)
     direct_tyre = DirectTyre(

@@ -29,7 +29,7 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.ingest.reading.raw_file import RawTable, read_raw
+from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.reading.units import DIMENSION, FACTORS
 from nptcs.tables.specimens import Specimen
 
@@ -65,7 +65,7 @@ class Base:
     name: str
     content: bytes
     role: str
-    table: RawTable
+    table: RawFile
     specimen: Specimen
     partner: Path | None = None
 
@@ -177,7 +177,7 @@ MUTATIONS: tuple[Callable[[bytes, int, Base, np.random.Generator], bytes], ...] 
 )
 
 
-def judge(content: bytes, base: Base, table: RawTable) -> str | None:
+def judge(content: bytes, base: Base, table: RawFile) -> str | None:
     """Read the mutated file strictly, and say where the package's reading differs."""
     text = content.decode("latin-1")
     text = text.removeprefix("\xef\xbb\xbf")
@@ -208,7 +208,7 @@ def cells_of(line: str, delimiter: str) -> list[str]:
     return [cell.strip() for cell in row]
 
 
-def position_of(table: RawTable, quantity: str, names: list[bytes], base: Base) -> int | None:
+def position_of(table: RawFile, quantity: str, names: list[bytes], base: Base) -> int | None:
     """Column of a quantity: where the name that the package reports stands in the header."""
     reported = table.columns[quantity]
     for position, name in enumerate(names):
@@ -219,7 +219,7 @@ def position_of(table: RawTable, quantity: str, names: list[bytes], base: Base) 
     return None
 
 
-def unit_is_stated(table: RawTable, quantity: str, position: int, lines: list[str]) -> bool:
+def unit_is_stated(table: RawFile, quantity: str, position: int, lines: list[str]) -> bool:
     """Tell whether a unit stands in the name or below it, or in the profile."""
     unit, declared = table.units[quantity], table.profile.units.get(quantity)  # type: ignore[call-overload]
     if not unit or unit == declared:
@@ -246,7 +246,7 @@ def same_name(text: str, reported: str) -> bool:
 
 
 def strict_rows(
-    lines: list[str], table: RawTable, positions: Mapping[str, int]
+    lines: list[str], table: RawFile, positions: Mapping[str, int]
 ) -> list[list[float]] | str:
     """Every reading of the needed columns, or the row that is none."""
     decimal = re.escape(table.decimal)
@@ -283,7 +283,7 @@ def strict_rows(
     return rows
 
 
-def compare(rows: list[list[float]], table: RawTable, positions: Mapping[str, int]) -> str | None:
+def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int]) -> str | None:
     """Rows without any reading do not count."""
     expected = np.array([row for row in rows if not all(math.isnan(value) for value in row)])
     for index, name in enumerate(positions):

@@ -21,7 +21,7 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings, Plausible
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.ingest.reading.find_tables import find_blocks
+from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import open_file, read_raw, sources_of
 from nptcs.tables.specimens import Specimen
@@ -239,7 +239,7 @@ def without_published_answer(lab: Laboratory) -> Iterator[Answer]:
     profile = lab.profiles["plain"]
     opened = open_file(section, lab.profiles, profile)
     (source,), _ = sources_of(opened, profile)
-    (block,) = find_blocks(source, section, "")
+    (block,) = find_tables(source, section, "")
     lengths = source.numbers(block, [0])[:, 0]
     text = section.read_text().replace(",", ".").split("\n")[1:]
     known = sum(float(line.split()[0]) for line in text if line.strip())

@@ -31,7 +31,7 @@ DIFFERENT = 20
 PARTS = (
     ("decoding", "open_file"),
     ("finding the dialect", "find_dialect"),
-    ("finding the tables", "find_blocks"),
+    ("finding the tables", "find_tables"),
     ("reading the numbers", "numbers"),
     ("conditioning", "empty_spikes empty_after_removal correct_origin cut_end drop_empty_rows"),
     ("checking the curve's contract", "_curve"),

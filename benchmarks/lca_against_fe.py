@@ -18,7 +18,7 @@ import numpy as np
 from nptcs import lca
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.case import spoke_design, spoke_table, tyre_model
+from nptcs.fe.case import energy_table, spoke_design, tyre_model
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.pull import pull, spoke_stiffness
 from nptcs.fe.tyre.equilibrium import TyreError
@@ -40,7 +40,7 @@ def compare(spoke_c10_mpa: float, loads_n: list[float]) -> None:
     pulled, pressed = pull(spoke, REACH_MM[0], 32), pull(spoke, -REACH_MM[1], 64)
     curved = lca.SpokeLaw.from_curves(*pulled, *pressed)
     section = lca.RingSection.from_tyre(tyre, BAND_C10_MPA)
-    loaded = tyre_model(model, tyre, spoke_table(model, design), BAND_C10_MPA)
+    loaded = tyre_model(model, tyre, energy_table(model, design), BAND_C10_MPA)
     try:
         path = loaded.load(loads_n).path
     except TyreError as error:

@@ -7,11 +7,11 @@ import pytest
 from nptcs.errors import InputError
 from nptcs.tables.io import check, empty_table, read_table, write_table
 from nptcs.tables.published_stiffness import (
-    AgainstPublished,
     Comparison,
+    StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
-    against_published,
+    compare_published,
     stiffness_by_level,
     stiffness_errors,
 )
@@ -51,7 +51,7 @@ def comparison():
 
 @pytest.fixture
 def table(comparison):
-    return check(against_published(cases(), {"s": comparison}), AgainstPublished, "table")
+    return check(compare_published(cases(), {"s": comparison}), StiffnessAgainstPublished, "table")
 
 
 def test_each_case_stands_beside_the_published_one(table):
@@ -70,7 +70,7 @@ def test_a_failed_case_is_a_row_with_its_status(table):
 
 def test_cases_are_matched_by_name_not_by_place(comparison):
     shuffled = cases().iloc[::-1]
-    table = against_published(shuffled, {"s": comparison})
+    table = compare_published(shuffled, {"s": comparison})
     np.testing.assert_allclose(table["difference_percent"][:3], [1.0, -5.0, 2.0])
 
 
@@ -87,7 +87,7 @@ def test_blind_cases_are_summed_up_apart(table):
 
 def test_signs_do_not_cancel_in_the_mean_absolute(comparison):
     ours = {**OURS, "s_001": 97.0}
-    errors = stiffness_errors(against_published(cases(ours), {"s": comparison}))
+    errors = stiffness_errors(compare_published(cases(ours), {"s": comparison}))
     blind = errors[errors["group"] == "blind"].iloc[0]
     assert blind["mean_percent"] == pytest.approx(-0.5)
     assert blind["mean_absolute_percent"] == pytest.approx(2.5)
@@ -95,7 +95,7 @@ def test_signs_do_not_cancel_in_the_mean_absolute(comparison):
 
 
 def test_a_solver_that_solved_nothing_has_a_row_without_numbers(comparison):
-    nothing = against_published(cases(dict.fromkeys(PUBLISHED)), {"s": comparison})
+    nothing = compare_published(cases(dict.fromkeys(PUBLISHED)), {"s": comparison})
     errors = check(stiffness_errors(nothing), StiffnessErrors, "errors")
     assert list(errors["compared"]) == [0, 0]
     assert errors["mean_percent"].isna().all()
@@ -116,7 +116,7 @@ def test_main_effects_are_over_the_same_cases(table, comparison):
 
 
 def test_main_effects_of_a_whole_study_are_means(comparison):
-    table = against_published(cases({**OURS, "s_004": 490.0}), {"s": comparison})
+    table = compare_published(cases({**OURS, "s_004": 490.0}), {"s": comparison})
     levels = stiffness_by_level(table, {"s": comparison}).set_index(["factor", "level"])
     low, high = levels.loc["a", 1.0], levels.loc["a", 2.0]
     assert (low["compared"], high["compared"]) == (2, 2)
@@ -131,16 +131,16 @@ def test_main_effects_of_a_whole_study_are_means(comparison):
 
 def test_one_factor_with_a_failed_level_has_no_main_effect(comparison):
     alone = Comparison(comparison.design.assign(c=[1.0, 2.0, 3.0, 4.0]), ("c",), ("mine",), {})
-    table = against_published(cases(), {"s": alone})
+    table = compare_published(cases(), {"s": alone})
     assert stiffness_by_level(table, {"s": alone}).empty
-    whole = against_published(cases({**OURS, "s_004": 490.0}), {"s": alone})
+    whole = compare_published(cases({**OURS, "s_004": 490.0}), {"s": alone})
     assert len(stiffness_by_level(whole, {"s": alone})) == 4
 
 
 def test_without_published_studies_the_tables_are_empty_but_whole(tmp_path):
-    nothing = check(against_published(cases(), {}), AgainstPublished, "table")
+    nothing = check(compare_published(cases(), {}), StiffnessAgainstPublished, "table")
     for name, table, contract in (
-        ("table", nothing, AgainstPublished),
+        ("table", nothing, StiffnessAgainstPublished),
         ("errors", stiffness_errors(nothing), StiffnessErrors),
         ("levels", stiffness_by_level(nothing, {}), StiffnessByLevel),
     ):
@@ -151,10 +151,12 @@ def test_without_published_studies_the_tables_are_empty_but_whole(tmp_path):
 
 
 def test_tables_are_the_same_after_a_round_trip(tmp_path, table):
-    write_table(tmp_path / "table.csv", table, AgainstPublished)
-    pd.testing.assert_frame_equal(read_table(tmp_path / "table.csv", AgainstPublished), table)
+    write_table(tmp_path / "table.csv", table, StiffnessAgainstPublished)
+    pd.testing.assert_frame_equal(
+        read_table(tmp_path / "table.csv", StiffnessAgainstPublished), table
+    )
 
 
 def test_the_contract_refuses_a_case_twice(table):
     with pytest.raises(InputError):
-        check(pd.concat([table, table], ignore_index=True), AgainstPublished, "table")
+        check(pd.concat([table, table], ignore_index=True), StiffnessAgainstPublished, "table")

@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.solvers.contract import SolverResult, neutral_line
+from nptcs.solvers.contract import SolverResult, neutral_line_columns
 from nptcs.tables.io import check, read_table, write_table
 from nptcs.tables.neutral_line import NeutralLine, neutral_lines
-from nptcs.tables.published_inputs import SpokeStiffness
+from nptcs.tables.published_inputs import PublishedSpokeStiffness
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
 
 TABLE_10 = Path(__file__).parents[2] / "raw_data/published/table10_spoke_stiffness.csv"
@@ -40,7 +40,7 @@ def spoke():
 
 @pytest.fixture
 def printed():
-    return {"spoke": read_table(TABLE_10, SpokeStiffness)}
+    return {"spoke": read_table(TABLE_10, PublishedSpokeStiffness)}
 
 
 def test_lines_go_through_the_origin(spoke, printed):
@@ -94,14 +94,16 @@ def test_without_spokes_the_tables_are_empty_but_whole(tmp_path):
 
 
 def test_a_neutral_line_runs_once_around_from_the_top():
-    line = neutral_line([0.0, 90.0, 180.0, 270.0], [1.0, 2.0, 3.0, 1 / 3], [-0.0, 1e-9, 0, 0])
+    line = neutral_line_columns(
+        [0.0, 90.0, 180.0, 270.0], [1.0, 2.0, 3.0, 1 / 3], [-0.0, 1e-9, 0, 0]
+    )
     assert line["theta_deg"] == [-90.0, 0.0, 90.0, 180.0]
     assert line["radial_mm"] == [0.333333, 1.0, 2.0, 3.0]
     assert str(line["tangential_mm"][1]) == "0.0"
 
 
 def test_only_named_cases_with_a_shape_are_gathered():
-    shape = neutral_line([-90.0, 0.0, 90.0], [1.0, -9.0, 1.0], [0.0, 0.0, 0.0])
+    shape = neutral_line_columns([-90.0, 0.0, 90.0], [1.0, -9.0, 1.0], [0.0, 0.0, 0.0])
     solved = SolverResult(status="ok", shape=shape)
     records = [
         record(solved, case_id=case_id, solver=solver, load_n=5000.0)

@@ -131,7 +131,7 @@ def test_what_is_made_of_results_solves_nothing(project):
 
     plan = project.planned()
 
-    assert (plan["against_published"], plan["neutral_line"], plan["report"]) == (1, 1, 1)
+    assert (plan["compare_published"], plan["neutral_line"], plan["report"]) == (1, 1, 1)
     assert not {"design", "solve", "cases", "surface"} & set(plan)
 
 

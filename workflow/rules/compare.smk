@@ -5,7 +5,7 @@ COMPARED_STUDIES = [
     study.name for study in CONFIG.studies if PUBLISHED in study.solvers
 ]
 LINE_STUDIES = [study.name for study in CONFIG.studies if study.neutral_line_cases]
-PRINTED_SPOKES = {
+PUBLISHED_SPOKES = {
     study.name: study.published_spoke_stiffness
     for study in CONFIG.studies
     if study.published_spoke_stiffness
@@ -21,7 +21,7 @@ rule spoke_stiffness:
             if solver not in tyre_solvers(study.name)
             for path in batches(study.name, solver)
         ],
-        published=list(PRINTED_SPOKES.values()),
+        published=list(PUBLISHED_SPOKES.values()),
     output:
         lines="results/tables/spoke_stiffness.csv",
         curves="results/tables/spoke_curves.csv",
@@ -29,14 +29,14 @@ rule spoke_stiffness:
         "results/logs/spoke_stiffness.log",
     params:
         job={
-            "studies": list(PRINTED_SPOKES),
+            "studies": list(PUBLISHED_SPOKES),
             "code": code_of("spoke_stiffness"),
         },
     script:
         "../scripts/spoke_stiffness.py"
 
 
-rule against_published:
+rule compare_published:
     input:
         cases="results/tables/cases.csv",
         designs=expand("results/4_design/{study}.csv", study=COMPARED_STUDIES),
@@ -45,7 +45,7 @@ rule against_published:
         errors="results/tables/stiffness_errors.csv",
         levels="results/tables/stiffness_by_level.csv",
     log:
-        "results/logs/against_published.log",
+        "results/logs/compare_published.log",
     params:
         job={
             "studies": {
@@ -56,10 +56,10 @@ rule against_published:
                 }
                 for name in COMPARED_STUDIES
             },
-            "code": code_of("against_published"),
+            "code": code_of("compare_published"),
         },
     script:
-        "../scripts/against_published.py"
+        "../scripts/compare_published.py"
 
 
 rule neutral_line:

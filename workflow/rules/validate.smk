@@ -10,7 +10,7 @@ rule lca_validation:
     output:
         validation="results/tables/lca_validation.csv",
         fem="results/tables/lca_against_fem.csv",
-        shape="results/tables/lca_shape.csv",
+        neutral_line="results/tables/lca_neutral_line.csv",
     log:
         "results/logs/lca_validation.log",
     params:

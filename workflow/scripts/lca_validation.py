@@ -2,20 +2,20 @@
 
 from typing import Any
 
-from nptcs.compare.lca import lca_against_fem, lca_validation, ring_shapes
+from nptcs.compare.lca import lca_against_fem, lca_validation, ring_neutral_lines
 from nptcs.config.tyre import TyreGeometry
 from nptcs.console import clear_errors
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 from nptcs.tables.published_inputs import (
     LcaAgainstFemPrinted,
     LoadErrors,
+    PublishedSpokeStiffness,
     RubberCases,
-    SpokeStiffness,
 )
 
 CONTRACTS = {
-    "spoke_stiffness": SpokeStiffness,
+    "spoke_stiffness": PublishedSpokeStiffness,
     "published": LcaAgainstFemPrinted,
     "published_loads": LoadErrors,
     "published_fem": RubberCases,
@@ -33,8 +33,8 @@ def validate(job: dict[str, Any], source: dict[str, str], output: dict[str, str]
     write_table(output["validation"], rows, LcaValidation)
     fem = lca_against_fem(spokes, read["published_fem"], tyre)
     write_table(output["fem"], fem, LcaAgainstFem)
-    shapes = ring_shapes(spokes, table_11, tyre, shear_band_c10_mpa=band_c10_mpa)
-    write_table(output["shape"], shapes, LcaShape)
+    lines = ring_neutral_lines(spokes, table_11, tyre, shear_band_c10_mpa=band_c10_mpa)
+    write_table(output["neutral_line"], lines, LcaNeutralLine)
 
 
 if __name__ == "__main__":

@@ -12,7 +12,7 @@ from nptcs.surface.stored import load
 from nptcs.tables.cases import Design
 from nptcs.tables.impact import Impact, with_published
 from nptcs.tables.io import empty_table, read_table, write_table
-from nptcs.tables.published_inputs import PrintedImpact
+from nptcs.tables.published_inputs import PublishedImpact
 from nptcs.tables.surface import SurfaceQuality
 
 
@@ -27,7 +27,7 @@ def assess(
     ]
     columns = ["solver", "study", "factor", "rule", "gradient", "range", "impact"]
     ours = pd.concat(tables) if tables else pd.DataFrame(columns=columns)
-    printed = read_table(published, PrintedImpact) if published else empty_table(PrintedImpact)
+    printed = read_table(published, PublishedImpact) if published else empty_table(PublishedImpact)
     return with_published(ours, printed)
 
 

@@ -6,7 +6,7 @@ from typing import Any
 from nptcs.campaign.record import read_records
 from nptcs.console import clear_errors
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.published_inputs import SpokeStiffness
+from nptcs.tables.published_inputs import PublishedSpokeStiffness
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
 
 
@@ -15,7 +15,7 @@ def gather(
 ) -> None:
     solved = read_records(list(records))
     printed = {
-        study: read_table(file, SpokeStiffness)
+        study: read_table(file, PublishedSpokeStiffness)
         for study, file in zip(job["studies"], published, strict=True)
     }
     write_table(lines, spoke_lines(solved, printed), SpokeLines)

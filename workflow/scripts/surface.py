@@ -13,7 +13,7 @@ from nptcs.surface.stored import dump
 from nptcs.tables.cases import cases_table
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.published_inputs import PrintedCoefficients
+from nptcs.tables.published_inputs import PublishedCoefficients
 from nptcs.tables.surface import (
     SurfaceQuality,
     SurfaceTable,
@@ -30,7 +30,7 @@ def fit_surfaces(
     factors = [factor["name"] for factor in study["factors"]]
     printed = {}
     if published is not None:
-        printed = by_powers(read_table(published, PrintedCoefficients), factors)
+        printed = by_powers(read_table(published, PublishedCoefficients), factors)
     surfaces: dict[str, Surface] = {}
     quality = {}
     problems = []

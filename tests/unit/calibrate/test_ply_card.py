@@ -6,7 +6,12 @@ import pandas as pd
 import pytest
 
 from nptcs.calibrate import calibrate_ply
-from nptcs.config.calibration import CalibrationSettings, PlyAssumptions, PlySettings, Source
+from nptcs.config.calibration import (
+    CalibrationSettings,
+    ConstantSource,
+    PlyAssumptions,
+    PlySettings,
+)
 from nptcs.errors import InputError
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard
 from nptcs.tables.properties import PropertiesTable
@@ -137,7 +142,7 @@ def test_sources_can_be_other_tests_or_several(
     properties: pd.DataFrame, sheet: list[Any], make_ply: Make
 ) -> None:
     more = rows(["C-1"], [118000.0], property="modulus", test="compression", orientation_deg=0.0)
-    both = Source(tests=("tension", "compression"), orientation_deg=0, property="modulus")
+    both = ConstantSource(tests=("tension", "compression"), orientation_deg=0, property="modulus")
     settings = CalibrationSettings(ply=PlySettings(e1_mpa=both))
     card = calibrate_ply(
         pd.concat([properties, more]), [*sheet, make_ply("C-1", "compression", 0.0)], settings

@@ -266,8 +266,8 @@ def test_a_shape_is_carried_through_process_store_and_batch_file(tmp_path, store
     (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)
     write_records(tmp_path / "batch.jsonl", [record])
     wanted = {"theta_deg": [0.0, 90.0], "radial_mm": [-1.0, 2.0], "tangential_mm": [0.0, 1.0]}
-    assert read_records([str(tmp_path / "batch.jsonl")])[0].result.shape == wanted
-    assert store.read(job(10, module=str(module))).result.shape == wanted
+    assert read_records([str(tmp_path / "batch.jsonl")])[0].result.neutral_line == wanted
+    assert store.read(job(10, module=str(module))).result.neutral_line == wanted
 
 
 def test_columns_of_unequal_length_are_an_error_of_their_case(tmp_path, store):
@@ -275,7 +275,7 @@ def test_columns_of_unequal_length_are_an_error_of_their_case(tmp_path, store):
     module.write_text(
         "from nptcs.solvers.contract import Solver, SolverResult\n"
         "def solve(inputs):\n"
-        "    return SolverResult(status='ok', shape={'a': [1.0], 'b': []})\n"
+        "    return SolverResult(status='ok', neutral_line={'a': [1.0], 'b': []})\n"
         "SOLVER = Solver('ragged', '1', solve, frozenset())\n"
     )
     (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)

@@ -72,7 +72,7 @@ NODES_OF = {"C3D8H": 8, "C3D6H": 6, "S4R": 4, "SFM3D4R": 4}
 
 
 @dataclass
-class Block:
+class ElementGroup:
     """A keyword with its parameters and data lines."""
 
     keyword: str
@@ -88,10 +88,10 @@ class Part:
     elements: dict[int, tuple[str, tuple[int, ...]]] = field(default_factory=dict)
     node_sets: dict[str, list[int]] = field(default_factory=dict)
     element_sets: dict[str, list[int]] = field(default_factory=dict)
-    surfaces: dict[str, Block] = field(default_factory=dict)
-    blocks: list[Block] = field(default_factory=list)
+    surfaces: dict[str, ElementGroup] = field(default_factory=dict)
+    blocks: list[ElementGroup] = field(default_factory=list)
 
-    def named(self, keyword: str) -> list[Block]:
+    def named(self, keyword: str) -> list[ElementGroup]:
         return [block for block in self.blocks if block.keyword == keyword]
 
 
@@ -112,10 +112,10 @@ class Deck:
     parts: dict[str, Part]
     instances: dict[str, Instance]
     assembly: Part
-    model: list[Block]
-    step: list[Block]
+    model: list[ElementGroup]
+    step: list[ElementGroup]
 
-    def named(self, keyword: str) -> list[Block]:
+    def named(self, keyword: str) -> list[ElementGroup]:
         return [block for block in self.model + self.step if block.keyword == keyword]
 
     def resolve(self, name: str, kind: str) -> list[tuple[str, int]]:
@@ -126,14 +126,14 @@ class Deck:
         members = getattr(self.assembly, kind)[name]
         return [entry if isinstance(entry, tuple) else ("", entry) for entry in members]
 
-    def surface(self, name: str) -> Block:
+    def surface(self, name: str) -> ElementGroup:
         owner, own = name.split(".")
         return self.instances[owner].part.surfaces[own]
 
 
-def read_blocks(text: str) -> list[Block]:
+def read_blocks(text: str) -> list[ElementGroup]:
     """Cut a deck into blocks; check spelling, nesting and order."""
-    blocks: list[Block] = []
+    blocks: list[ElementGroup] = []
     stack = ["model"]
     scope = ""
     for number, line in enumerate(text.splitlines(), 1):
@@ -156,7 +156,7 @@ def read_blocks(text: str) -> list[Block]:
         parameters = dict(word.split("=", 1) if "=" in word else (word, "") for word in rest)
         if keyword == "PART":
             scope = parameters["NAME"]
-        blocks.append(Block(keyword, parameters, [], level, scope))
+        blocks.append(ElementGroup(keyword, parameters, [], level, scope))
         if keyword in OPENS:
             stack.append(OPENS[keyword])
         if keyword.startswith("END "):
@@ -187,7 +187,7 @@ def read_deck(text: str) -> Deck:
     return deck
 
 
-def _collect(part: Part, block: Block) -> None:
+def _collect(part: Part, block: ElementGroup) -> None:
     part.blocks.append(block)
     parameters = block.parameters
     if block.keyword == "NODE":

@@ -13,7 +13,7 @@ from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.decks.abaqus.mesh import spoke_part
 from nptcs.decks.calculix import total_forces
-from nptcs.fe.elements.groups import RubberBlock
+from nptcs.fe.elements.groups import RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 
@@ -204,7 +204,7 @@ def slice_stiffness(mesh):
     nodes = part.elements[:, [0, 4, 3, 7, 1, 5, 2, 6]] - 1
     points, weights = gauss((2, 2, 2))
     gradient, volume = jacobians(tensor_shape((1, 1, 1), points)[1], part.positions[nodes])
-    bricks = RubberBlock(nodes, gradient, volume * weights, np.ones((8, 1)), 1.0, 200.0)
+    bricks = RubberGroup(nodes, gradient, volume * weights, np.ones((8, 1)), 1.0, 200.0)
     dofs = nodes[:, :, None] * 3 + np.arange(3)
     dofs = dofs.reshape(len(nodes), -1)
     answer = bricks.respond(np.zeros_like(part.positions))

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
 
 C10 = 1.3
@@ -27,7 +27,7 @@ def rubber(orders=(2, 2, 2), wobble=0.05):
     _, slope = tensor_shape(orders, points)
     gradient, volume = jacobians(slope, positions[nodes])
     modes = np.column_stack([np.ones(len(points)), points])
-    return positions, RubberBlock(nodes, gradient, volume * weights, modes, C10, BULK)
+    return positions, RubberGroup(nodes, gradient, volume * weights, modes, C10, BULK)
 
 
 def linear(stiffness, wobble=0.05):
@@ -35,7 +35,7 @@ def linear(stiffness, wobble=0.05):
     points, weights = gauss((2, 3, 3))
     _, slope = tensor_shape((1, 2, 2), points)
     gradient, volume = jacobians(slope, positions[nodes])
-    return positions, LinearBlock(
+    return positions, LinearGroup(
         nodes, gradient, volume * weights, np.repeat(stiffness[None], len(points), axis=0)
     )
 
@@ -144,7 +144,7 @@ def test_plane_strain_equals_a_slice_of_the_solid():
     _, slope = tensor_shape(orders, points)
     gradient, area = jacobians(slope, positions[None])
     modes = np.ones((9, 1))
-    block = RubberBlock(np.arange(9)[None], gradient, area * weights, modes, C10, BULK)
+    block = RubberGroup(np.arange(9)[None], gradient, area * weights, modes, C10, BULK)
     displacement = np.zeros_like(positions)
     displacement[:, 0] = 0.4 * positions[:, 1]
     assert block.respond(displacement).energy == pytest.approx(C10 * 0.16)

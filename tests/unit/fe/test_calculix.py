@@ -17,7 +17,7 @@ from nptcs.decks.calculix import (
     total_forces,
     true_thickness,
 )
-from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 
@@ -93,7 +93,7 @@ def kernel_blocks(mesh, design):
             bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
             # a pressure of its own at each point is the displacement formulation
             blocks.append(
-                RubberBlock(local, gradient, volume * weights, np.eye(8), design.c10_mpa, bulk)
+                RubberGroup(local, gradient, volume * weights, np.eye(8), design.c10_mpa, bulk)
             )
             continue
         leg, ply = name.split("_")
@@ -106,7 +106,7 @@ def kernel_blocks(mesh, design):
         axes = np.stack([one, two, np.cross(one, two)], axis=1)
         frame = np.broadcast_to(axes, (*volume.shape, 3, 3))
         turned = np.einsum("egni,ij->egnj", gradient, axes)
-        blocks.append(LinearBlock(local, turned, volume * weights, stiffness, frame))
+        blocks.append(LinearGroup(local, turned, volume * weights, stiffness, frame))
     return positions, number, blocks
 
 
@@ -145,7 +145,7 @@ def solve_with_kernel(mesh, design, u_r):
             move[known] = step.reshape(-1, 3)[place[known]]
             displacement = displacement + move
             for block in blocks:
-                if isinstance(block, RubberBlock):
+                if isinstance(block, RubberGroup):
                     block.update_pressure(move)
             if np.abs(step).max() < 1e-8:
                 break

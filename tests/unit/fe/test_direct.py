@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import FeModel, SpokeMesh, SpokeTableOptions, TyreMesh
+from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.energy_table import fit, sample
@@ -17,8 +17,8 @@ from nptcs.fe.verification.direct_tyre import (
 
 FE = FeModel(
     spoke_mesh=SpokeMesh(rows=(1, 1, 1, 1, 1, 1)),
-    table=SpokeTableOptions(
-        chord_mm=(-1.5, 1.5),
+    table=EnergyTableOptions(
+        elongation_mm=(-1.5, 1.5),
         inclination_rad=0.022,
         phi_rad=(-0.02, 0.02),
         samples=(5, 3, 3),

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
 from nptcs.fe.elements.laminate import rotated_stiffness
 from nptcs.fe.output.fields import (
@@ -25,7 +25,7 @@ def brick():
     points, weights = gauss((3, 3, 3))
     gradient, volume = jacobians(tensor_shape((2, 2, 2), points)[1], CORNERS)
     modes = np.column_stack([np.ones(27), points])
-    return RubberBlock(NODES, gradient, volume * weights, modes, 1.3, 5200.0)
+    return RubberGroup(NODES, gradient, volume * weights, modes, 1.3, 5200.0)
 
 
 def stretched(factors):
@@ -73,7 +73,7 @@ def test_energies_of_elements_add_up_to_the_blocks(brick):
     assert rubber_energy(brick, displacement).sum() == pytest.approx(
         brick.respond(displacement).energy
     )
-    linear = LinearBlock(
+    linear = LinearGroup(
         NODES, brick.gradient, brick.weight, np.tile(np.diag([9.0, 8, 7, 6, 5, 4]), (27, 1, 1))
     )
     assert linear_energy(linear, displacement).sum() == pytest.approx(
@@ -89,7 +89,7 @@ def test_fibre_stress_is_the_plys_own_law(brick, published_ply, angle):
     for i in range(26):
         stiffness[i][places] = rotated_stiffness(published_ply, angle if i < 13 else -angle)
     keep = slice(0, 26)
-    block = LinearBlock(NODES, brick.gradient[:, keep], brick.weight[:, keep], stiffness[keep])
+    block = LinearGroup(NODES, brick.gradient[:, keep], brick.weight[:, keep], stiffness[keep])
     strain = 1e-4
     stress = fibre_stress(block, stretched([np.sqrt(1.0 + 2.0 * strain), 1.0, 1.0]), angle)
     ply, c, s = published_ply, np.cos(np.radians(angle)), np.sin(np.radians(angle))

@@ -7,7 +7,7 @@ from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.output.spoke_picture import section_stress, spoke_figure
 from nptcs.fe.output.tyre_picture import FINE, ring_stress, tyre_figure
-from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState
 
@@ -73,7 +73,7 @@ def test_the_spoke_is_drawn_pulled_and_pressed(spoke):
 
 def test_the_tyre_is_drawn_with_all_its_spokes(spoke):
     dimensions = TyreGeometry(spoke_count=12)
-    nothing = SpokeTable(
+    nothing = SpokeEnergyTable(
         84.1, np.full(3, -9.0), np.full(3, 9.0), np.zeros((1, 3), dtype=int), np.zeros(1), 1, 0
     )
     tyre = TyreModel(

@@ -5,15 +5,15 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from nptcs.config.fe import FeModel, SpokeGeometry, SpokeMesh, SpokeTableOptions
+from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
 from nptcs.fe.spoke.cache import read_table, shared_table, table_key
-from nptcs.fe.spoke.coordinates import carried, chord_of, motion_of
+from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 from nptcs.tables.material_card import PUBLISHED_PLY
 
-OPTIONS = SpokeTableOptions(
-    chord_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
+OPTIONS = EnergyTableOptions(
+    elongation_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
     degrees=(6, 4), narrowing=1.0,
 )  # fmt: skip
 SAMPLE_FIELDS = ("chord", "energy", "force", "tangent")
@@ -46,7 +46,7 @@ def grid_samples():
     """States with β ≥ 0, as `sample` computes them."""
     sides = chebyshev_nodes(-OPTIONS.inclination_rad, OPTIONS.inclination_rad, OPTIONS.samples[1])
     lines = [
-        chebyshev_nodes(*OPTIONS.chord_mm, OPTIONS.samples[0]),
+        chebyshev_nodes(*OPTIONS.elongation_mm, OPTIONS.samples[0]),
         sides[sides > -1e-12],
         chebyshev_nodes(*OPTIONS.phi_rad, OPTIONS.samples[2]),
     ]
@@ -111,7 +111,7 @@ def test_more_terms_than_data_are_refused():
 
 def test_a_table_that_ends_early_has_a_lower_degree():
     samples = grid_samples()
-    kept = samples.chord[:, 0] > -4.0
+    kept = samples.coordinates[:, 0] > -4.0
     short = SpokeSamples(*(getattr(samples, name)[kept] for name in SAMPLE_FIELDS))
     table = fit(short, OPTIONS, HEIGHT)
     assert table.exponents[:, 0].max() == 4
@@ -145,8 +145,8 @@ def test_the_table_of_a_spoke_predicts_states_between_its_samples():
 
 
 def test_a_level_of_the_unloaded_chord_is_one_state():
-    options = SpokeTableOptions(
-        chord_mm=(-1.5, 1.5), inclination_rad=0.02, phi_rad=(-0.02, 0.02), samples=(3, 3, 3),
+    options = EnergyTableOptions(
+        elongation_mm=(-1.5, 1.5), inclination_rad=0.02, phi_rad=(-0.02, 0.02), samples=(3, 3, 3),
         degrees=(4, 4),
     )  # fmt: skip
     chord = sample(SpokeModel(spoke_design()), options).chord
@@ -159,7 +159,7 @@ def test_a_half_turn_leaves_the_spoke_as_it_is():
     model = SpokeModel(spoke_design(angle_deg=30.0))
     chord = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
     motions = motion_of(chord, HEIGHT)[0]
-    assert chord_of(motions, HEIGHT)[0] == pytest.approx(chord, abs=1e-12)
+    assert coordinates_of(motions, HEIGHT)[0] == pytest.approx(chord, abs=1e-12)
     assert abs(motions[0, 1] + motions[1, 1]) > 1.0
     states = [model.move(model.rest(), motion) for motion in motions]
     assert states[0].energy == pytest.approx(states[1].energy, rel=1e-9)
@@ -206,6 +206,6 @@ def test_every_part_of_the_design_is_in_the_key():
         {"plate_coupling": "conforming"},
     ]
     keys = {table_key(spoke_design(**change), OPTIONS) for change in changes}
-    keys.add(table_key(spoke_design(), SpokeTableOptions()))
+    keys.add(table_key(spoke_design(), EnergyTableOptions()))
     assert len(keys) == 7
     assert base not in keys

@@ -5,7 +5,7 @@ import pytest
 
 from nptcs.config.fe import GroundContact, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.tyre.contact import Ground
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel
 from nptcs.fe.tyre.mesh import band_radii, build_ring
@@ -25,7 +25,7 @@ def springs(k_r=20.0, k_theta=1.0, k_phi=3000.0, low=-40.0):
         exponents.append(tuple(2 * int(i == axis) for i in range(3)))
         coefficients.append(scale)
         coefficients[0] += scale
-    return SpokeTable(
+    return SpokeEnergyTable(
         HEIGHT, limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 1.0, 0.0
     )
 

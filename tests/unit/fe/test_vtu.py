@@ -14,7 +14,7 @@ from nptcs.errors import InputError
 from nptcs.fe.output.bricks import MATERIALS, Bricks, spoke_bricks, tyre_bricks
 from nptcs.fe.output.fields import lattice
 from nptcs.fe.output.vtu import require_vtk, shared_nodes, write_pvd, write_vtu
-from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 from nptcs.fe.tyre.equilibrium import TyreModel
 
@@ -72,7 +72,9 @@ def tyre():
     exponents = np.array([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)])
     # k x²/2 = k h²/4 (T2(x/h) + 1)
     terms = np.array([60.0, 1.4e5, 2e4]) * unit**2 / 4.0
-    table = SpokeTable(84.1, -unit, unit, exponents, np.array([terms.sum(), *terms]), 1.0, 0.0)
+    table = SpokeEnergyTable(
+        84.1, -unit, unit, exponents, np.array([terms.sum(), *terms]), 1.0, 0.0
+    )
     width = SpokeGeometry().foot_width_mm()
     model = TyreModel(TYRE, table, width, 5.0, 2000.0, TyreMesh(gap_elements=4), GroundContact())
     return model, model.load([200.0])

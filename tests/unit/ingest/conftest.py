@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from nptcs.ingest.reading.profiles import FormatProfile, load_profiles
-from nptcs.ingest.reading.raw_file import RawTable, read_raw
+from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.tables.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -19,10 +19,10 @@ def profiles() -> Mapping[str, FormatProfile]:
 
 
 @pytest.fixture
-def read(tmp_path: Path, profiles: Mapping[str, FormatProfile]) -> Callable[..., RawTable]:
+def read(tmp_path: Path, profiles: Mapping[str, FormatProfile]) -> Callable[..., RawFile]:
     """Write content to a file and read it back as a raw table."""
 
-    def read(content: str | bytes, name: str = "test.csv", **options: Any) -> RawTable:
+    def read(content: str | bytes, name: str = "test.csv", **options: Any) -> RawFile:
         path = tmp_path / name
         path.write_bytes(content.encode("utf-8") if isinstance(content, str) else content)
         return read_raw(path, profiles, **options)

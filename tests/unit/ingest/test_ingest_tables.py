@@ -73,7 +73,7 @@ def test_two_tests_in_one_file_need_a_part(read):
         read(text, part="3")
 
 
-def side_by_side(head):
+def repeated_columns(head):
     rows = []
     for n in range(1, 9):
         third = f"0.{n};{3 * n}.5;0.0{n}" if n < 7 else ";;"
@@ -82,7 +82,7 @@ def side_by_side(head):
 
 
 def test_tests_side_by_side_of_unequal_length(read):
-    text = side_by_side([";".join(["time (s);force (N);strain (%)"] * 3)])
+    text = repeated_columns([";".join(["time (s);force (N);strain (%)"] * 3)])
     with pytest.raises(InputError, match="holds 3 tests"):
         read(text)
     table = read(text, part="3")
@@ -91,7 +91,7 @@ def test_tests_side_by_side_of_unequal_length(read):
 
 def test_tests_side_by_side_are_matched_by_specimen_id_not_by_order(read):
     head = ["B-11;;;B-1;;;B-2;;", ";".join(["time (s);force (N);strain (%)"] * 3)]
-    table = read(side_by_side(head), specimen="B-1")
+    table = read(repeated_columns(head), specimen="B-1")
     assert table.values["force"][0] == pytest.approx(2.5)
 
 

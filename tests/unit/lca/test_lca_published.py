@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from nptcs import lca
-from nptcs.compare.lca import lca_against_fem, lca_validation, ring_shapes
+from nptcs.compare.lca import lca_against_fem, lca_validation, ring_neutral_lines
 from nptcs.tables.io import check
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 
 
 @pytest.fixture
@@ -77,7 +77,9 @@ def test_sandwich_section_constants(tyre):
 
 def test_ring_shapes_are_flat_on_the_ground_and_symmetric(published, tyre):
     shapes = check(
-        ring_shapes(published["table_10"], published["table_11"], tyre), LcaShape, "shape.csv"
+        ring_neutral_lines(published["table_10"], published["table_11"], tyre),
+        LcaNeutralLine,
+        "shape.csv",
     )
     for _, shape in shapes.groupby("spoke_c10_mpa"):
         contact = shape.loc[shape["region"] == "contact", "y_mm"]

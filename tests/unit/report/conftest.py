@@ -9,7 +9,7 @@ import pytest
 import yaml
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.compare.lca import lca_against_fem, lca_validation, ring_shapes
+from nptcs.compare.lca import lca_against_fem, lca_validation, ring_neutral_lines
 from nptcs.config.root import read_config
 from nptcs.config.tyre import TyreGeometry
 from nptcs.report.data import Results, SolverFacts
@@ -25,13 +25,13 @@ from nptcs.tables.io import check, empty_table, read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, Quantity, RubberCard
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.published_inputs import PrintedCoefficients, SpokeStiffness
+from nptcs.tables.published_inputs import PublishedCoefficients, PublishedSpokeStiffness
 from nptcs.tables.published_stiffness import (
-    AgainstPublished,
     Comparison,
+    StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
-    against_published,
+    compare_published,
     stiffness_by_level,
     stiffness_errors,
 )
@@ -107,7 +107,7 @@ def analysed(study, cases, solver="published"):
     response = cases["vertical_stiffness_n_per_mm"]
     surface = fit(cases, response, names, study.terms)
     file = ROOT / study.published_coefficients
-    printed = by_powers(read_table(file, PrintedCoefficients), names)
+    printed = by_powers(read_table(file, PublishedCoefficients), names)
     quality = quality_table(study.name, {solver: assess(surface, cases, response)})
     impacts = [
         impact(surface, cases, rule).assign(study=study.name, solver=solver)
@@ -263,7 +263,7 @@ def results(config):
         impact=with_published(impacts, pd.read_csv(PUBLISHED / "table9_impact.csv")),
         spoke_stiffness=empty_table(TABLES["spoke_stiffness.csv"].contract),
         spoke_curves=empty_table(TABLES["spoke_curves.csv"].contract),
-        against_published=empty_table(TABLES["stiffness_against_published.csv"].contract),
+        compare_published=empty_table(TABLES["stiffness_against_published.csv"].contract),
         stiffness_errors=empty_table(TABLES["stiffness_errors.csv"].contract),
         stiffness_by_level=empty_table(TABLES["stiffness_by_level.csv"].contract),
         neutral_line=empty_table(TABLES["neutral_line.csv"].contract),
@@ -273,7 +273,7 @@ def results(config):
         lca_against_fem=lca_against_fem(
             spokes, pd.read_csv(PUBLISHED / "table7_rubber_doe.csv"), tyre
         ),
-        lca_shape=ring_shapes(spokes, table_11[:1], tyre),
+        lca_neutral_line=ring_neutral_lines(spokes, table_11[:1], tyre),
         problems=empty_table(Problems),
     )
 
@@ -385,9 +385,9 @@ def compared(results):
         )
         for study in tyres
     }
-    table = check(against_published(cases, studies), AgainstPublished, "against")
+    table = check(compare_published(cases, studies), StiffnessAgainstPublished, "against")
     records = spoke_records(config.study("spoke"))
-    printed = read_table(PUBLISHED / "table10_spoke_stiffness.csv", SpokeStiffness)
+    printed = read_table(PUBLISHED / "table10_spoke_stiffness.csv", PublishedSpokeStiffness)
     solved = {name: rows[rows["status"] == "ok"] for name, rows in computed.items()}
     parts = {study.name: analysed(study, solved[study.name], "fe_tyre") for study in tyres}
     impacts = pd.concat([part[3] for part in parts.values()], ignore_index=True)
@@ -412,7 +412,7 @@ def compared(results):
         impact=pd.concat([results.impact, with_published(impacts, table_9)], ignore_index=True),
         spoke_stiffness=check(spoke_lines(records, {"spoke": printed}), SpokeLines, "lines"),
         spoke_curves=check(spoke_curves(records), SpokeCurves, "curves"),
-        against_published=table,
+        compare_published=table,
         stiffness_errors=check(stiffness_errors(table), StiffnessErrors, "errors"),
         stiffness_by_level=check(stiffness_by_level(table, studies), StiffnessByLevel, "levels"),
         neutral_line=check(

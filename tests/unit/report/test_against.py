@@ -17,14 +17,13 @@ from nptcs.report.figures.published_stiffness import (
 from nptcs.report.figures.spoke import force_displacement
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.sections.published_stiffness import (
-    against_section,
+    case_comparison,
     level_facts,
     line_words,
-    side_by_side,
+    published_stiffness_section,
     spoke_facts,
 )
-from nptcs.report.sections.ranking import side_by_side as ranks_side_by_side
-from nptcs.report.sections.ranking import verdicts
+from nptcs.report.sections.ranking import published_ranking, verdicts
 from nptcs.report.sections.spokes import spoke_section, what_differs
 from nptcs.report.sections.studies import cases_section
 from nptcs.report.sections.summary import glance
@@ -51,13 +50,13 @@ def blocks(section, kind):
 
 def test_both_sections_say_so_where_there_is_nothing_to_compare(results):
     sheets = sheets_of(results)
-    for section in (spoke_section(results, sheets), against_section(results, sheets)):
+    for section in (spoke_section(results, sheets), published_stiffness_section(results, sheets)):
         (only,) = section.blocks
         assert only.text.startswith("No study of the configuration")
 
 
 def test_every_case_is_a_row_and_failed_and_calibrated_ones_are_marked(compared):
-    section = against_section(compared, sheets_of(compared))
+    section = published_stiffness_section(compared, sheets_of(compared))
     plate, rubber = blocks(section, TableView)[2:]
     assert (len(plate.rows), len(rubber.rows)) == (63, 15)
     assert [css for css, _ in plate.rows].count("out") == 5
@@ -70,8 +69,8 @@ def test_every_case_is_a_row_and_failed_and_calibrated_ones_are_marked(compared)
 
 
 def test_cases_stand_beside_each_other(compared):
-    table = compared.against_published
-    view, headings = side_by_side(table[table["study"] == "plate"], ["spacing_mm", "angle_deg"])
+    table = compared.compare_published
+    view, headings = case_comparison(table[table["study"] == "plate"], ["spacing_mm", "angle_deg"])
     case = view.set_index("case_id").loc["plate_032"]
     assert case["published_stiffness_n_per_mm"] == 263.73
     assert case["fe_tyre_computed"] == pytest.approx(0.99 * 263.73)
@@ -108,12 +107,12 @@ def test_the_spokes_differences_stand_beside_those_of_the_tyres(compared):
     assert f"tension {first['tension_difference_percent']:+.1f} % at 1, " in text
     assert "; compression +" in text
     assert "at 5" not in text  # it diverged
-    (facts,) = blocks(against_section(compared, sheets_of(compared)), Facts)
+    (facts,) = blocks(published_stiffness_section(compared, sheets_of(compared)), Facts)
     assert facts.facts == (*level_facts(compared), fact)
 
 
 def test_parity_shows_every_case_and_the_bands(compared):
-    table = compared.against_published
+    table = compared.compare_published
     figure = parity(table[table["study"] == "plate"], "study plate", SOLVERS)
     drawn = labelled(figure)
     blind = np.array(drawn["fe_tyre"].get_ydata()) / np.array(drawn["fe_tyre"].get_xdata())
@@ -143,7 +142,7 @@ def test_main_effects_are_means_of_table_7(compared):
 
 
 def test_a_solver_has_one_colour_in_all_figures(compared):
-    table, levels = compared.against_published, compared.stiffness_by_level
+    table, levels = compared.compare_published, compared.stiffness_by_level
     lca = levels[levels["factor"] == "spoke_c10_mpa"].assign(solver="lca")
     label = factor_labels(compared.config.study("rubber"))["spoke_c10_mpa"]
     colours = {
@@ -165,7 +164,7 @@ def test_neutral_lines_are_drawn_by_solver(compared):
     assert figure.axes[0].get_xlim() == (-180, 180)
     sentences = line_words(compared.neutral_line)
     assert "lca, rubber_011: radially from -20.00 mm at θ = 0.0°" in sentences[0]
-    section = against_section(compared, sheets_of(compared))
+    section = published_stiffness_section(compared, sheets_of(compared))
     (lines,) = (block for block in blocks(section, Plots) if "figure 14" in block.caption)
     assert len(lines.plots) == 2
     assert "radius 307 mm" in lines.caption
@@ -174,9 +173,9 @@ def test_neutral_lines_are_drawn_by_solver(compared):
 
 def test_a_neutral_line_that_no_solver_gave_is_said_to_be_missing(compared):
     without = replace(compared, neutral_line=compared.neutral_line.iloc[:0])
-    section = against_section(without, sheets_of(without))
+    section = published_stiffness_section(without, sheets_of(without))
     assert "No solver gave a neutral line of rubber_011." in [t.text for t in blocks(section, Text)]
-    section = against_section(compared, sheets_of(compared))
+    section = published_stiffness_section(compared, sheets_of(compared))
     assert not any("No solver gave" in text.text for text in blocks(section, Text))
 
 
@@ -226,7 +225,7 @@ def test_the_ranking_is_compared_with_table_9(compared):
         "published, domain mean absolute, 5 factors: spoke C10 (S-C) > plate spacing S > shear "
         "band C10 (T-C) > fibre angle A > plate thickness T: the same as in table 9." in words
     )
-    table, headings = ranks_side_by_side(printed)
+    table, headings = published_ranking(printed)
     assert list(table["published_rank"][:5]) == [1, 2, 3, 4, 5]
     assert list(table["published_impact"][:5]) == [319.83, 54.93, 38.60, 21.91, 15.97]
     assert str(headings["impact_fe_tyre"]) == "fe_tyre, impact [N/mm]"
@@ -253,7 +252,7 @@ def test_the_ply_is_named_beside_table_2(compared, results):
 
 def test_all_tables_are_sheets(compared):
     names = [entry.sheet for entry in (
-        catalogue.SPOKE_STIFFNESS, catalogue.SPOKE_CURVES, catalogue.AGAINST_PUBLISHED,
+        catalogue.SPOKE_STIFFNESS, catalogue.SPOKE_CURVES, catalogue.STIFFNESS_AGAINST_PUBLISHED,
         catalogue.STIFFNESS_ERRORS, catalogue.STIFFNESS_BY_LEVEL, catalogue.NEUTRAL_LINE,
     )]  # fmt: skip
     sheets = sheets_of(compared)
@@ -282,7 +281,7 @@ def test_solvers_compared_over_different_cases_have_published_means_of_their_own
 
 
 def test_listings_are_not_empty(compared):
-    section = against_section(compared, sheets_of(compared))
+    section = published_stiffness_section(compared, sheets_of(compared))
     assert all(block.items for block in blocks(section, Listing))
 
 

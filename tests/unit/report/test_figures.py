@@ -6,7 +6,7 @@ import pytest
 
 from nptcs.report.data import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
-from nptcs.report.figures.lca import load_displacement, ring_shape
+from nptcs.report.figures.lca import load_displacement, ring_neutral_line
 from nptcs.report.figures.materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
 from nptcs.report.figures.style import to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
@@ -115,8 +115,8 @@ def test_impact_bars_are_the_table(results, config):
 
 
 def test_the_ring_stands_on_the_ground(results):
-    shape = results.lca_shape
-    figure = ring_shape(shape, 431.8)
+    shape = results.lca_neutral_line
+    figure = ring_neutral_line(shape, 431.8)
     drawn = lines(figure)
     lowest = np.nanmin(drawn["contact"].get_ydata())
     assert lowest == pytest.approx(shape["y_mm"].min())
@@ -134,4 +134,6 @@ def test_displacements_are_lines_by_rubber_with_the_printed_ones_on_them(results
     soft = table[table["spoke_c10_mpa"] == table["spoke_c10_mpa"].min()].sort_values("load_n")
     np.testing.assert_array_equal(drawn[rubbers[0]].get_xdata(), soft["load_n"])
     np.testing.assert_array_equal(drawn[rubbers[0]].get_ydata(), soft["displacement_mm"])
-    np.testing.assert_array_equal(drawn["_printed"].get_ydata(), table["published_displacement_mm"])
+    np.testing.assert_array_equal(
+        drawn["_published"].get_ydata(), table["published_displacement_mm"]
+    )

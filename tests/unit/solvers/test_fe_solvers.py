@@ -5,7 +5,7 @@ import pytest
 from pydantic import ValidationError
 
 from nptcs.config.abaqus import AbaqusModel
-from nptcs.config.fe import SpokeGeometry, SpokeMesh, SpokeTableOptions, TyreMesh
+from nptcs.config.fe import EnergyTableOptions, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.decks.calculix import complaints
 from nptcs.errors import InputError
@@ -22,8 +22,8 @@ VALUES = {
     "shear_band_c10_mpa": 5.0,
 }
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
-TABLE = SpokeTableOptions(
-    chord_mm=(-12.0, 5.0), inclination_rad=0.1, phi_rad=(-0.08, 0.08), samples=(4, 3, 3),
+TABLE = EnergyTableOptions(
+    elongation_mm=(-12.0, 5.0), inclination_rad=0.1, phi_rad=(-0.08, 0.08), samples=(4, 3, 3),
     degrees=(6, 4),
 )  # fmt: skip
 TYRE_OPTIONS = {"spoke_mesh": COARSE, "table": TABLE, "tyre_mesh": TyreMesh(gap_elements=1)}
@@ -35,7 +35,7 @@ def inputs(options, values=VALUES, load_n=800.0, ply=PUBLISHED_PLY):
 
 def neutral_line_is_sound(result):
     """Lowest over the contact by nearly δ, driven away from it, at rest in no rigid turn."""
-    line = {name: np.array(column) for name, column in result.shape.items()}
+    line = {name: np.array(column) for name, column in result.neutral_line.items()}
     theta, radial, along = line["theta_deg"], line["radial_mm"], line["tangential_mm"]
     assert len(theta) == 240
     assert (np.diff(theta) > 0).all()
@@ -69,14 +69,14 @@ def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path)
 
 
 def test_a_tyre_that_leaves_its_table_is_diverged_with_its_last_point(tmp_path):
-    narrow = SpokeTableOptions(**{**TABLE.model_dump(), "chord_mm": (-1.0, 5.0)})
+    narrow = EnergyTableOptions(**{**TABLE.model_dump(), "elongation_mm": (-1.0, 5.0)})
     options = fe_tyre.FeTyreOptions(load_steps=3, **{**TYRE_OPTIONS, "table": narrow})
     result = fe_tyre.solve(inputs(options, load_n=5000.0))
     assert result.status is Status.DIVERGED
     assert "outside the table" in result.message
     assert 0.0 < result.curve["force_n"][-1] < 5000.0
     assert result.vertical_stiffness_n_per_mm is None
-    assert result.shape is None
+    assert result.neutral_line is None
 
 
 def test_fe_spoke_gives_curve_and_lines():

@@ -46,7 +46,7 @@ def test_case_of_table_11():
 
 def test_the_neutral_line_is_flat_on_the_ground_and_the_same_on_both_sides():
     result = SOLVER.solve(inputs())
-    line = pd.DataFrame(result.shape)
+    line = pd.DataFrame(result.neutral_line)
     assert list(line["theta_deg"]) == list(range(-180, 181))
     theta = np.radians(line["theta_deg"])
     radius = TyreGeometry().band_radius_mm
@@ -60,7 +60,7 @@ def test_the_neutral_line_is_flat_on_the_ground_and_the_same_on_both_sides():
 
 def test_a_spoke_law_gives_the_whole_neutral_line_as_well():
     result = SOLVER.solve(inputs(contact_spokes="local"))
-    line = pd.DataFrame(result.shape).set_index("theta_deg")
+    line = pd.DataFrame(result.neutral_line).set_index("theta_deg")
     assert len(line) == 361
     assert line["radial_mm"][0.0] == pytest.approx(-result.displacement_mm, abs=0.02)
     np.testing.assert_allclose(line["radial_mm"], line["radial_mm"][::-1], atol=1e-4)

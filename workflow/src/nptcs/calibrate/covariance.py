@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.tables.material_card import Covariance
 
 RULE = (
@@ -56,7 +56,7 @@ def covariance_of_means(
     )
 
 
-def _correlation_of_means(samples: list[pd.Series]) -> tuple[NDArray[np.float64], str]:
+def _correlation_of_means(samples: list[pd.Series]) -> tuple[Array, str]:
     correlation = np.eye(len(samples))
     counts = set()
     for i, a in enumerate(samples):

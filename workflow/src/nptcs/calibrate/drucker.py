@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.invariants import stretches
 
-Array = NDArray[np.float64]
 # compression in a mode is the same path run backwards from λ = 1
 PATHS = {
     "uniaxial": "rubber_tension",

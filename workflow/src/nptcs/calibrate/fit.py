@@ -8,12 +8,10 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.calibrate.linear import robust_covariance
 from nptcs.calibrate.observations import Observation
-
-Array = NDArray[np.float64]
 
 SCATTER = "scatter between {n} specimens (jackknife)"
 REGRESSION = "scatter of the points about the fit (too few specimens of a mode for their scatter)"

@@ -15,12 +15,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.calibrate.linear import solve_linear
 from nptcs.calibrate.observations import Observation, undetermined
 
-Array = NDArray[np.float64]
 MODES = ("rubber_tension", "rubber_equibiaxial", "rubber_pure_shear")
 # λ2 = λ^a in each mode, and λ3 = 1/(λ λ2)
 SECOND_STRETCH = {"rubber_tension": -0.5, "rubber_equibiaxial": 1.0, "rubber_pure_shear": 0.0}

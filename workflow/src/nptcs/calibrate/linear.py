@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from nptcs.arrays import Array
+
 SMALLEST_SINGULAR = 1e-10
 
 

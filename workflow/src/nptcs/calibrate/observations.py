@@ -7,14 +7,13 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.config.calibration import RubberSettings
 from nptcs.errors import InputError
 from nptcs.reduce.rows import finite_pair, loading_branch
 from nptcs.tables.specimens import Specimen
 
-Array = NDArray[np.float64]
 SMALLEST_NUMBER_OF_POINTS = 3
 
 

@@ -13,13 +13,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from nptcs.arrays import Array
 from nptcs.calibrate.linear import solve_linear
 from nptcs.calibrate.observations import Observation, undetermined
 
-Array = NDArray[np.float64]
 RATIO = {"rubber_tension": 0.5, "rubber_equibiaxial": 2.0, "rubber_pure_shear": 1.0}
 LARGEST_EXPONENT = 30.0
 # exponents that published rubbers have: the starts of the search, tried one after the other

@@ -6,8 +6,8 @@ from collections.abc import Mapping
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.tables.material_card import Quantity
 
@@ -15,7 +15,7 @@ from nptcs.tables.material_card import Quantity
 LARGEST_DISTANCE = 3.0
 
 
-def compliance_matrix(values: Mapping[str, float]) -> NDArray[np.float64]:
+def compliance_matrix(values: Mapping[str, float]) -> Array:
     """Compliance of an orthotropic material, 6 × 6, 1/MPa, order 11 22 33 23 13 12.
 
     S_ij = -ν_ij/E_i off the diagonal of the normal block, with ν_ji/E_j = ν_ij/E_i; shear

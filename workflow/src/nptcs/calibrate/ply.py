@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
-from nptcs.config.calibration import CalibrationSettings, PlyAssumptions, Source
+from nptcs.config.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
 from nptcs.errors import InputError
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
@@ -55,7 +55,7 @@ def calibrate_ply(
     material = material or only_ply(specimens)
     included = {s.specimen: s for s in specimens if s.include and s.material == material}
     table = properties[properties["specimen"].isin(list(included))]
-    sources: dict[str, Source] = {name: getattr(settings.ply, name) for name in MEASURED}
+    sources: dict[str, ConstantSource] = {name: getattr(settings.ply, name) for name in MEASURED}
     samples = {name: sample(table, source, name, material) for name, source in sources.items()}
     constants = {
         name: measured_quantity(name, samples[name], table, sources[name]) for name in MEASURED
@@ -93,7 +93,7 @@ def only_ply(specimens: Sequence[Specimen]) -> str:
     return names[0]
 
 
-def sample(table: pd.DataFrame, source: Source, constant: str, material: str) -> pd.Series:
+def sample(table: pd.DataFrame, source: ConstantSource, constant: str, material: str) -> pd.Series:
     """Values of a source by specimen id, those that were not assessed left out."""
     rows = rows_of(table, source)
     values = rows.dropna(subset=["value"]).set_index("specimen")["value"]
@@ -108,7 +108,7 @@ def sample(table: pd.DataFrame, source: Source, constant: str, material: str) ->
     return values
 
 
-def rows_of(table: pd.DataFrame, source: Source) -> pd.DataFrame:
+def rows_of(table: pd.DataFrame, source: ConstantSource) -> pd.DataFrame:
     """Rows of the property table that a source names; the angle's sign does not count."""
     return table[
         table["test"].isin(source.tests)
@@ -118,7 +118,7 @@ def rows_of(table: pd.DataFrame, source: Source) -> pd.DataFrame:
 
 
 def measured_quantity(
-    name: str, values: pd.Series, table: pd.DataFrame, source: Source
+    name: str, values: pd.Series, table: pd.DataFrame, source: ConstantSource
 ) -> Quantity:
     """Mean and standard error of a measured constant, with rule and specimens."""
     rows = rows_of(table, source)
@@ -157,7 +157,7 @@ def assumed_quantities(
 
 
 def _crosshead(
-    samples: dict[str, pd.Series], sources: dict[str, Source], table: pd.DataFrame
+    samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
 ) -> list[str]:
     words = []
     for name, source in sources.items():

@@ -6,13 +6,12 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import least_squares
 
+from nptcs.arrays import Array
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.observations import SMALLEST_NUMBER_OF_POINTS, Observation
 
-Array = NDArray[np.float64]
 TENSION = "rubber_tension"
 TOE_SHARE = 0.2
 

@@ -103,11 +103,11 @@ def solved(arguments: argparse.Namespace) -> SolvedTyre:
     """Load the tyre that the options describe."""
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
-    from nptcs.fe.case import loaded_tyre, spoke_table, tyre_model
+    from nptcs.fe.case import energy_table, loaded_tyre, tyre_model
     from nptcs.fe.spoke.equilibrium import SpokeModel
 
     model, dimensions, design = FeModel(), TyreGeometry(), design_of(arguments)
-    tyre = tyre_model(model, dimensions, spoke_table(model, design), arguments.band_c10)
+    tyre = tyre_model(model, dimensions, energy_table(model, design), arguments.band_c10)
     state = loaded_tyre(tyre, model, arguments.load)
     print(
         f"{arguments.load:g} N at {state.rise_mm:.3f} mm: {arguments.load / state.rise_mm:.2f} N/mm"

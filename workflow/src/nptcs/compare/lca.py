@@ -17,7 +17,7 @@ from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
 from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
 from nptcs.lca.single import design_row, solve
-from nptcs.lca.spoke_stiffness_table import SpokeTable
+from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
 from nptcs.lca.state import LcaState
 
 TABLE_11_SHEAR_BAND_C10_MPA = 5.0
@@ -35,7 +35,7 @@ def _solve_cases(
     cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: str
 ) -> pd.DataFrame:
     """Solve rows of shear_band_c10_mpa, spoke_c10_mpa and load_n; returns the model's columns."""
-    spokes = SpokeTable.from_rows(spoke_table.to_dict("records"))
+    spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
     kind: Literal["sandwich", "printed"] = "sandwich" if section == "sandwich" else "printed"
     designs = pd.DataFrame(
         [
@@ -163,7 +163,7 @@ def lca_against_fem(
     return pd.concat(parts, ignore_index=True)
 
 
-def ring_shape(state: LcaState, points: int = 721) -> pd.DataFrame:
+def ring_neutral_line(state: LcaState, points: int = 721) -> pd.DataFrame:
     """Return the deformed middle line of the band, as figure 14 draws it.
 
     Parameters
@@ -191,7 +191,7 @@ def ring_shape(state: LcaState, points: int = 721) -> pd.DataFrame:
     return shape[["theta_deg", "region", "x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]]
 
 
-def ring_shapes(
+def ring_neutral_lines(
     spoke_table: pd.DataFrame,
     table_11: pd.DataFrame,
     tyre: TyreGeometry,
@@ -199,7 +199,7 @@ def ring_shapes(
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
     points: int = 721,
 ) -> pd.DataFrame:
-    """Return the ring shapes of table 11's designs under its loads (contract `LcaShape`).
+    """Return the ring shapes of table 11's designs under its loads (contract `LcaNeutralLine`).
 
     Parameters
     ----------
@@ -214,12 +214,12 @@ def ring_shapes(
     points : int
         Points around each ring.
     """
-    spokes = SpokeTable.from_rows(spoke_table.to_dict("records"))
+    spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
     ring = RingSection.from_tyre(tyre, shear_band_c10_mpa, section)
     shapes = []
     for c10, load in zip(table_11["spoke_c10_mpa"], table_11["lca_force_n"], strict=True):
         state = solve(ring, spokes.spokes(float(c10), tyre.spoke_count), load_n=float(load))
-        shape = ring_shape(state, points)
+        shape = ring_neutral_line(state, points)
         for name, value in (("load_n", load), ("spoke_c10_mpa", c10)):
             shape.insert(0, name, float(value))
         shape.insert(0, "section", section)

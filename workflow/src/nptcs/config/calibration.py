@@ -21,7 +21,7 @@ def _from_zero(interval: tuple[float, float]) -> tuple[float, float]:
 StrainRange = Annotated[Interval, AfterValidator(_from_zero)]
 
 
-class Source(Strict):
+class ConstantSource(Strict):
     """The specimens and the property that a measured constant comes from."""
 
     tests: tuple[Literal["tension", "compression", "shear"], ...] = Field(
@@ -44,18 +44,19 @@ class PlyAssumptions(Strict):
 class PlySettings(Strict):
     """Sources and assumptions of the ply's nine constants."""
 
-    e1_mpa: Source = Field(
-        Source(tests=("tension",), orientation_deg=0, property="modulus"), description="E1"
+    e1_mpa: ConstantSource = Field(
+        ConstantSource(tests=("tension",), orientation_deg=0, property="modulus"), description="E1"
     )
-    e2_mpa: Source = Field(
-        Source(tests=("tension",), orientation_deg=90, property="modulus"), description="E2"
+    e2_mpa: ConstantSource = Field(
+        ConstantSource(tests=("tension",), orientation_deg=90, property="modulus"), description="E2"
     )
-    nu12: Source = Field(
-        Source(tests=("tension",), orientation_deg=0, property="poisson_ratio"),
+    nu12: ConstantSource = Field(
+        ConstantSource(tests=("tension",), orientation_deg=0, property="poisson_ratio"),
         description="ν12",
     )
-    g12_mpa: Source = Field(
-        Source(tests=("shear",), orientation_deg=45, property="shear_modulus"), description="G12"
+    g12_mpa: ConstantSource = Field(
+        ConstantSource(tests=("shear",), orientation_deg=45, property="shear_modulus"),
+        description="G12",
     )
     assumptions: PlyAssumptions = Field(
         PlyAssumptions(), description="Constants that no test gives"

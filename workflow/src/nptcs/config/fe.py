@@ -116,10 +116,10 @@ class SpokeMesh(Strict):
         return self
 
 
-class SpokeTableOptions(Strict):
+class EnergyTableOptions(Strict):
     """Range and sampling of the spoke's energy table."""
 
-    chord_mm: tuple[float, float] = Field(
+    elongation_mm: tuple[float, float] = Field(
         (-40.0, 8.0),
         description="Change of the distance from the rim's foot to the band's, about u_r; a spoke "
         "that loses its stability before the lower end has a shorter table",
@@ -136,21 +136,21 @@ class SpokeTableOptions(Strict):
         0.6,
         gt=0,
         le=1,
-        description="Part of the ranges of β and φ that is left at the lowest chord, linear from "
-        "the unloaded one: the most compressed spokes stand on the ground and hardly turn",
+        description="Part of the ranges of β and φ that is left at the lowest elongation, linear "
+        "from the unloaded one: the most compressed spokes stand on the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
         (9, 3, 3),
-        description="Numbers of states along the chord, β and φ; for β < 0 they are known from the "
-        "spoke's symmetry",
+        description="Numbers of states of the elongation, β and φ; for β < 0 they are known from "
+        "the spoke's symmetry",
     )
     degrees: tuple[int, int] = Field(
-        (13, 5), description="Polynomial degree in the chord, and total degree in β and φ"
+        (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"
     )
 
     @model_validator(mode="after")
     def _ranges_hold_rest(self) -> Self:
-        for name in ("chord_mm", "phi_rad"):
+        for name in ("elongation_mm", "phi_rad"):
             low, high = getattr(self, name)
             if not low < 0.0 < high:
                 raise ValueError(f"{name} must run from a negative to a positive number")
@@ -200,8 +200,8 @@ class FeSpokeModel(Strict):
 class FeModel(FeSpokeModel):
     """Everything of the finite element route that does not vary from case to case."""
 
-    table: SpokeTableOptions = Field(
-        default_factory=SpokeTableOptions, description="Energy table of the spoke"
+    table: EnergyTableOptions = Field(
+        default_factory=EnergyTableOptions, description="Energy table of the spoke"
     )
     tyre_mesh: TyreMesh = Field(default_factory=TyreMesh, description="Mesh of band and tread")
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")

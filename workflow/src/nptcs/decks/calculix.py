@@ -11,13 +11,10 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.fe.spoke.equilibrium import SpokeDesign
 from nptcs.fe.spoke.mesh import axial_grid, section_grid
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 # corners, then edges, of a C3D20 brick as places (0, 1, 2) along x, y, z
 BRICK = np.array(

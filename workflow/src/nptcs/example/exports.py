@@ -5,11 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.example.tests import Draw
 
-Array = NDArray[np.float64]
 CRLF = "\r\n"
 
 

@@ -3,9 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from nptcs.arrays import Array
 
 SHEAR_LINEAR_LIMIT = 0.008
 """Shear strain up to which the ±45° laminate is linear; G12 is measured below (D3518)."""

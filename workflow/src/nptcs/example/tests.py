@@ -5,14 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.example import truth
 from nptcs.example.materials import POISSON_45, shear_stress, yeoh_c10, yeoh_stress
 from nptcs.example.truth import Series
 from nptcs.tables.specimens import TestType
-
-Array = NDArray[np.float64]
 
 POISSON_CV = 0.03
 LOAD_CELL_NOISE = 2e-4

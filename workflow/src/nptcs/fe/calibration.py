@@ -13,17 +13,15 @@ from functools import partial
 from typing import Any
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.optimize import lsq_linear
 
+from nptcs.arrays import Array
 from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.case import loaded_tyre, spoke_design, spoke_table, tyre_model
+from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.fe.tyre.equilibrium import TyreError
-
-Array = NDArray[np.float64]
 
 # dimensions that are fitted and how far they may go (mm, degrees): plates end inside the block
 LIMITS = {
@@ -118,7 +116,7 @@ def log_spoke_stiffness(problem: Problem, free: Array, values: Mapping[str, floa
 def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> list[float]:
     """Return ln K of one case."""
     model = problem.with_section(free)
-    table = spoke_table(model, spoke_design(model, problem.tyre, problem.ply, values))
+    table = energy_table(model, spoke_design(model, problem.tyre, problem.ply, values))
     assembled = tyre_model(model, problem.tyre, table, values["shear_band_c10_mpa"])
     state = loaded_tyre(assembled, model, problem.load_n)
     return [float(np.log(problem.load_n / state.rise_mm))]

@@ -9,7 +9,7 @@ from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel, FeSpokeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.spoke.energy_table import SpokeTable, fit, sample
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable, fit, sample
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
 
@@ -44,13 +44,13 @@ def spoke_design(
 
 
 @threadpool_limits.wrap(limits=1)
-def spoke_table(model: FeModel, design: SpokeDesign) -> SpokeTable:
+def energy_table(model: FeModel, design: SpokeDesign) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
     return fit(sample(SpokeModel(design), model.table), model.table, design.geometry.height_mm)
 
 
 def tyre_model(
-    model: FeModel, tyre: TyreGeometry, table: SpokeTable, band_c10_mpa: float
+    model: FeModel, tyre: TyreGeometry, table: SpokeEnergyTable, band_c10_mpa: float
 ) -> TyreModel:
     """Assemble the tyre of one case."""
     return TyreModel(

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.dialect import Dialect
-from nptcs.ingest.reading.find_tables import find_blocks
+from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
 from nptcs.ingest.reading.quantities import Test, tests_in
 from nptcs.ingest.reading.raw_file import OpenedFile, header_labels, matching, open_file, sources_of
@@ -60,7 +60,7 @@ def _inspect(opened: OpenedFile, profile: FormatProfile, reason: str) -> Inspect
     try:
         sources, result.dialect = sources_of(opened, result.profile)
         for source in sources:
-            blocks = find_blocks(source, opened.path, profile.unnamed_columns)
+            blocks = find_tables(source, opened.path, profile.unnamed_columns)
             result.tests += tests_in(source, blocks, profile, opened.path)
     except InputError as error:
         result.problem = error

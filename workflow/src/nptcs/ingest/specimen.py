@@ -27,7 +27,7 @@ from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import orient, resolve_strains
 from nptcs.ingest.folder import find_file
 from nptcs.ingest.reading.profiles import FormatProfile, choose
-from nptcs.ingest.reading.raw_file import RawTable, read_raw
+from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
@@ -105,7 +105,7 @@ def ingest_specimen(
 
 def _read(
     specimen: Specimen, folder: Path, profiles: Mapping[str, FormatProfile]
-) -> tuple[RawTable, ...]:
+) -> tuple[RawFile, ...]:
     """Read the force file, and the strain file if there is one."""
     wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
     if specimen.strain_file:
@@ -131,13 +131,13 @@ def _read(
     return tuple(tables)
 
 
-def _pair(tables: tuple[RawTable, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
+def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
     if len(tables) == 1:
         return Signals(dict(tables[0].values))
     return pair(tables[0], tables[1], specimen.time_offset_s, settings.pairing, specimen.specimen)
 
 
-def _require_force(signals: Signals, specimen: Specimen, table: RawTable) -> None:
+def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:
     """Make sure of a force: the file's own, or its stress times the sheet's area."""
     if "force" not in signals.values:
         signals.values["force"] = signals.values["stress"] * specimen.area_mm2
@@ -160,7 +160,7 @@ def _flag_time(signals: Signals) -> None:
         signals.flags.append("time does not grow throughout")
 
 
-def _require_rows(signals: Signals, specimen: Specimen, table: RawTable) -> None:
+def _require_rows(signals: Signals, specimen: Specimen, table: RawFile) -> None:
     measured = int((~np.isnan(signals.values["strain_axial"])).sum())
     if measured < FEWEST_ROWS:
         raise InputError(
@@ -186,7 +186,7 @@ def _curve(signals: Signals) -> pd.DataFrame:
 
 
 def _record(
-    specimen: Specimen, tables: tuple[RawTable, ...], signals: Signals, source: str
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str
 ) -> IngestRecord:
     roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
         ("force", "strain") if len(tables) > 1 else ("force and strain",)

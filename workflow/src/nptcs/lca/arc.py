@@ -13,11 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nptcs.lca.scaling import Array
+from nptcs.arrays import ComplexArray, Floating, Mask, Rows
 
-ComplexArray = NDArray[np.complexfloating]
 STATE = ("u", "v", "phi", "n", "v_shear", "m")
 """Rows of every state vector: u_r/R, u_θ/R, Φ, N/GA, V/GA, M/(GA R)."""
 _ODD = np.array([False, True, True, False, True, False])
@@ -48,12 +46,12 @@ class Foundation:
 
     roots: ComplexArray
     modes: ComplexArray
-    oscillating: NDArray[np.bool_]
-    constant: Array
-    rotation: Array
+    oscillating: Mask
+    constant: Floating
+    rotation: Floating
 
     @classmethod
-    def of(cls, a: Array, epsilon: Array, kappa2: Array) -> Foundation:
+    def of(cls, a: Floating, epsilon: Floating, kappa2: Floating) -> Foundation:
         """Solve the characteristic equation in r = λ² + 1: r² - a r + a + c = 0."""
         c = a * (epsilon + kappa2)
         discriminant = a * a / 4 - a - c
@@ -76,18 +74,18 @@ class Foundation:
         constant[:, 5] = (1 + a * epsilon) / (1 + c)
         return cls(roots, modes, discriminant < 0, constant, kappa2 * constant[:, 5])
 
-    def take(self, rows: NDArray[np.intp]) -> Foundation:
+    def take(self, rows: Rows) -> Foundation:
         """Return the foundations of some rows."""
         return Foundation(*(values[rows] for values in vars(self).values()))
 
-    def _real(self, states: ComplexArray) -> Array:
+    def _real(self, states: ComplexArray) -> Floating:
         """Real columns that span both roots' modes: real and imaginary part, or one each."""
         columns = states.real.copy()
         oscillating = self.oscillating
         columns[oscillating, :, 1] = states.imag[oscillating, :, 0]
         return columns
 
-    def growing(self, distance: Array | None = None) -> Array:
+    def growing(self, distance: Floating | None = None) -> Floating:
         """Modes exp(-λ x), x the distance to the end ahead, shape ``(n, 6, 2)``.
 
         Parameters
@@ -97,29 +95,29 @@ class Foundation:
         """
         return self._real(self.modes if distance is None else self._scaled(distance))
 
-    def falling(self, distance: Array | None = None) -> Array:
+    def falling(self, distance: Floating | None = None) -> Floating:
         """Modes exp(-λ x), x the distance from the end behind, shape ``(n, 6, 2)``."""
         columns = self.growing(distance)
         columns[:, _ODD] *= -1
         return columns
 
-    def _scaled(self, distance: Array) -> ComplexArray:
+    def _scaled(self, distance: Floating) -> ComplexArray:
         return np.asarray(self.modes * np.exp(-self.roots * distance[:, None])[:, None, :])
 
-    def symmetric(self, z: Array, length: Array) -> Array:
+    def symmetric(self, z: Floating, length: Floating) -> Floating:
         """Modes cosh(λ z) exp(-λ L) of the arc that is symmetric about the top, z = π - θ."""
         down = np.exp(-self.roots * (length - z)[:, None])
         up = np.exp(-self.roots * (length + z)[:, None])
         hyperbolic = np.where(_ODD[:, None], (up - down)[:, None], (up + down)[:, None]) / 2
         return self._real(self.modes * hyperbolic)
 
-    def uniform(self, angle: Array) -> Array:
+    def uniform(self, angle: Floating) -> Floating:
         """State for C = 1 whose rotation is zero where `angle` is zero, shape ``(n, 6)``."""
         state = self.constant.copy()
         state[:, 1:3] += (self.rotation * angle)[:, None]
         return state
 
-    def radial(self, distance: Array, coefficients: Array) -> Array:
+    def radial(self, distance: Floating, coefficients: Floating) -> Floating:
         """Radial displacement of modes exp(-λ x) with given coefficients.
 
         Parameters

@@ -9,11 +9,12 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
+from nptcs.arrays import Floating, Rows
 from nptcs.errors import InputError
 from nptcs.lca.contact import LARGEST_KAPPA_ANGLE, hardness
 from nptcs.lca.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
 from nptcs.lca.newton import Target, by_brackets, is_solution, newton, start_angle
-from nptcs.lca.scaling import Array, Ring
+from nptcs.lca.scaling import Ring
 from nptcs.lca.system import Arcs, Joined, join
 
 CHUNK = 2048
@@ -56,7 +57,7 @@ STATUSES = ("ok", "doubtful", "beyond_model", "bad_input", "no_convergence")
 class Batch:
     """Results of n designs: numbers by column (NaN where there are none), status and message."""
 
-    columns: dict[str, Array]
+    columns: dict[str, Floating]
     status: NDArray[np.str_]
     message: list[str]
 
@@ -102,7 +103,7 @@ def solve_batch(
     results = {column: np.full(len(bad), np.nan) for column in RESULT_COLUMNS}
     chunks = [good[start : start + CHUNK] for start in range(0, len(good), CHUNK)]
 
-    def run(rows: NDArray[np.intp]) -> None:
+    def run(rows: Rows) -> None:
         part = {column: values[rows] for column, values in table.items()}
         for piece in solve_rows(part, name):
             where = rows[piece.rows]
@@ -138,7 +139,7 @@ def only_target(
 
 def columns(
     designs: Mapping[str, ArrayLike], target: ArrayLike, largest: ArrayLike | None
-) -> dict[str, Array]:
+) -> dict[str, Floating]:
     """All columns as float arrays of one length."""
     for column in DESIGN_COLUMNS:
         if column not in designs:
@@ -150,7 +151,7 @@ def columns(
     return dict(zip(raw, broadcast, strict=True))
 
 
-def bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
+def bad_rows(table: dict[str, Floating], target: str) -> NDArray[np.object_]:
     """Return what is wrong with each row, or an empty text."""
     texts = np.full(len(table["target"]), "", dtype=object)
     for column, values in table.items():
@@ -168,7 +169,7 @@ def bad_rows(table: dict[str, Array], target: str) -> NDArray[np.object_]:
     return texts
 
 
-def scaled(table: Mapping[str, Array]) -> Ring:
+def scaled(table: Mapping[str, Floating]) -> Ring:
     """Return the dimensionless designs of a table with `DESIGN_COLUMNS`."""
     shear, radius = table["shear_stiffness_n"], table["radius_mm"]
     # R² k/GA with k = k_t N/(2πR)
@@ -181,14 +182,14 @@ def scaled(table: Mapping[str, Array]) -> Ring:
     )
 
 
-def _scaled_target(table: dict[str, Array], target: str) -> Array:
+def _scaled_target(table: dict[str, Floating], target: str) -> Floating:
     """Return F/GA, δ/R or θc in radians."""
     if target == "theta_c_deg":
         return np.radians(table["target"])
     return table["target"] / table["shear_stiffness_n" if target == "load_n" else "radius_mm"]
 
 
-def _by_hardness(table: dict[str, Array], target: str, rows: NDArray[np.intp]) -> NDArray[np.intp]:
+def _by_hardness(table: dict[str, Floating], target: str, rows: Rows) -> Rows:
     """Put rows in the order of their contact regions' difficulty, the easy ones first."""
     part = {column: values[rows] for column, values in table.items()}
     ring = scaled(part)
@@ -212,8 +213,8 @@ class Piece:
         The scaled designs and their solutions.
     """
 
-    rows: NDArray[np.intp]
-    numbers: dict[str, Array]
+    rows: Rows
+    numbers: dict[str, Floating]
     status: NDArray[np.str_]
     message: list[str]
     ring: Ring
@@ -221,7 +222,7 @@ class Piece:
     joined: Joined
 
 
-def solve_rows(table: dict[str, Array], name: str) -> list[Piece]:
+def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
     """Solve rows that are known to be well formed; the stubborn ones make a second piece.
 
     Parameters
@@ -246,13 +247,13 @@ def solve_rows(table: dict[str, Array], name: str) -> list[Piece]:
 
 
 def _finish(
-    table: dict[str, Array],
+    table: dict[str, Floating],
     ring: Ring,
     arcs: Arcs,
     target: Target,
-    value: Array,
-    rows: NDArray[np.intp],
-    angles: tuple[Array, Array],
+    value: Floating,
+    rows: Rows,
+    angles: tuple[Floating, Floating],
 ) -> Piece:
     """Turn angles into numbers, a status and a message."""
     if len(rows) < len(value):
@@ -284,7 +285,7 @@ def _finish(
     return Piece(rows, numbers, status, message, ring, arcs, joined)
 
 
-def _numbers(table: dict[str, Array], ring: Ring, joined: Joined) -> dict[str, Array]:
+def _numbers(table: dict[str, Floating], ring: Ring, joined: Joined) -> dict[str, Floating]:
     """Return the result columns in N, mm, MPa and degrees."""
     shear, radius = table["shear_stiffness_n"], table["radius_mm"]
     displacement, load = joined.sinking[:, 0] * radius, joined.force[:, 0] * shear
@@ -302,7 +303,7 @@ def _numbers(table: dict[str, Array], ring: Ring, joined: Joined) -> dict[str, A
     }
 
 
-def _tangent(joined: Joined) -> Array:
+def _tangent(joined: Joined) -> Floating:
     """dF/dδ along the solutions, on which u(θt) = 0 fixes dθt/dθc."""
     by_c = -joined.transition[:, 1] / joined.transition[:, 2]
     force = joined.force[:, 1] + joined.force[:, 2] * by_c

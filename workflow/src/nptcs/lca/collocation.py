@@ -19,7 +19,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import legendre
 
-from nptcs.lca.scaling import Array
+from nptcs.arrays import Floating
 
 STAGES = 6
 """Gauss points an element: the order at the elements' ends is 12."""
@@ -29,9 +29,9 @@ STAGES = 6
 class Tableau:
     """Collocation at Gauss points on 0…1."""
 
-    nodes: Array
-    inner: Array
-    weights: Array
+    nodes: Floating
+    inner: Floating
+    weights: Floating
 
 
 @lru_cache(maxsize=2)
@@ -44,7 +44,7 @@ def gauss_tableau(stages: int = STAGES) -> Tableau:
     return Tableau((roots + 1) / 2, inner, weights / 2)
 
 
-def free_matrix(theta: Array, slope: Array, epsilon: float, kappa2: float) -> Array:
+def free_matrix(theta: Floating, slope: Floating, epsilon: float, kappa2: float) -> Floating:
     """Matrix of y' = A y + b on a free arc, ``theta.shape + (6, 6)``; s = slope u + …."""
     matrix = np.zeros((*theta.shape, 6, 6))
     matrix[..., 0, 1] = 1
@@ -61,8 +61,8 @@ def free_matrix(theta: Array, slope: Array, epsilon: float, kappa2: float) -> Ar
 
 
 def contact_system(
-    theta: Array, slope: Array, offset: Array, epsilon: float, kappa2: float
-) -> tuple[Array, Array]:
+    theta: Floating, slope: Floating, offset: Floating, epsilon: float, kappa2: float
+) -> tuple[Floating, Floating]:
     """Matrix and vector of y' = A y + b on flat ground with s = slope u + offset.
 
     From flatness, with t = tan θ and g = 1 + ε t²:
@@ -101,13 +101,13 @@ class Elements:
         y(end) = map y(start) + vector.
     """
 
-    stage_map: Array
-    stage_vector: Array
-    end_map: Array
-    end_vector: Array
+    stage_map: Floating
+    stage_vector: Floating
+    end_map: Floating
+    end_vector: Floating
 
 
-def condense(width: Array, matrix: Array, vector: Array) -> Elements:
+def condense(width: Floating, matrix: Floating, vector: Floating) -> Elements:
     """Eliminate the stages of n elements.
 
     Parameters

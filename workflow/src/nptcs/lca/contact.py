@@ -20,7 +20,7 @@ from functools import lru_cache
 import numpy as np
 from numpy.polynomial import chebyshev
 
-from nptcs.lca.scaling import Array
+from nptcs.arrays import Floating
 
 _POINTS = ((0.5, 8), (1.25, 16), (13.0, 40), (np.inf, 64))
 """Largest max(θc, κθc/6) and the points on 0 < θ ≤ θc that resolve it to 1e-12."""
@@ -34,13 +34,13 @@ COLUMNS = ("m", "h", "delta", "one")
 class Rule:
     """Spectral integration on 0…1 for functions known at `nodes`, the last of which is 1."""
 
-    nodes: Array
-    to_odd: Array
-    to_even: Array
-    once_odd: Array
-    rotation_odd: Array
-    end_even: Array
-    slope_odd: Array
+    nodes: Floating
+    to_odd: Floating
+    to_even: Floating
+    once_odd: Floating
+    rotation_odd: Floating
+    end_even: Floating
+    slope_odd: Floating
 
 
 @lru_cache(maxsize=8)
@@ -56,7 +56,7 @@ def rule(points: int) -> Rule:
     size = 2 * points
     odd, even = np.eye(size)[1::2], np.eye(size)[0::2]
 
-    def values(coefficients: Array) -> Array:
+    def values(coefficients: Floating) -> Floating:
         return np.asarray(chebyshev.chebval(nodes, coefficients.T)).T
 
     to_odd = np.linalg.inv(values(odd))
@@ -93,24 +93,26 @@ class Contact:
         b R q/GA at θc.
     """
 
-    angle: Array
-    vertical: Array
-    edge: Array
-    pressure: Array
+    angle: Floating
+    vertical: Floating
+    edge: Floating
+    pressure: Floating
 
 
-def hardness(kappa2: Array, angle: Array) -> Array:
+def hardness(kappa2: Floating, angle: Floating) -> Floating:
     """Return what decides on the number of points, max(θc, κθc/6)."""
     return np.asarray(np.maximum(angle, np.sqrt(kappa2) * angle / 6))
 
 
-def points_for(kappa2: Array, angle: Array) -> int:
+def points_for(kappa2: Floating, angle: Floating) -> int:
     """Return the number of points that resolves all of n designs."""
     hardest = float(hardness(kappa2, angle).max(initial=0.0))
     return next(points for limit, points in _POINTS if hardest <= limit)
 
 
-def _forcing(theta: Array, epsilon: Array, kappa2: Array, angle: Array, r: Rule) -> Array:
+def _forcing(
+    theta: Floating, epsilon: Floating, kappa2: Floating, angle: Floating, r: Rule
+) -> Floating:
     """Right-hand side of the system for W, by the columns of `COLUMNS`."""
     sine, cosine = np.sin(theta), np.cos(theta)
     force = np.zeros((*theta.shape, 4))
@@ -122,7 +124,7 @@ def _forcing(theta: Array, epsilon: Array, kappa2: Array, angle: Array, r: Rule)
 
 
 def solve_contact(
-    epsilon: Array, kappa2: Array, angle: Array, points: int | None = None
+    epsilon: Floating, kappa2: Floating, angle: Floating, points: int | None = None
 ) -> Contact:
     """Solve the contact region of n designs for given contact angles.
 
@@ -147,8 +149,13 @@ def solve_contact(
 
 
 def _edge_states(
-    theta: Array, vertical: Array, epsilon: Array, kappa2: Array, angle: Array, r: Rule
-) -> Array:
+    theta: Floating,
+    vertical: Floating,
+    epsilon: Floating,
+    kappa2: Floating,
+    angle: Floating,
+    r: Rule,
+) -> Floating:
     """State at θc from W at the nodes, shape (n, 6, 4)."""
     sine, cosine, tangent = np.sin(theta), np.cos(theta), np.tan(theta)
     shear = vertical * cosine[..., None]
@@ -173,8 +180,8 @@ def _edge_states(
 
 
 def _edge_pressure(
-    edge: Array, epsilon: Array, kappa2: Array, angle: Array, vertical: Array
-) -> Array:
+    edge: Floating, epsilon: Floating, kappa2: Floating, angle: Floating, vertical: Floating
+) -> Floating:
     """W' at θc, from the derivative of the equation for W."""
     s, c = np.sin(angle)[:, None], np.cos(angle)[:, None]
     eps = epsilon[:, None]

@@ -5,10 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from nptcs.arrays import Floating
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.batch import solve_batch
-from nptcs.lca.scaling import Array
 from nptcs.lca.section import RingSection, SectionKind, section_stiffness
 from nptcs.lca.single import solve
 from nptcs.lca.spokes import LinearSpokes
@@ -125,12 +125,12 @@ def solve_row(
     return solve(section, spokes, load_n=load, largest_displacement_mm=float(largest[0]))
 
 
-def _numbers(table: pd.DataFrame, column: str) -> Array:
+def _numbers(table: pd.DataFrame, column: str) -> Floating:
     """Return a column as floats, NaN where a cell is empty or no number."""
     return np.asarray(pd.to_numeric(table[column], errors="coerce"), dtype=float)
 
 
-def _unreadable(table: pd.DataFrame, values: dict[str, Array]) -> Array:
+def _unreadable(table: pd.DataFrame, values: dict[str, Floating]) -> Floating:
     """Return, for each row, the first cell that is filled but no number, or an empty text."""
     texts = np.full(len(table), "", dtype=object)
     for name, numbers in values.items():
@@ -141,11 +141,11 @@ def _unreadable(table: pd.DataFrame, values: dict[str, Array]) -> Array:
 
 
 def _designs(
-    values: dict[str, Array], tyre: TyreGeometry, kind: SectionKind, rows: int
-) -> tuple[dict[str, Array], Array]:
+    values: dict[str, Floating], tyre: TyreGeometry, kind: SectionKind, rows: int
+) -> tuple[dict[str, Floating], Floating]:
     """Columns of `nptcs.lca.batch.DESIGN_COLUMNS`, and the room between band and rim (mm)."""
 
-    def column(name: str, default: float | Array) -> Array:
+    def column(name: str, default: float | Floating) -> Floating:
         given = values.get(name, np.full(rows, np.nan))
         return np.asarray(np.where(np.isnan(given), default, given))
 

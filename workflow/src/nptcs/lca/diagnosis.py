@@ -7,8 +7,9 @@ from functools import lru_cache
 
 import numpy as np
 
+from nptcs.arrays import Floating
 from nptcs.lca.fields import ground_pressure, radial_displacements
-from nptcs.lca.scaling import Array, Ring
+from nptcs.lca.scaling import Ring
 from nptcs.lca.system import SINKING, Arcs, Joined
 
 _COMPRESSION_POINTS, _TENSION_POINTS = 20, 48
@@ -34,10 +35,10 @@ class Diagnosis:
         Lowest contact pressure, ring and spokes together, over the mean one.
     """
 
-    balance_residual: Array
-    tension_in_compression: Array
-    compression_in_tension: Array
-    lowest_pressure: Array
+    balance_residual: Floating
+    tension_in_compression: Floating
+    compression_in_tension: Floating
+    lowest_pressure: Floating
 
 
 def diagnose(ring: Ring, arcs: Arcs, joined: Joined) -> Diagnosis:
@@ -60,7 +61,7 @@ def diagnose(ring: Ring, arcs: Arcs, joined: Joined) -> Diagnosis:
     )
 
 
-def _gauss(start: Array, end: Array, points: int) -> tuple[Array, Array]:
+def _gauss(start: Floating, end: Floating, points: int) -> tuple[Floating, Floating]:
     """Gauss points and weights on start…end, shapes (n, points)."""
     nodes, weights = _unit_gauss(points)
     half = ((end - start) / 2)[:, None]
@@ -68,7 +69,7 @@ def _gauss(start: Array, end: Array, points: int) -> tuple[Array, Array]:
 
 
 @lru_cache(maxsize=4)
-def _unit_gauss(points: int) -> tuple[Array, Array]:
+def _unit_gauss(points: int) -> tuple[Floating, Floating]:
     """Gauss points and weights on -1…1."""
     nodes, weights = np.polynomial.legendre.leggauss(points)
     return nodes, weights

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.polynomial import chebyshev
 
+from nptcs.arrays import Floating
 from nptcs.lca.contact import rule
-from nptcs.lca.scaling import Array, Ring
+from nptcs.lca.scaling import Ring
 from nptcs.lca.system import (
     COMPRESSION_UNKNOWNS,
     CONSTANT,
@@ -18,7 +19,7 @@ from nptcs.lca.system import (
 )
 
 
-def compression_states(arcs: Arcs, joined: Joined, theta: Array) -> Array:
+def compression_states(arcs: Arcs, joined: Joined, theta: Floating) -> Floating:
     """States (n, points, 6) in the compression arc at `theta` (n, points)."""
     n, points = theta.shape
     rows = np.repeat(np.arange(n), points)
@@ -32,7 +33,7 @@ def compression_states(arcs: Arcs, joined: Joined, theta: Array) -> Array:
     return states.reshape(n, points, 6)
 
 
-def tension_states(arcs: Arcs, joined: Joined, theta: Array) -> Array:
+def tension_states(arcs: Arcs, joined: Joined, theta: Floating) -> Floating:
     """States (n, points, 6) in the tension arc at `theta` (n, points)."""
     n, points = theta.shape
     rows = np.repeat(np.arange(n), points)
@@ -42,8 +43,8 @@ def tension_states(arcs: Arcs, joined: Joined, theta: Array) -> Array:
 
 
 def radial_displacements(
-    arcs: Arcs, joined: Joined, near: Array, far: Array
-) -> tuple[Array, Array]:
+    arcs: Arcs, joined: Joined, near: Floating, far: Floating
+) -> tuple[Floating, Floating]:
     """u_r/R at angles `near` in the compression and `far` in the tension arc, (n, points) each.
 
     Quicker than the whole state, for checks on many points.
@@ -60,19 +61,19 @@ def radial_displacements(
     return u_near, u_far
 
 
-def contact_vertical(joined: Joined) -> Array:
+def contact_vertical(joined: Joined) -> Floating:
     """W/GA at the nodes of the contact region, shape (n, nodes)."""
     vertical = joined.contact.vertical
     return vertical[:, :, 3] + np.einsum("npc,nc->np", vertical[:, :, :3], joined.unknowns[:, 8:])
 
 
-def ground_pressure(joined: Joined) -> Array:
+def ground_pressure(joined: Joined) -> Floating:
     """Pressure b R q/GA at the centre and at the nodes of the contact region."""
     slope = rule(joined.contact.vertical.shape[1]).slope_odd
     return np.asarray(contact_vertical(joined) @ slope.T / joined.contact_angle[:, None])
 
 
-def contact_states(ring: Ring, joined: Joined, theta: Array) -> tuple[Array, Array]:
+def contact_states(ring: Ring, joined: Joined, theta: Floating) -> tuple[Floating, Floating]:
     """States (points, 6) and pressure b R q/GA in the contact region of a single design."""
     vertical = contact_vertical(joined)[0]
     r = rule(len(vertical))
@@ -81,7 +82,7 @@ def contact_states(ring: Ring, joined: Joined, theta: Array) -> tuple[Array, Arr
     nodes, tau = angle * r.nodes, theta / angle
     sine, cosine = np.sin(theta), np.cos(theta)
 
-    def integral(values: Array, to_coefficients: Array, times: int) -> Array:
+    def integral(values: Floating, to_coefficients: Floating, times: int) -> Floating:
         coefficients = to_coefficients @ values
         for _ in range(times):
             coefficients = angle * chebyshev.chebint(coefficients, lbnd=0)

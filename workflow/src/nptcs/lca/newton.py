@@ -12,9 +12,9 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nptcs.lca.scaling import Array, Ring
+from nptcs.arrays import Floating, Mask
+from nptcs.lca.scaling import Ring
 from nptcs.lca.system import Arcs, Joined, join
 
 Target = Literal["force", "sinking", "contact_angle"]
@@ -34,23 +34,23 @@ BRACKET_STEP = 1e-10
 class Angles:
     """θc and θt (radians) of n designs, and whether they were found."""
 
-    contact: Array
-    transition: Array
-    found: NDArray[np.bool_]
+    contact: Floating
+    transition: Floating
+    found: Mask
 
 
-def first_guess(ring: Ring, force: Array) -> Array:
+def first_guess(ring: Ring, force: Floating) -> Floating:
     """Contact angle at which the ring alone carries most of the force F/GA."""
     return np.asarray(np.arctan(force / 2 * (1 + ring.compression * force) ** -0.25))
 
 
-def _first_transition(ring: Ring, theta_c: Array) -> Array:
+def _first_transition(ring: Ring, theta_c: Floating) -> Floating:
     """Transition angle to start from; near the bending length of the foundation."""
     stiffness = (1 + ring.tension) * (1 + ring.compression)
     return np.minimum(theta_c + 1.35 * stiffness**-0.18, 0.5 * (np.pi + theta_c))
 
 
-def _misfit(joined: Joined, target: Target, value: Array) -> Array:
+def _misfit(joined: Joined, target: Target, value: Floating) -> Floating:
     """Quantity minus its target, with derivatives by θc and θt, shape ``(n, 3)``."""
     if target == "contact_angle":
         error = joined.contact_angle - value
@@ -60,7 +60,7 @@ def _misfit(joined: Joined, target: Target, value: Array) -> Array:
     return misfit
 
 
-def _step(joined: Joined, misfit: Array) -> tuple[Array, Array]:
+def _step(joined: Joined, misfit: Floating) -> tuple[Floating, Floating]:
     """Newton's step for both angles, kept inside 0 < θc < θt < π and in U's direction."""
     theta_c, theta_t = joined.contact_angle, joined.transition_angle
     (m, m_c, m_t), (u, u_c, u_t) = misfit.T, joined.transition.T
@@ -75,7 +75,7 @@ def _step(joined: Joined, misfit: Array) -> tuple[Array, Array]:
     return by_c, np.clip(by_t, -0.5 * (theta_t - theta_c), 0.5 * (np.pi - theta_t))
 
 
-def newton(ring: Ring, arcs: Arcs, target: Target, value: Array, theta_c: Array) -> Angles:
+def newton(ring: Ring, arcs: Arcs, target: Target, value: Floating, theta_c: Floating) -> Angles:
     """Run Newton's method on all designs; those that arrive leave the set.
 
     Parameters
@@ -112,8 +112,11 @@ def newton(ring: Ring, arcs: Arcs, target: Target, value: Array, theta_c: Array)
 
 
 def _bracketed(
-    function: Callable[[Array], tuple[Array, Array]], low: Array, high: Array, start: Array
-) -> Array:
+    function: Callable[[Floating], tuple[Floating, Floating]],
+    low: Floating,
+    high: Floating,
+    start: Floating,
+) -> Floating:
     """Root of an increasing function on low…high: Newton's step, or half the bracket."""
     low, high, x = low.copy(), high.copy(), start.copy()
     for _ in range(BRACKET_STEPS):
@@ -129,10 +132,10 @@ def _bracketed(
     return x
 
 
-def transition_for(ring: Ring, arcs: Arcs, theta_c: Array) -> Array:
+def transition_for(ring: Ring, arcs: Arcs, theta_c: Floating) -> Floating:
     """θt of given contact angles, by brackets."""
 
-    def function(theta_t: Array) -> tuple[Array, Array]:
+    def function(theta_t: Floating) -> tuple[Floating, Floating]:
         joined = join(ring, arcs, theta_c, theta_t)
         return joined.transition[:, 0], joined.transition[:, 2]
 
@@ -140,12 +143,14 @@ def transition_for(ring: Ring, arcs: Arcs, theta_c: Array) -> Array:
     return _bracketed(function, low, high, _first_transition(ring, theta_c))
 
 
-def by_brackets(ring: Ring, arcs: Arcs, target: Target, value: Array) -> tuple[Array, Array]:
+def by_brackets(
+    ring: Ring, arcs: Arcs, target: Target, value: Floating
+) -> tuple[Floating, Floating]:
     """Find θc and θt with nested brackets; slow and sure, for the few that need it."""
     if target == "contact_angle":
         return value.copy(), transition_for(ring, arcs, value)
 
-    def function(theta_c: Array) -> tuple[Array, Array]:
+    def function(theta_c: Floating) -> tuple[Floating, Floating]:
         joined = join(ring, arcs, theta_c, transition_for(ring, arcs, theta_c))
         misfit = _misfit(joined, target, value)
         return misfit[:, 0], misfit[:, 1]
@@ -155,7 +160,7 @@ def by_brackets(ring: Ring, arcs: Arcs, target: Target, value: Array) -> tuple[A
     return theta_c, transition_for(ring, arcs, theta_c)
 
 
-def start_angle(ring: Ring, target: Target, value: Array) -> Array:
+def start_angle(ring: Ring, target: Target, value: Floating) -> Floating:
     """Contact angle to start from for a given target."""
     if target == "contact_angle":
         return value.copy()
@@ -163,7 +168,7 @@ def start_angle(ring: Ring, target: Target, value: Array) -> Array:
     return np.minimum(first_guess(ring, value if target == "force" else 3 * value), 1.2)
 
 
-def is_solution(joined: Joined, target: Target, value: Array) -> NDArray[np.bool_]:
+def is_solution(joined: Joined, target: Target, value: Floating) -> Mask:
     """Whether the target is met and u_r changes its sign at θt, to rounding."""
     misfit = np.abs(_misfit(joined, target, value)[:, 0])
     crossing = np.abs(joined.transition[:, 0])

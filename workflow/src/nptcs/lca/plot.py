@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from nptcs.compare.lca import ring_shape
+from nptcs.compare.lca import ring_neutral_line
 from nptcs.lca.state import LcaState
 
 FORMATS = (".svg", ".png", ".pdf")
@@ -35,7 +35,7 @@ def ring_figure(state: LcaState) -> Figure:
 
 def _draw_ring(axes: Axes, state: LcaState) -> None:
     """Draw the middle line before and after, in the colours of its regions."""
-    shape = ring_shape(state, 1441)
+    shape = ring_neutral_line(state, 1441)
     axes.plot(
         shape["x_undeformed_mm"], shape["y_undeformed_mm"], "--", color="0.6", label="unloaded"
     )

@@ -15,9 +15,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.floating]
+from nptcs.arrays import Floating, Mask, Rows
 
 
 @dataclass(frozen=True)
@@ -34,12 +33,12 @@ class Ring:
         a_j and a_k.
     """
 
-    epsilon: Array
-    kappa2: Array
-    compression: Array
-    tension: Array
+    epsilon: Floating
+    kappa2: Floating
+    compression: Floating
+    tension: Floating
 
-    def take(self, rows: NDArray[np.intp] | NDArray[np.bool_]) -> Ring:
+    def take(self, rows: Rows | Mask) -> Ring:
         """Return the designs of some rows."""
         return Ring(
             self.epsilon[rows], self.kappa2[rows], self.compression[rows], self.tension[rows]

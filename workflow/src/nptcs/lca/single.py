@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike
 
+from nptcs.arrays import Floating
 from nptcs.errors import InputError
 from nptcs.lca.batch import (
     RESULT_COLUMNS,
@@ -18,7 +19,6 @@ from nptcs.lca.batch import (
     solve_batch,
     solve_rows,
 )
-from nptcs.lca.scaling import Array
 from nptcs.lca.section import RingSection
 from nptcs.lca.spokes import LinearSpokes
 from nptcs.lca.state import LcaState
@@ -123,7 +123,7 @@ def curve(
         largest_displacement_mm=largest_displacement_mm,
     )
     table = pd.DataFrame(batch.columns)
-    angle: Array = np.radians(table["theta_c_deg"].to_numpy())
+    angle: Floating = np.radians(table["theta_c_deg"].to_numpy())
     table["contact_length_mm"] = 2 * section.radius_mm * angle
     table["status"], table["message"] = batch.status, batch.message
     return table

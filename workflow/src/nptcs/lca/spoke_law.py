@@ -9,8 +9,8 @@ import numpy as np
 from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
+from nptcs.arrays import Floating
 from nptcs.errors import InputError
-from nptcs.lca.scaling import Array
 from nptcs.lca.spokes import LinearSpokes
 
 
@@ -29,8 +29,8 @@ class SpokeLaw:
         Number N of spokes.
     """
 
-    elongation_mm: Array
-    force_n: Array
+    elongation_mm: Floating
+    force_n: Floating
     count: int = 60
 
     def __post_init__(self) -> None:
@@ -82,7 +82,7 @@ class SpokeLaw:
         """Lowest and highest elongation of the curve."""
         return float(self.elongation_mm[0]), float(self.elongation_mm[-1])
 
-    def evaluate(self, elongation_mm: ArrayLike) -> tuple[Array, Array]:
+    def evaluate(self, elongation_mm: ArrayLike) -> tuple[Floating, Floating]:
         """Return force (N) and slope (N/mm); beyond its ends the curve goes on straight.
 
         A result that needs the straight ends is refused by the solver; they only keep its
@@ -106,7 +106,7 @@ class SpokeLaw:
         )
 
 
-def _check_curve(x: Array, f: Array) -> None:
+def _check_curve(x: Floating, f: Floating) -> None:
     """Raise `InputError` unless the points form an increasing curve through the origin."""
     if x.ndim != 1 or x.shape != f.shape or not (np.isfinite(x).all() and np.isfinite(f).all()):
         raise InputError(

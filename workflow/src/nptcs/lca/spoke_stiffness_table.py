@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from scipy.interpolate import PchipInterpolator
 
+from nptcs.arrays import Floating
 from nptcs.errors import InputError
 from nptcs.lca.checks import require_positive
-from nptcs.lca.scaling import Array
 from nptcs.lca.spokes import LinearSpokes
 
 COLUMNS = ("spoke_c10_mpa", "tension_stiffness_n_per_mm", "compression_stiffness_n_per_mm")
@@ -22,15 +22,15 @@ class OutOfRangeError(InputError):
 
 
 @dataclass(frozen=True)
-class SpokeTable:
+class SpokeStiffnessTable:
     """Stiffness in tension and compression at increasing C10; arrays of shape ``(n,)``."""
 
-    c10_mpa: Array
-    tension_n_per_mm: Array
-    compression_n_per_mm: Array
+    c10_mpa: Floating
+    tension_n_per_mm: Floating
+    compression_n_per_mm: Floating
 
     @classmethod
-    def from_rows(cls, rows: Sequence[Mapping[Any, Any]]) -> SpokeTable:
+    def from_rows(cls, rows: Sequence[Mapping[Any, Any]]) -> SpokeStiffnessTable:
         """Read the columns `COLUMNS` of a table, in any order of rows.
 
         Raises

@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
+from nptcs.arrays import Floating
 from nptcs.lca.fields import compression_states, contact_states, tension_states
-from nptcs.lca.scaling import Array, Ring
+from nptcs.lca.scaling import Ring
 from nptcs.lca.section import RingSection
 from nptcs.lca.spokes import LinearSpokes
 from nptcs.lca.system import Arcs, Joined
@@ -105,7 +106,9 @@ class LcaState:
             }
         )
 
-    def _scaled_states(self, theta: Array, region: NDArray[np.integer]) -> tuple[Array, Array]:
+    def _scaled_states(
+        self, theta: Floating, region: NDArray[np.integer]
+    ) -> tuple[Floating, Floating]:
         """States (points, 6) and pressure b R q/GA (zero outside the contact)."""
         states, pressure = np.empty((len(theta), 6)), np.zeros(len(theta))
         contact, near, far = (region == index for index in range(3))

@@ -11,11 +11,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Floating, Rows
 from nptcs.lca.arc import Foundation
 from nptcs.lca.contact import Contact, solve_contact
-from nptcs.lca.scaling import Array, Ring
+from nptcs.lca.scaling import Ring
 
 UNKNOWNS = 11
 COMPRESSION, ROTATION, TENSION, CONSTANT = slice(0, 4), 4, slice(5, 7), 7
@@ -39,7 +39,7 @@ class Arcs:
             Foundation.of(ring.tension, ring.epsilon, ring.kappa2),
         )
 
-    def take(self, rows: NDArray[np.intp]) -> Arcs:
+    def take(self, rows: Rows) -> Arcs:
         """Return the arcs of some rows."""
         return Arcs(self.compression.take(rows), self.tension.take(rows))
 
@@ -62,16 +62,18 @@ class Joined:
         u_r/R at θt, with the derivatives by θc and θt.
     """
 
-    contact_angle: Array
-    transition_angle: Array
+    contact_angle: Floating
+    transition_angle: Floating
     contact: Contact
-    unknowns: Array
-    sinking: Array
-    force: Array
-    transition: Array
+    unknowns: Floating
+    sinking: Floating
+    force: Floating
+    transition: Floating
 
 
-def compression_columns(arc: Foundation, theta: Array, start: Array, end: Array) -> Array:
+def compression_columns(
+    arc: Foundation, theta: Floating, start: Floating, end: Floating
+) -> Floating:
     """Columns of the unknowns 0…4 and 7 in the compression arc, shape ``(n, 6, 6)``."""
     columns = np.zeros((len(theta), 6, 6))
     columns[:, :, 0:2] = arc.falling(theta - start)
@@ -81,7 +83,7 @@ def compression_columns(arc: Foundation, theta: Array, start: Array, end: Array)
     return columns
 
 
-def tension_columns(arc: Foundation, theta: Array, start: Array) -> Array:
+def tension_columns(arc: Foundation, theta: Floating, start: Floating) -> Floating:
     """Columns of the unknowns 5…7 in the tension arc, shape ``(n, 6, 3)``."""
     columns = np.empty((len(theta), 6, 3))
     columns[:, :, :2] = arc.symmetric(np.pi - theta, np.pi - start)
@@ -89,7 +91,9 @@ def tension_columns(arc: Foundation, theta: Array, start: Array) -> Array:
     return columns
 
 
-def _assemble(contact: Contact, at_t: Array, beyond: Array, at_c: Array) -> tuple[Array, Array]:
+def _assemble(
+    contact: Contact, at_t: Floating, beyond: Floating, at_c: Floating
+) -> tuple[Floating, Floating]:
     """Matrix and right-hand sides: the load, and unit jumps of N', V' at θc and of V' at θt."""
     n = len(at_t)
     matrix = np.zeros((n, UNKNOWNS, UNKNOWNS))
@@ -106,13 +110,13 @@ def _assemble(contact: Contact, at_t: Array, beyond: Array, at_c: Array) -> tupl
     return matrix * scale, right * scale
 
 
-def _dot(columns: Array, coefficients: Array) -> Array:
+def _dot(columns: Floating, coefficients: Floating) -> Floating:
     """Sum over the columns, the last axis of both."""
     return np.einsum("...c,...c->...", columns, coefficients)
 
 
 def join(
-    ring: Ring, arcs: Arcs, theta_c: Array, theta_t: Array, points: int | None = None
+    ring: Ring, arcs: Arcs, theta_c: Floating, theta_t: Floating, points: int | None = None
 ) -> Joined:
     """Solve n designs for given angles θc < θt (radians), with derivatives by both.
 

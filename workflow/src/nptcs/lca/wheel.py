@@ -12,19 +12,12 @@ from dataclasses import dataclass
 from typing import Literal
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 from scipy.sparse import coo_array
 from scipy.sparse.linalg import spsolve
 
-from nptcs.lca.collocation import (
-    Elements,
-    condense,
-    contact_system,
-    free_matrix,
-    gauss_tableau,
-)
-from nptcs.lca.scaling import Array
+from nptcs.arrays import Floating, Mask
+from nptcs.lca.collocation import Elements, condense, contact_system, free_matrix, gauss_tableau
 from nptcs.lca.section import RingSection
 from nptcs.lca.spoke_law import SpokeLaw
 
@@ -55,7 +48,7 @@ class Wheel:
     section: RingSection
     law: SpokeLaw
     contact: ContactSpokes = "local"
-    spoke_angles: Array | None = None
+    spoke_angles: Floating | None = None
 
     @property
     def epsilon(self) -> float:
@@ -81,7 +74,7 @@ class Wheel:
         start = float(self.spoke_angles.min() - np.pi / self.law.count)
         return start, start + 2 * float(np.pi)
 
-    def force(self, u: Array) -> tuple[Array, Array]:
+    def force(self, u: Floating) -> tuple[Floating, Floating]:
         """Force of the spokes over GA and its slope by u_r/R; per radian where smeared."""
         force, slope = self.law.evaluate(u * self.section.radius_mm)
         factor = 1 / self.section.shear_stiffness_n
@@ -137,11 +130,11 @@ class Pressed:
 
     left: Edge
     right: Edge
-    points: Array
-    theta: Array
-    in_contact: NDArray[np.bool_]
-    states: Array
-    pressure: Array
+    points: Floating
+    theta: Floating
+    in_contact: Mask
+    states: Floating
+    pressure: Floating
     sinking: float
     force: float
     contact_force: float
@@ -154,7 +147,9 @@ class Pressed:
         return CubicHermiteSpline(self.points, y[:, 0], y[:, 4] + y[:, 1] - y[:, 2])
 
 
-def break_points(wheel: Wheel, left: Edge, right: Edge, field: CubicHermiteSpline | None) -> Array:
+def break_points(
+    wheel: Wheel, left: Edge, right: Edge, field: CubicHermiteSpline | None
+) -> Floating:
     """Return the elements' ends: where anything changes its form, and as many between as needed."""
     start, end = wheel.span
     fixed = [np.array([start, left.angle, right.angle, end])]
@@ -242,12 +237,12 @@ def press(
 def _vertical_forces(
     wheel: Wheel,
     edges: tuple[Edge, Edge],
-    points: Array,
-    in_contact: NDArray[np.bool_],
-    pressure: Array,
-    spokes: Array,
-    reaction: Array,
-    single: Array,
+    points: Floating,
+    in_contact: Mask,
+    pressure: Floating,
+    spokes: Floating,
+    reaction: Floating,
+    single: Floating,
     sinking: float,
 ) -> tuple[float, float, float]:
     """Force of the ground, that of the contact region's spokes, and the misfit of the balance."""
@@ -268,7 +263,7 @@ def _vertical_forces(
     return float(ground), float(contact_force), float((ground - total) / ground)
 
 
-def _only_v(offset: Array) -> Array:
+def _only_v(offset: Floating) -> Floating:
     """Vector of a free arc: the spokes' constant part acts on V'."""
     vector = np.zeros((*offset.shape, 6))
     vector[..., 4] = offset
@@ -276,8 +271,8 @@ def _only_v(offset: Array) -> Array:
 
 
 def _linearised(
-    wheel: Wheel, theta: Array, field: CubicHermiteSpline | None
-) -> tuple[Array, Array]:
+    wheel: Wheel, theta: Floating, field: CubicHermiteSpline | None
+) -> tuple[Floating, Floating]:
     """Slope and offset of the spokes' force about the displacement field."""
     u = -1e-3 * np.cos(theta) if field is None else field(theta)
     force, slope = wheel.force(u)
@@ -285,8 +280,8 @@ def _linearised(
 
 
 def _smeared_spokes(
-    wheel: Wheel, theta: Array, in_contact: NDArray[np.bool_], field: CubicHermiteSpline | None
-) -> tuple[Array, Array]:
+    wheel: Wheel, theta: Floating, in_contact: Mask, field: CubicHermiteSpline | None
+) -> tuple[Floating, Floating]:
     """Slope and offset of the smeared spokes' load on the ring at the stages."""
     if wheel.spoke_angles is not None:
         return np.zeros_like(theta), np.zeros_like(theta)
@@ -304,15 +299,15 @@ class Jumps:
     ground takes `ground` times it directly.
     """
 
-    slope: Array
-    offset: Array
-    shear: Array
-    axial: Array
-    ground: Array
+    slope: Floating
+    offset: Floating
+    shear: Floating
+    axial: Floating
+    ground: Floating
 
 
 def _single_spokes(
-    wheel: Wheel, left: Edge, right: Edge, points: Array, field: CubicHermiteSpline | None
+    wheel: Wheel, left: Edge, right: Edge, points: Floating, field: CubicHermiteSpline | None
 ) -> Jumps:
     """Single spokes at the element ends, none if the spokes are smeared.
 
@@ -340,7 +335,7 @@ def _single_spokes(
 
 
 def _end_conditions(
-    wheel: Wheel, points: Array, first: int
+    wheel: Wheel, points: Floating, first: int
 ) -> tuple[list[tuple[int, int, float]], list[float]]:
     """Seven conditions beside the elements': (condition, unknown, factor) and right-hand sides.
 
@@ -372,7 +367,7 @@ def _end_conditions(
 
 def solve_ends(
     elements: Elements, jumps: Jumps, conditions: tuple[list[tuple[int, int, float]], list[float]]
-) -> tuple[Array, Array, float]:
+) -> tuple[Floating, Floating, float]:
     """Join the elements: states before (n + 1, 6) and behind (n, 6) their ends, and δ/R."""
     n = len(elements.end_map)
     across = np.zeros((n + 1, 6, 6)) + np.eye(6)

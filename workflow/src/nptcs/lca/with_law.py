@@ -6,16 +6,15 @@ from dataclasses import dataclass, field
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy.interpolate import CubicHermiteSpline
 from scipy.optimize import brentq
 
+from nptcs.arrays import Floating
 from nptcs.errors import InputError
 from nptcs.lca.batch import only_target
 from nptcs.lca.checks import require_positive
 from nptcs.lca.diagnosis import LARGEST_RESIDUAL
 from nptcs.lca.newton import LARGEST_CONTACT
-from nptcs.lca.scaling import Array
 from nptcs.lca.section import RingSection
 from nptcs.lca.single import ModelError
 from nptcs.lca.spoke_law import SpokeLaw
@@ -163,7 +162,7 @@ class _Search:
         return self.settle(Edge(-left.angle, left.share), right)
 
 
-def edge_at(coordinate: float, spokes: Array) -> Edge:
+def edge_at(coordinate: float, spokes: Floating) -> Edge:
     """Return the edge of a coordinate that grows with the contact and pauses at each spoke.
 
     Parameters
@@ -235,7 +234,7 @@ def solve_law(
     return state
 
 
-def _spoke_angles(count: int, hub_angle_deg: float | None) -> Array | None:
+def _spoke_angles(count: int, hub_angle_deg: float | None) -> Floating | None:
     """Angles of single spokes on -π…π (radians), increasing."""
     if hub_angle_deg is None:
         return None
@@ -307,7 +306,7 @@ def _state(wheel: Wheel, hub_angle_deg: float | None, pressed: Pressed) -> LawSt
 def _elongations(wheel: Wheel, pressed: Pressed) -> tuple[float, float]:
     """Lowest and highest elongation of a spoke (mm)."""
     radius = wheel.section.radius_mm
-    u: NDArray[np.floating]
+    u: Floating
     if wheel.spoke_angles is not None:
         u = pressed.field()(wheel.spoke_angles)
     elif wheel.passes_by:
@@ -337,7 +336,7 @@ def _refuse(state: LawState) -> None:
 
 
 def stiffness_ripple(
-    section: RingSection, law: SpokeLaw, load_n: float, hub_angles_deg: Array
+    section: RingSection, law: SpokeLaw, load_n: float, hub_angles_deg: Floating
 ) -> pd.DataFrame:
     """Return displacement and stiffness against the hub's angle, for single spokes.
 

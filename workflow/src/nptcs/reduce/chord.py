@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Mask
 from nptcs.config.reduction import ChordMethod
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -198,7 +196,7 @@ def _interpolated_ends(
     return ends[0], ends[1], len(used), ()
 
 
-def _unloading_flag(x: Array, inside: NDArray[np.bool_], tolerance: float) -> tuple[str, ...]:
+def _unloading_flag(x: Array, inside: Mask, tolerance: float) -> tuple[str, ...]:
     drop = (np.maximum.accumulate(x) - x)[inside]
     if drop.size and drop.max() > tolerance:
         return (f"the curve goes back by {drop.max():.2g} inside the range",)

@@ -8,8 +8,9 @@ import numpy as np
 import pandas as pd
 from scipy import stats
 
+from nptcs.arrays import Array
 from nptcs.config.reduction import StatisticsSettings
-from nptcs.reduce.sample import NAN, Array, b_basis_factor
+from nptcs.reduce.sample import NAN, b_basis_factor
 from nptcs.tables.specimens import Specimen
 
 KEY = ["material", "orientation_deg", "property"]

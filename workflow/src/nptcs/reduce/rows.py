@@ -7,13 +7,12 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.reduce.chord import Chord
 from nptcs.tables.specimens import Specimen
 
-Array = NDArray[np.float64]
 NAN = float("nan")
 # properties of the test, not of the material: no B-basis value is made of them
 TEST_CONDITIONS = (

@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from nptcs.arrays import Array
 from nptcs.config.reduction import RubberRules
-from nptcs.reduce.rows import Array, Property, finite_pair, missing
+from nptcs.reduce.rows import Property, finite_pair, missing
 from nptcs.reduce.tension import strength, ultimate_strain
 
 

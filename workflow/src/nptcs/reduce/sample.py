@@ -6,12 +6,11 @@ from collections.abc import Sequence
 from functools import cache
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy import stats
 
+from nptcs.arrays import Array
 from nptcs.config.reduction import StatisticsSettings
 
-Array = NDArray[np.float64]
 NAN = float("nan")
 NOT_NORMAL = 0.05
 

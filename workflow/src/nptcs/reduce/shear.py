@@ -5,17 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from nptcs.arrays import Array
 from nptcs.config.reduction import ShearRules
 from nptcs.reduce.chord import Chord, chord_slope
-from nptcs.reduce.rows import (
-    Array,
-    Property,
-    chord_rule,
-    from_chord,
-    missing,
-    strain_range,
-    value_at_peak,
-)
+from nptcs.reduce.rows import Property, chord_rule, from_chord, missing, strain_range, value_at_peak
 
 NO_STRAIN = "shear strain needs axial and transverse strain"
 

@@ -38,13 +38,13 @@ PLAIN_TABLES = {
     "impact": "impact.csv",
     "spoke_stiffness": "spoke_stiffness.csv",
     "spoke_curves": "spoke_curves.csv",
-    "against_published": "stiffness_against_published.csv",
+    "compare_published": "stiffness_against_published.csv",
     "stiffness_errors": "stiffness_errors.csv",
     "stiffness_by_level": "stiffness_by_level.csv",
     "neutral_line": "neutral_line.csv",
     "lca_validation": "lca_validation.csv",
     "lca_against_fem": "lca_against_fem.csv",
-    "lca_shape": "lca_shape.csv",
+    "lca_neutral_line": "lca_neutral_line.csv",
     "problems": "problems.csv",
 }
 """Fields of `Results` that are one table each, and their names among the contracts."""
@@ -95,13 +95,13 @@ class Results:
     impact: pd.DataFrame
     spoke_stiffness: pd.DataFrame
     spoke_curves: pd.DataFrame
-    against_published: pd.DataFrame
+    compare_published: pd.DataFrame
     stiffness_errors: pd.DataFrame
     stiffness_by_level: pd.DataFrame
     neutral_line: pd.DataFrame
     lca_validation: pd.DataFrame
     lca_against_fem: pd.DataFrame
-    lca_shape: pd.DataFrame
+    lca_neutral_line: pd.DataFrame
     problems: pd.DataFrame
 
     @property

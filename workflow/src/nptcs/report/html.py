@@ -11,7 +11,7 @@ from nptcs.report.data import Results
 from nptcs.report.sections.lca import lca_section
 from nptcs.report.sections.materials import materials_section
 from nptcs.report.sections.provenance import provenance_section
-from nptcs.report.sections.published_stiffness import against_section
+from nptcs.report.sections.published_stiffness import published_stiffness_section
 from nptcs.report.sections.specimens import specimens_section
 from nptcs.report.sections.spokes import spoke_section
 from nptcs.report.sections.studies import (
@@ -20,7 +20,7 @@ from nptcs.report.sections.studies import (
     sensitivity_section,
     surfaces_section,
 )
-from nptcs.report.sections.summary import head_blocks
+from nptcs.report.sections.summary import summary_blocks
 from nptcs.report.tables.sheets import sheets_of
 
 
@@ -48,7 +48,7 @@ def render_report(results: Results) -> str:
         surfaces_section,
         sensitivity_section,
         spoke_section,
-        against_section,
+        published_stiffness_section,
         lca_section,
         provenance_section,
     )
@@ -63,7 +63,7 @@ def render_report(results: Results) -> str:
         settings=results.config.report,
         sound=results.verdict()[0],
         synthetic=results.any_synthetic,
-        head=head_blocks(results, sheets),
+        head=summary_blocks(results, sheets),
         sections=[build(results, sheets) for build in builders],
         style=_resource("report.css"),
         script=_resource("sort.js"),

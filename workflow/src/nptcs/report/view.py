@@ -147,7 +147,7 @@ class Folded:
     text: str
 
 
-Block = TableView | Plots | Text | Listing | Facts | Folded
+PageBlock = TableView | Plots | Text | Listing | Facts | Folded
 
 
 @dataclass(frozen=True)
@@ -156,7 +156,7 @@ class Section:
 
     identifier: str
     title: str
-    blocks: tuple[Block, ...]
+    blocks: tuple[PageBlock, ...]
     synthetic: bool = False
 
 

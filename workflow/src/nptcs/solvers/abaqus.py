@@ -15,12 +15,7 @@ from pydantic import Field, field_validator
 from nptcs.config.abaqus import AbaqusModel
 from nptcs.decks.abaqus.deck import tyre_deck
 from nptcs.solvers.abaqus_history import load_curve
-from nptcs.solvers.abaqus_messages import (
-    COMPLETED,
-    NOT_CONVERGED,
-    licence_denial,
-    read_messages,
-)
+from nptcs.solvers.abaqus_messages import COMPLETED, NOT_CONVERGED, licence_denial, read_messages
 from nptcs.solvers.abaqus_watch import JobWatch, text_of
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, Ended, run_command, time_for_command

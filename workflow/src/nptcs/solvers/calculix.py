@@ -12,7 +12,7 @@ from nptcs.config.fe import FeSpokeModel, LayerlessGeometry, SpokeGeometry
 from nptcs.decks.calculix import complaints, spoke_deck, total_forces, true_thickness
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM
-from nptcs.fe.spoke.stiffness_line import fit_through_origin
+from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, run_command, time_for_command
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
@@ -64,8 +64,8 @@ def solve(inputs: CaseInputs) -> SolverResult:
             message=f"{options.command[0]} ended with code {ended.code} after {len(force)} of "
             f"{2 * STEPS} steps: {ended.output.strip()[-500:]}",
         )
-    tension = fit_through_origin(pulled, radial[:STEPS])
-    compression = fit_through_origin(pressed, -radial[STEPS:])
+    tension = stiffness_line(pulled, radial[:STEPS])
+    compression = stiffness_line(pressed, -radial[STEPS:])
     return SolverResult(
         status=Status.OK,
         extra={

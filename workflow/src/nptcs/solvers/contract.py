@@ -12,9 +12,10 @@ from enum import StrEnum
 from typing import Any, ClassVar
 
 import numpy as np
-from numpy.typing import ArrayLike, NDArray
+from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
+from nptcs.arrays import Array
 from nptcs.config.base import Strict
 from nptcs.config.tyre import TyreGeometry
 
@@ -69,7 +70,8 @@ class CaseInputs:
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
-        The nine ply constants (`nptcs.tables.material_card.PLY_CONSTANTS`), where the solver needs them.
+        The nine ply constants (`nptcs.tables.material_card.PLY_CONSTANTS`), where the solver
+        needs them.
     options : SolverOptions
         The solver's own options.
     tables : mapping of str to a sequence of rows
@@ -100,13 +102,13 @@ class SolverResult(BaseModel):
     curve: dict[str, list[float]] | None = Field(
         None, description="Columns of equal length, e.g. displacement_mm and force_n"
     )
-    shape: dict[str, list[float]] | None = Field(
+    neutral_line: dict[str, list[float]] | None = Field(
         None,
-        description="Displacement of the band's neutral line at the load, as `neutral_line` "
-        "makes it: theta_deg, radial_mm, tangential_mm",
+        description="Displacement of the band's neutral line at the load, as "
+        "`neutral_line_columns` makes it: theta_deg, radial_mm, tangential_mm",
     )
 
-    @field_validator("curve", "shape")
+    @field_validator("curve", "neutral_line")
     @classmethod
     def _equally_long(cls, columns: dict[str, list[float]] | None) -> dict[str, list[float]] | None:
         lengths = {name: len(column) for name, column in (columns or {}).items()}
@@ -115,14 +117,14 @@ class SolverResult(BaseModel):
         return columns
 
 
-SHAPE_DIGITS = 6
+NEUTRAL_LINE_DIGITS = 6
 """Significant digits of a neutral line: a case keeps hundreds of points."""
 
 
-def neutral_line(
+def neutral_line_columns(
     theta_deg: ArrayLike, radial_mm: ArrayLike, tangential_mm: ArrayLike
 ) -> dict[str, list[float]]:
-    """Lay out the displacement of the band's neutral line for `SolverResult.shape`.
+    """Lay out the displacement of the band's neutral line for `SolverResult.neutral_line`.
 
     Parameters
     ----------
@@ -144,8 +146,8 @@ def neutral_line(
     return {name: _rounded(np.asarray(column)[order]) for name, column in columns.items()}
 
 
-def _rounded(values: NDArray[np.float64]) -> list[float]:
-    return [float(f"{value + 0.0:.{SHAPE_DIGITS}g}") for value in values]
+def _rounded(values: Array) -> list[float]:
+    return [float(f"{value + 0.0:.{NEUTRAL_LINE_DIGITS}g}") for value in values]
 
 
 @dataclass(frozen=True)

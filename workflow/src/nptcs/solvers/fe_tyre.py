@@ -19,7 +19,7 @@ from nptcs.solvers.contract import (
     SolverOptions,
     SolverResult,
     Status,
-    neutral_line,
+    neutral_line_columns,
 )
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
 
@@ -61,18 +61,18 @@ def solve(inputs: CaseInputs) -> SolverResult:
         displacement_mm=state.rise_mm,
         extra={"table_force_residual_n": table.force_residual_n, **_summary(tyre, state)},
         curve=_curve(state.path),
-        shape=_shape(tyre, state),
+        neutral_line=_neutral_line(tyre, state),
     )
 
 
-def _shape(tyre: TyreModel, state: TyreState) -> dict[str, list[float]]:
+def _neutral_line(tyre: TyreModel, state: TyreState) -> dict[str, list[float]]:
     """Displacement of the band's middle, in the directions of the undeformed ring."""
     theta = tyre.mesh.theta
     start = tyre.neutral_line(np.zeros_like(state.displacement))
     x, y = (tyre.neutral_line(state.displacement) - start).T
     outward = x * np.sin(theta) - y * np.cos(theta)
     along = x * np.cos(theta) + y * np.sin(theta)
-    return neutral_line(np.degrees(theta), outward, along)
+    return neutral_line_columns(np.degrees(theta), outward, along)
 
 
 def _curve(path: LoadPath) -> dict[str, list[float]]:

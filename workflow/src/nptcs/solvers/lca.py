@@ -12,7 +12,7 @@ from nptcs import lca
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.spoke_law_table import SpokeLawTable
-from nptcs.lca.spoke_stiffness_table import OutOfRangeError, SpokeTable
+from nptcs.lca.spoke_stiffness_table import OutOfRangeError, SpokeStiffnessTable
 from nptcs.lca.state import LcaState
 from nptcs.solvers.contract import (
     CaseInputs,
@@ -20,11 +20,11 @@ from nptcs.solvers.contract import (
     SolverOptions,
     SolverResult,
     Status,
-    neutral_line,
+    neutral_line_columns,
 )
 
 VERSION = "1"
-SHAPE_DEG = np.arange(-180.0, 181.0)
+NEUTRAL_LINE_DEG = np.arange(-180.0, 181.0)
 """Angles of the neutral line."""
 
 
@@ -95,7 +95,7 @@ def _spokes(inputs: CaseInputs) -> lca.LinearSpokes | lca.SpokeLaw:
     try:
         if options.spoke_law_table is not None:
             return SpokeLawTable.from_rows(rows, count).law(c10)
-        spokes = SpokeTable.from_rows(rows).spokes(c10, count)
+        spokes = SpokeStiffnessTable.from_rows(rows).spokes(c10, count)
     except InputError as error:
         error.file = path
         raise
@@ -123,10 +123,10 @@ def _solve_linear(
         "contact_length_mm": state.contact_length_mm,
         "mean_pressure_mpa": state.mean_pressure_mpa,
     }
-    at = state.at(SHAPE_DEG)
-    shape = neutral_line(SHAPE_DEG, at["u_r_mm"], at["u_theta_mm"])
+    at = state.at(NEUTRAL_LINE_DEG)
+    neutral_line = neutral_line_columns(NEUTRAL_LINE_DEG, at["u_r_mm"], at["u_theta_mm"])
     displacement = [float(value) for value in curve["displacement_mm"]]
-    return _result(state, extra, displacement, loads, shape)
+    return _result(state, extra, displacement, loads, neutral_line)
 
 
 def _solve_law(inputs: CaseInputs, section: lca.RingSection, law: lca.SpokeLaw) -> SolverResult:
@@ -145,17 +145,17 @@ def _solve_law(inputs: CaseInputs, section: lca.RingSection, law: lca.SpokeLaw) 
         "highest_elongation_mm": state.elongation_mm[1],
     }
     displacement = [each.displacement_mm for each in states]
-    return _result(state, extra, displacement, loads, _law_shape(state))
+    return _result(state, extra, displacement, loads, _law_neutral_line(state))
 
 
-def _law_shape(state: lca.LawState) -> dict[str, list[float]]:
+def _law_neutral_line(state: lca.LawState) -> dict[str, list[float]]:
     """Neutral line of smeared spokes, which is solved for one half: the other is its mirror."""
     points = state.points().sort_values("theta_deg")
-    half, side = np.abs(SHAPE_DEG), np.sign(SHAPE_DEG)
+    half, side = np.abs(NEUTRAL_LINE_DEG), np.sign(NEUTRAL_LINE_DEG)
     radial, along = (
         np.interp(half, points["theta_deg"], points[name]) for name in ("u_r_mm", "u_theta_mm")
     )
-    return neutral_line(SHAPE_DEG, radial, side * along)
+    return neutral_line_columns(NEUTRAL_LINE_DEG, radial, side * along)
 
 
 def _result(
@@ -163,7 +163,7 @@ def _result(
     extra: dict[str, float],
     displacement: list[float],
     force: list[float],
-    shape: dict[str, list[float]],
+    neutral_line: dict[str, list[float]],
 ) -> SolverResult:
     """Return the contract's record of a solved state."""
     return SolverResult(
@@ -180,7 +180,7 @@ def _result(
             **extra,
         },
         curve={"displacement_mm": [0.0, *displacement], "force_n": [0.0, *force]},
-        shape=shape,
+        neutral_line=neutral_line,
     )
 
 

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 from scipy import linalg, stats
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.surface.terms import Polynomial, coded_to_natural, parse
 
@@ -39,43 +39,41 @@ class Surface:
     """
 
     polynomial: Polynomial
-    lower: NDArray[np.float64]
-    upper: NDArray[np.float64]
-    coefficients_coded: NDArray[np.float64]
-    coefficients_natural: NDArray[np.float64]
-    covariance_coded: NDArray[np.float64]
+    lower: Array
+    upper: Array
+    coefficients_coded: Array
+    coefficients_natural: Array
+    covariance_coded: Array
     points: int
     residual_sd: float
 
-    def coded(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def coded(self, x: Array) -> Array:
         """Map natural units, shape (m, n), to coded units in [-1, 1]."""
         return (x - (self.upper + self.lower) / 2) / ((self.upper - self.lower) / 2)
 
-    def predict(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def predict(self, x: Array) -> Array:
         """Evaluate the surface at points in natural units, shape (m, n) → (m,)."""
         return self.polynomial.matrix(self.coded(x)) @ self.coefficients_coded
 
-    def gradient(self, x: NDArray[np.float64], factor: str) -> NDArray[np.float64]:
+    def gradient(self, x: Array, factor: str) -> Array:
         """Evaluate ∂f/∂(factor) in natural units at points of shape (m, n) → (m,)."""
         axis = self.polynomial.factors.index(factor)
         half = (self.upper[axis] - self.lower[axis]) / 2
         matrix = self.polynomial.derivative_matrix(self.coded(x), factor)
         return matrix @ self.coefficients_coded / half
 
-    def prediction_half_width(
-        self, x: NDArray[np.float64], confidence: float = 0.95
-    ) -> NDArray[np.float64]:
+    def prediction_half_width(self, x: Array, confidence: float = 0.95) -> Array:
         """Half width of the prediction interval t·s·√(1 + x₀ᵀ(XᵀX)⁻¹x₀), shape (m, n) → (m,)."""
         matrix = self.polynomial.matrix(self.coded(x))
         variance = np.einsum("ij,jk,ik->i", matrix, self.covariance_coded, matrix)
         factor = stats.t.ppf(0.5 + confidence / 2, self.points - len(self.polynomial))
         return factor * np.sqrt(variance + self.residual_sd**2)
 
-    def coded_standard_errors(self) -> NDArray[np.float64]:
+    def coded_standard_errors(self) -> Array:
         """Return the standard errors of the coded coefficients, shape (p,)."""
         return np.sqrt(np.diag(self.covariance_coded))
 
-    def natural_standard_errors(self) -> NDArray[np.float64]:
+    def natural_standard_errors(self) -> Array:
         """Return the standard errors of the natural coefficients, shape (p,)."""
         middle, half = (self.upper + self.lower) / 2, (self.upper - self.lower) / 2
         to_natural = coded_to_natural(self.polynomial, middle, half)
@@ -158,7 +156,7 @@ def fit(
     )
 
 
-def refuse_aliased(matrix: NDArray[np.float64], names: Sequence[str]) -> None:
+def refuse_aliased(matrix: Array, names: Sequence[str]) -> None:
     """Refuse a design matrix, shape (m, p), whose columns depend on each other.
 
     Raises

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.config.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
 
@@ -58,7 +58,7 @@ def impact(surface: Surface, design: pd.DataFrame, rule: AveragingRule) -> pd.Da
     )
 
 
-def _gradient_over_domain(surface: Surface, factor: str) -> NDArray[np.float64]:
+def _gradient_over_domain(surface: Surface, factor: str) -> Array:
     """Evaluate ∂f/∂(factor) at the cell midpoints of a grid over the box of all ranges.
 
     The derivative is a polynomial, so the grid of n axes is filled axis by axis from the tensor

@@ -9,8 +9,8 @@ from itertools import product
 from math import comb, prod
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
 
 _POWER = re.compile(r"^\s*([A-Za-z_]\w*)\s*(?:\^\s*(\d+))?\s*$")
@@ -39,11 +39,11 @@ class Polynomial:
         """The terms as text: ``1``, ``thickness_mm``, ``thickness_mm*angle_deg``, …."""
         return tuple(_name(self.factors, powers) for powers in self.exponents)
 
-    def matrix(self, x: NDArray[np.float64]) -> NDArray[np.float64]:
+    def matrix(self, x: Array) -> Array:
         """Evaluate the terms: points of shape (m, n) give a design matrix of shape (m, p)."""
         return np.prod(x[:, None, :] ** np.array(self.exponents)[None, :, :], axis=2)
 
-    def derivative_matrix(self, x: NDArray[np.float64], factor: str) -> NDArray[np.float64]:
+    def derivative_matrix(self, x: Array, factor: str) -> Array:
         """Evaluate ∂(term)/∂(factor): points of shape (m, n) give a matrix of shape (m, p)."""
         axis = self.factors.index(factor)
         powers = np.array(self.exponents)
@@ -93,9 +93,7 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
     return polynomial
 
 
-def coded_to_natural(
-    polynomial: Polynomial, centre: NDArray[np.float64], half_range: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def coded_to_natural(polynomial: Polynomial, centre: Array, half_range: Array) -> Array:
     """Build the matrix M with b_natural = M b_coded, for c = (x - centre) / half_range.
 
     Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem. Shape (p, p).

@@ -11,11 +11,15 @@ from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaShape, LcaValidation
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.problems import Problems
 from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.published_stiffness import AgainstPublished, StiffnessByLevel, StiffnessErrors
+from nptcs.tables.published_stiffness import (
+    StiffnessAgainstPublished,
+    StiffnessByLevel,
+    StiffnessErrors,
+)
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable
@@ -111,21 +115,21 @@ TABLES = {
         "the records of the single spokes",
     ),
     "stiffness_against_published.csv": ResultTable(
-        AgainstPublished,
+        StiffnessAgainstPublished,
         "Computed vertical stiffness beside the published one, case by case",
-        "against_published",
+        "compare_published",
         "cases.csv; published values are those that the solver `published` looked up",
     ),
     "stiffness_errors.csv": ResultTable(
         StiffnessErrors,
         "Differences from the published stiffness, blind cases apart from calibrated ones",
-        "against_published",
+        "compare_published",
         "stiffness_against_published.csv, summed up",
     ),
     "stiffness_by_level.csv": ResultTable(
         StiffnessByLevel,
         "Main effects and differences by level of each factor",
-        "against_published",
+        "compare_published",
         "stiffness_against_published.csv, averaged over the cases at each level",
     ),
     "neutral_line.csv": ResultTable(
@@ -146,8 +150,8 @@ TABLES = {
         "lca_validation",
         "the model solved for the cases of table 7; FE values as printed there",
     ),
-    "lca_shape.csv": ResultTable(
-        LcaShape,
+    "lca_neutral_line.csv": ResultTable(
+        LcaNeutralLine,
         "Deformed neutral line of the shear band, LCA",
         "lca_validation",
         "the same solutions of the model, evaluated along the ring",

@@ -59,8 +59,8 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
     printed = published.rename(
         columns={"gradient": "published_gradient", "impact": "published_impact"}
     )
-    table = impact.merge(printed, how="left", on=["study", "factor"], suffixes=("", "_printed"))
-    other_range = ~np.isclose(table["range"], table.pop("range_printed").astype(float))
+    table = impact.merge(printed, how="left", on=["study", "factor"], suffixes=("", "_published"))
+    other_range = ~np.isclose(table["range"], table.pop("range_published").astype(float))
     table.loc[other_range, ["published_gradient", "published_impact"]] = np.nan
     table["difference_percent"] = 100 * (table["impact"].abs() / table["published_impact"] - 1)
     size = pd.DataFrame(

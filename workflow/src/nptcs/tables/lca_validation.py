@@ -65,7 +65,7 @@ class LcaAgainstFem(pa.DataFrameModel):
         ordered = True
 
 
-class LcaShape(pa.DataFrameModel):
+class LcaNeutralLine(pa.DataFrameModel):
     """Deformed middle line of the band, the hub at the origin and y up (figure 14)."""
 
     section: Series[str] = pa.Field(isin=["sandwich", "printed"])

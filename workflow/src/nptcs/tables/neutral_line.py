@@ -45,11 +45,11 @@ def neutral_lines(records: Sequence[CaseRecord], case_ids: Collection[str]) -> p
                 "case_id": record.case_id,
                 "solver": record.solver,
                 "load_n": record.load_n,
-                **record.result.shape,
+                **record.result.neutral_line,
             }
         )
         for record in records
-        if record.case_id in case_ids and record.result.shape is not None
+        if record.case_id in case_ids and record.result.neutral_line is not None
     ]
     columns = list(NeutralLine.to_schema().columns)
     return (

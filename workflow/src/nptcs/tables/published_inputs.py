@@ -6,7 +6,7 @@ import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
 
-class PrintedCoefficients(pa.DataFrameModel):
+class PublishedCoefficients(pa.DataFrameModel):
     """Coefficients of a response surface as printed (tables 6 and 8)."""
 
     term: Series[str]
@@ -19,7 +19,7 @@ class PrintedCoefficients(pa.DataFrameModel):
         coerce = True
 
 
-class PrintedImpact(pa.DataFrameModel):
+class PublishedImpact(pa.DataFrameModel):
     """Average gradients and comprehensive impact values as printed (table 9)."""
 
     study: Series[str]
@@ -50,7 +50,7 @@ class RubberCases(pa.DataFrameModel):
         coerce = True
 
 
-class SpokeStiffness(pa.DataFrameModel):
+class PublishedSpokeStiffness(pa.DataFrameModel):
     """Tension and compression stiffness of one spoke (table 10; further columns may follow)."""
 
     spoke_c10_mpa: Series[float] = pa.Field(gt=0, unique=True)

@@ -14,14 +14,14 @@ PUBLISHED = "published"
 """The solver whose results the others stand beside."""
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
-COMPUTED, PRINTED, DIFFERENCE = (
+COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (
     "computed_stiffness_n_per_mm",
     "published_stiffness_n_per_mm",
     "difference_percent",
 )
 
 
-class AgainstPublished(pa.DataFrameModel):
+class StiffnessAgainstPublished(pa.DataFrameModel):
     """Computed vertical stiffness beside the published one, a row a case and solver.
 
     Factors and fixed values stand to the right, as in ``cases.csv``. A case that failed is a row
@@ -130,8 +130,8 @@ class Comparison:
     calibration_cases: Mapping[str, Collection[int]]
 
 
-def against_published(cases: pd.DataFrame, studies: Mapping[str, Comparison]) -> pd.DataFrame:
-    """Set each computed stiffness beside the published one, as `AgainstPublished`.
+def compare_published(cases: pd.DataFrame, studies: Mapping[str, Comparison]) -> pd.DataFrame:
+    """Set each computed stiffness beside the published one, as `StiffnessAgainstPublished`.
 
     Parameters
     ----------
@@ -140,7 +140,7 @@ def against_published(cases: pd.DataFrame, studies: Mapping[str, Comparison]) ->
     studies : mapping of str to Comparison
         The studies that `PUBLISHED` answers.
     """
-    columns = list(AgainstPublished.to_schema().columns)
+    columns = list(StiffnessAgainstPublished.to_schema().columns)
     tables = [
         _one_solver(cases[cases["study"] == study], comparison, solver).assign(study=study)
         for study, comparison in studies.items()
@@ -160,16 +160,16 @@ def _one_solver(cases: pd.DataFrame, comparison: Comparison, solver: str) -> pd.
     names = table["case_id"]
     table["solver"] = solver
     table["status"] = by_solver[solver]["status"].loc[names].to_numpy()
-    table[COMPUTED] = by_solver[solver][STIFFNESS].loc[names].to_numpy(float)
-    table[PRINTED] = by_solver[PUBLISHED][STIFFNESS].loc[names].to_numpy(float)
-    table[DIFFERENCE] = 100 * (table[COMPUTED] / table[PRINTED] - 1)
+    table[COMPUTED_STIFFNESS] = by_solver[solver][STIFFNESS].loc[names].to_numpy(float)
+    table[PUBLISHED_STIFFNESS] = by_solver[PUBLISHED][STIFFNESS].loc[names].to_numpy(float)
+    table[DIFFERENCE] = 100 * (table[COMPUTED_STIFFNESS] / table[PUBLISHED_STIFFNESS] - 1)
     calibrated = list(comparison.calibration_cases.get(solver, ()))
     table["used_for_calibration"] = table["case"].isin(calibrated)
     return table
 
 
 def stiffness_errors(table: pd.DataFrame) -> pd.DataFrame:
-    """Sum the differences of `AgainstPublished` up, as `StiffnessErrors`."""
+    """Sum the differences of `StiffnessAgainstPublished` up, as `StiffnessErrors`."""
     rows = []
     groups = table.groupby(["study", "solver", "used_for_calibration"], sort=False)
     for (study, solver, calibrated), cases in groups:
@@ -197,14 +197,14 @@ def stiffness_errors(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def stiffness_by_level(table: pd.DataFrame, studies: Mapping[str, Comparison]) -> pd.DataFrame:
-    """Average `AgainstPublished` over the cases at each level, as `StiffnessByLevel`."""
+    """Average `StiffnessAgainstPublished` over the cases at each level, as `StiffnessByLevel`."""
     rows = []
     compared = table.dropna(subset=[DIFFERENCE])
     for (study, solver), cases in compared.groupby(["study", "solver"], sort=False):
         for factor in studies[str(study)].factors:
             first: pd.Series[float] | None = None
             for level, group in _balanced(cases, studies[str(study)], factor).groupby(factor):
-                mean = group[[COMPUTED, PRINTED]].mean()
+                mean = group[[COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS]].mean()
                 first = mean if first is None else first
                 change = 100 * (mean / first - 1)
                 rows.append(
@@ -214,10 +214,10 @@ def stiffness_by_level(table: pd.DataFrame, studies: Mapping[str, Comparison]) -
                         "factor": factor,
                         "level": level,
                         "compared": len(group),
-                        "computed_mean_n_per_mm": mean[COMPUTED],
-                        "published_mean_n_per_mm": mean[PRINTED],
-                        "computed_change_percent": change[COMPUTED],
-                        "published_change_percent": change[PRINTED],
+                        "computed_mean_n_per_mm": mean[COMPUTED_STIFFNESS],
+                        "published_mean_n_per_mm": mean[PUBLISHED_STIFFNESS],
+                        "computed_change_percent": change[COMPUTED_STIFFNESS],
+                        "published_change_percent": change[PUBLISHED_STIFFNESS],
                         "mean_difference_percent": group[DIFFERENCE].mean(),
                         "lowest_difference_percent": group[DIFFERENCE].min(),
                         "highest_difference_percent": group[DIFFERENCE].max(),

@@ -10,7 +10,7 @@ import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.fe.spoke.stiffness_line import fit_through_origin
+from nptcs.fe.spoke.stiffness_line import stiffness_line
 
 SPOKE_VALUES = ("spoke_c10_mpa", "spacing_mm", "thickness_mm", "angle_deg")
 DIRECTIONS = {"tension": 1.0, "compression": -1.0}
@@ -114,7 +114,7 @@ def _line(record: CaseRecord, printed: pd.DataFrame | None) -> dict[str, object]
         **{name: record.values[name] for name in SPOKE_VALUES},
         "status": record.result.status.value,
     }
-    theirs = _printed_row(printed, record.values["spoke_c10_mpa"])
+    theirs = _published_row(printed, record.values["spoke_c10_mpa"])
     for direction, sign in DIRECTIONS.items():
         stiffness = f"{direction}_stiffness_n_per_mm"
         row[f"published_{stiffness}"] = theirs.get(stiffness, np.nan)
@@ -125,7 +125,7 @@ def _line(record: CaseRecord, printed: pd.DataFrame | None) -> dict[str, object]
             sign * np.array(record.result.curve[name]) for name in ("displacement_mm", "force_n")
         )
         inside = displacement >= 0.0
-        line = fit_through_origin(displacement[inside], force[inside])
+        line = stiffness_line(displacement[inside], force[inside])
         row[stiffness] = line.slope
         row[f"{direction}_r2_uncentred"] = line.r2_uncentred
         row[f"{direction}_r2_centred"] = line.r2_centred
@@ -134,7 +134,7 @@ def _line(record: CaseRecord, printed: pd.DataFrame | None) -> dict[str, object]
     return row
 
 
-def _printed_row(printed: pd.DataFrame | None, c10_mpa: float) -> dict[str, float]:
+def _published_row(printed: pd.DataFrame | None, c10_mpa: float) -> dict[str, float]:
     """Return table 10's column for this rubber; nothing where it has none."""
     if printed is None:
         return {}

@@ -98,6 +98,6 @@ def quality_table(study: str, quality: Mapping[str, Mapping[str, float]]) -> pd.
 
 
 def by_powers(printed: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:
-    """Map the powers of each printed term (`PrintedCoefficients`) to its coefficient."""
+    """Map the powers of each printed term (`PublishedCoefficients`) to its coefficient."""
     powers = parse(list(printed["term"]), factors).exponents
     return dict(zip(powers, printed["coefficient"], strict=True))

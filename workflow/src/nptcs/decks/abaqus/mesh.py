@@ -10,17 +10,14 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.config.abaqus import AbaqusMesh
 from nptcs.config.fe import SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.spoke.mesh import subdivide
 from nptcs.fe.tyre.mesh import band_radii
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 # corners of a brick as steps along the three directions of its grid: C3D8's order
 BRICK = np.array(

@@ -15,12 +15,9 @@ from dataclasses import dataclass, field
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.fe.elements.neo_hooke import neo_hookean
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 # Voigt order of strains and stresses: 11, 22, 33, 12, 23, 13, with engineering shear strains
 VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
@@ -40,7 +37,7 @@ class Response:
     tangent: Array
 
 
-class Block(Protocol):
+class ElementGroup(Protocol):
     """Elements of one kind."""
 
     @property
@@ -138,7 +135,7 @@ def green_strain(deformation: Array) -> Array:
 
 
 @dataclass
-class LinearBlock:
+class LinearGroup:
     """Saint-Venant–Kirchhoff material: S = C E in the local frame of each point.
 
     Parameters
@@ -194,7 +191,7 @@ class LinearBlock:
 
 
 @dataclass
-class RubberBlock:
+class RubberGroup:
     """Nearly incompressible neo-Hookean rubber, displacement and discontinuous pressure.
 
     Energy: ∫ C10 (Ī1 - 3) + p (J - 1) - p²/(2κ). The pressure lives in each element and is

@@ -13,12 +13,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg.blas import dsyrk, dtrsm
 from scipy.linalg.lapack import dpotrf
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from nptcs.arrays import Array, Index
 
 
 @dataclass

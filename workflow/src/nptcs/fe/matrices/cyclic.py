@@ -9,11 +9,9 @@ from __future__ import annotations
 from collections.abc import Sequence
 
 import numpy as np
-from numpy.typing import NDArray
 from scipy.linalg import solve_banded
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
+from nptcs.arrays import Array, Index
 
 
 class BandedPattern:

@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.elements.groups import RubberBlock
+from nptcs.fe.elements.groups import RubberGroup
 from nptcs.fe.elements.lagrange import tensor_shape
 from nptcs.fe.output.fields import (
     at_points,
@@ -23,8 +23,6 @@ from nptcs.fe.spoke.equilibrium import SpokeModel, SpokeState
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS
 from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
 from nptcs.fe.tyre.mesh import band_radii
-
-Array = NDArray[np.float64]
 
 MATERIALS = {"spoke rubber": 1, "plate": 2, "band rubber": 3, "tread rubber": 4}
 BRICK_NODES = 27
@@ -128,7 +126,7 @@ def _plate_bricks(model: SpokeModel, state: SpokeState, spoke: int) -> Bricks:
 
 def _cells(
     material: str | Array,
-    leg: NDArray[np.int64],
+    leg: Index,
     spoke: int,
     volume: Array,
     density: Array,
@@ -180,7 +178,7 @@ def ring_bricks(
 
 
 def _extruded(
-    block: RubberBlock, corners: Array, displacement: Array, axial: Array, cells: dict[str, Array]
+    block: RubberGroup, corners: Array, displacement: Array, axial: Array, cells: dict[str, Array]
 ) -> Bricks:
     """Plane elements as bricks with their three nodes across at the axial places."""
     orders, points = RING_ORDERS[block.nodes.shape[1]], lattice(3, 2)

@@ -6,14 +6,12 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nptcs.fe.elements.groups import LinearBlock, RubberBlock, deformation_gradient
+from nptcs.arrays import Array
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup, deformation_gradient
 from nptcs.fe.elements.lagrange import jacobians, tensor_shape
 from nptcs.fe.elements.neo_hooke import neo_hookean
 from nptcs.fe.spoke.mesh import ElementSet
-
-Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
@@ -35,14 +33,14 @@ class RubberFields:
     pressure: Array
 
 
-def rubber_fields(block: RubberBlock, displacement: Array) -> RubberFields:
+def rubber_fields(block: RubberGroup, displacement: Array) -> RubberFields:
     """Fields at the Gauss points of a block, at its present pressures."""
     local = displacement[block.nodes]
     return _law(block, deformation_gradient(block.gradient, local, None), block.pressure_shape)
 
 
 def rubber_at(
-    block: RubberBlock,
+    block: RubberGroup,
     orders: Sequence[int],
     corners: Array,
     displacement: Array,
@@ -52,7 +50,7 @@ def rubber_at(
 
     Parameters
     ----------
-    block : RubberBlock
+    block : RubberGroup
     orders : sequence of int
         Polynomial orders of its elements.
     corners : array (elements, nodes, directions)
@@ -69,7 +67,7 @@ def rubber_at(
     return _law(block, deformation_gradient(gradient, displacement[block.nodes], None), modes)
 
 
-def _law(block: RubberBlock, deformation: Array, modes: Array) -> RubberFields:
+def _law(block: RubberGroup, deformation: Array, modes: Array) -> RubberFields:
     mean = block.pressure @ modes.T
     law = neo_hookean(block.c10_mpa, deformation, mean)
     # σ - p = (a F Fᵀ - a I1/3) / J
@@ -83,13 +81,13 @@ def _law(block: RubberBlock, deformation: Array, modes: Array) -> RubberFields:
     )
 
 
-def rubber_energy(block: RubberBlock, displacement: Array) -> Array:
+def rubber_energy(block: RubberGroup, displacement: Array) -> Array:
     """Strain energy of each element of a block, N mm."""
     energy: Array = np.sum(block.weight * rubber_fields(block, displacement).energy_density, axis=1)
     return energy
 
 
-def linear_energy(block: LinearBlock, displacement: Array) -> Array:
+def linear_energy(block: LinearGroup, displacement: Array) -> Array:
     """Strain energy of each element of a linear block, N mm."""
     strain = block.strain(displacement)
     stress = np.matmul(block.stiffness, strain[..., None])[..., 0]
@@ -97,14 +95,14 @@ def linear_energy(block: LinearBlock, displacement: Array) -> Array:
     return energy
 
 
-def fibre_stress(block: LinearBlock, displacement: Array, angle_deg: float) -> Array:
+def fibre_stress(block: LinearGroup, displacement: Array, angle_deg: float) -> Array:
     """Stress along the fibres at a plate's points, MPa, array (elements, points).
 
     Second Piola–Kirchhoff stress in axes that turn with the plate, whose strains are small.
 
     Parameters
     ----------
-    block : LinearBlock
+    block : LinearGroup
         The plates' in-plane block; the first half of its points lies in the ply +A, the second
         in the ply -A.
     displacement : array (nodes, 3)

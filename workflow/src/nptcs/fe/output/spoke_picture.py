@@ -10,14 +10,12 @@ from matplotlib.cm import ScalarMappable
 from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Mask
 from nptcs.fe.output.fields import at_points, fibre_stress, rubber_at
 from nptcs.fe.spoke.equilibrium import SpokeModel, SpokeState
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, ElementSet
 from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM, walk
-
-Array = NDArray[np.float64]
 
 COLOURS = "viridis"
 # points of the plates' rule across and along them
@@ -84,9 +82,7 @@ def section_stress(model: SpokeModel, state: SpokeState, fine: int = 12) -> Sect
     )
 
 
-def _profile(
-    model: SpokeModel, state: SpokeState, cut: NDArray[np.bool_], across: float
-) -> tuple[Array, Array]:
+def _profile(model: SpokeModel, state: SpokeState, cut: Mask, across: float) -> tuple[Array, Array]:
     """Heights and fibre stress of the Gauss points nearest to the section and to the faces."""
     fibres = fibre_stress(model.plates[0], state.displacement, model.design.angle_deg)
     line = np.polynomial.legendre.leggauss(GAUSS)[0]
@@ -99,7 +95,7 @@ def _profile(
     return height.ravel()[order], faces.swapaxes(1, 2).reshape(-1, 2)[order]
 
 
-def _cut(elements: ElementSet, fine: int) -> tuple[NDArray[np.bool_], Array]:
+def _cut(elements: ElementSet, fine: int) -> tuple[Mask, Array]:
     """Elements that the plane y = 0 cuts, and local points in it; all are cut alike."""
     low, high = elements.corners[..., 1].min(axis=1), elements.corners[..., 1].max(axis=1)
     cut = (low <= 0.0) & (high > 0.0)
@@ -128,7 +124,7 @@ def corners(values: Array) -> Array:
 
 def _quads(
     elements: ElementSet,
-    cut: NDArray[np.bool_],
+    cut: Mask,
     orders: tuple[int, int, int],
     displacement: Array,
     points: Array,

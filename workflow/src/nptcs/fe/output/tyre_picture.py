@@ -9,16 +9,14 @@ from matplotlib.collections import PolyCollection
 from matplotlib.colors import Normalize
 from matplotlib.figure import Figure
 from matplotlib.patches import Circle
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.fe.elements.lagrange import tensor_shape
 from nptcs.fe.output.bricks import RING_ORDERS
 from nptcs.fe.output.fields import lattice, rubber_at
 from nptcs.fe.output.spoke_picture import COLOURS, corners, section_stress
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
-
-Array = NDArray[np.float64]
 
 # drawn cells along each side of an element
 FINE = 4

@@ -11,13 +11,11 @@ from typing import Any
 from xml.etree import ElementTree
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.errors import InputError
 from nptcs.fe.output.bricks import BRICK_NODES, Bricks
 from nptcs.files import atomic_path
-
-Array = NDArray[np.float64]
 
 # positions nearer than this are one node, mm
 SAME_NODE_MM = 1e-5
@@ -39,7 +37,7 @@ def require_vtk() -> None:
         ) from error
 
 
-def shared_nodes(bricks: Bricks) -> tuple[NDArray[np.int64], Array, Array, dict[str, Array]]:
+def shared_nodes(bricks: Bricks) -> tuple[Index, Array, Array, dict[str, Array]]:
     """Merge the nodes that bricks of the same body share.
 
     Returns
@@ -104,7 +102,7 @@ def write_vtu(path: str | Path, bricks: Bricks, values: Mapping[str, float]) -> 
             raise OSError(f"VTK could not write {path}")
 
 
-def _grid(nodes: NDArray[np.int64], position: Array) -> Any:
+def _grid(nodes: Index, position: Array) -> Any:
     from vtkmodules.util.numpy_support import numpy_to_vtk, numpy_to_vtkIdTypeArray
     from vtkmodules.vtkCommonCore import vtkPoints
     from vtkmodules.vtkCommonDataModel import (

@@ -11,15 +11,15 @@ from zipfile import BadZipFile
 
 import numpy as np
 
-from nptcs.config.fe import FeModel, SpokeTableOptions
-from nptcs.fe.case import spoke_table
-from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.config.fe import EnergyTableOptions, FeModel
+from nptcs.fe.case import energy_table
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeDesign
 from nptcs.files import atomic_path, sha256_of_text
 from nptcs.provenance import code_hash
 
 
-def table_key(design: SpokeDesign, options: SpokeTableOptions) -> str:
+def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
     """SHA-256 over everything that a spoke's table depends on."""
     content: dict[str, Any] = {
         "code": code_hash("nptcs.fe.case"),
@@ -33,7 +33,7 @@ def table_key(design: SpokeDesign, options: SpokeTableOptions) -> str:
     return sha256_of_text(json.dumps(content, sort_keys=True))
 
 
-def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeTable:
+def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeEnergyTable:
     """Read a spoke's table from the folder, or compute it and leave it there.
 
     Files are written whole under a name made from their content's key: two workers that compute
@@ -47,16 +47,16 @@ def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> Sp
         None computes without keeping.
     """
     if folder is None:
-        return spoke_table(model, design)
+        return energy_table(model, design)
     path = folder / f"{table_key(design, model.table)}.npz"
     with suppress(OSError, ValueError, KeyError, BadZipFile):  # an unreadable file is a miss
         return read_table(path)
-    table = spoke_table(model, design)
+    table = energy_table(model, design)
     write_table(path, table)
     return table
 
 
-def write_table(path: Path, table: SpokeTable) -> None:
+def write_table(path: Path, table: SpokeEnergyTable) -> None:
     """Write a table atomically."""
     with atomic_path(path) as temporary, temporary.open("wb") as stream:
         np.savez(
@@ -71,10 +71,10 @@ def write_table(path: Path, table: SpokeTable) -> None:
         )
 
 
-def read_table(path: Path) -> SpokeTable:
+def read_table(path: Path) -> SpokeEnergyTable:
     """Read a table that `write_table` wrote."""
     with np.load(path) as data:
-        return SpokeTable(
+        return SpokeEnergyTable(
             float(data["height_mm"]),
             data["low"],
             data["high"],

@@ -4,24 +4,24 @@ The spoke is the same after a half turn about the circumferential line at its mi
 band change places, and the plies [+A/-A] come back as they were. What its energy depends on, the
 place of one foot as the other sees it, is then
 
-    s = |chord| - height,    β = (inclination of the chord) + φ/2,    φ,
+    s = |line| - height,    β = (inclination of the line) + φ/2,    φ,
 
-the chord running from the rim's foot to the band's, its inclination positive along +u_θ. The half
+the line running from the rim's foot to the band's, its inclination positive along +u_θ. The half
 turn takes β to -β and leaves s and φ: E(s, β, φ) = E(s, -β, φ).
 """
 
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from nptcs.arrays import Array
+
 # values (n, 3), first derivatives (n, 3, 3) and second derivatives (n, 3, 3, 3), the values' axis
 # after that of the points
 Map = tuple[Array, Array, Array]
 
 
-def chord_of(motion: Array, height_mm: float) -> Map:
+def coordinates_of(motion: Array, height_mm: float) -> Map:
     """Give (s, β, φ) of motions (n, 3) (u_r, u_θ, φ), and their derivatives by the motion."""
     along, radial = motion[:, 1], height_mm + motion[:, 0]
     length = np.hypot(along, radial)
@@ -41,14 +41,14 @@ def chord_of(motion: Array, height_mm: float) -> Map:
     return values, first, second
 
 
-def motion_of(chord: Array, height_mm: float) -> Map:
-    """Give (u_r, u_θ, φ) of chords (n, 3) (s, β, φ), and their derivatives by the chord."""
-    length, inclination = height_mm + chord[:, 0], chord[:, 1] - chord[:, 2] / 2.0
+def motion_of(coordinates: Array, height_mm: float) -> Map:
+    """Give (u_r, u_θ, φ) at coordinates (n, 3) (s, β, φ), and the derivatives by them."""
+    length, inclination = height_mm + coordinates[:, 0], coordinates[:, 1] - coordinates[:, 2] / 2.0
     cos, sin = np.cos(inclination), np.sin(inclination)
-    values = np.stack([length * cos - height_mm, length * sin, chord[:, 2]], axis=1)
+    values = np.stack([length * cos - height_mm, length * sin, coordinates[:, 2]], axis=1)
     # the inclination's derivatives by (s, β, φ)
     turn = np.array([0.0, 1.0, -0.5])
-    first, second = np.zeros((len(chord), 3, 3)), np.zeros((len(chord), 3, 3, 3))
+    first, second = np.zeros((len(coordinates), 3, 3)), np.zeros((len(coordinates), 3, 3, 3))
     first[:, 0, 0], first[:, 1, 0], first[:, 2, 2] = cos, sin, 1.0
     first[:, 0] -= (length * sin)[:, None] * turn
     first[:, 1] += (length * cos)[:, None] * turn
@@ -68,7 +68,7 @@ def carried(force: Array, tangent: Array, first: Array, second: Array) -> tuple[
     force, tangent : arrays (n, 3), (n, 3, 3)
         ∂E/∂values and second derivatives.
     first, second : arrays (n, 3, 3), (n, 3, 3, 3)
-        Of `chord_of` or `motion_of`.
+        Of `coordinates_of` or `motion_of`.
     """
     new_force: Array = np.einsum("ni,nij->nj", force, first)
     new_tangent: Array = np.matmul(first.swapaxes(1, 2), np.matmul(tangent, first))

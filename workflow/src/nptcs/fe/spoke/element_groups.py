@@ -5,14 +5,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from numpy.typing import NDArray
 
-from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.arrays import Array
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
 from nptcs.fe.elements.laminate import rotated_stiffness, transverse_shear
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, ElementSet
 
-Array = NDArray[np.float64]
 Rule = tuple[Array, Array]
 
 SHEAR_CORRECTION = 5.0 / 6.0
@@ -20,7 +19,7 @@ SHEAR_CORRECTION = 5.0 / 6.0
 
 def rubber_block(
     elements: ElementSet, orders: tuple[int, int, int], c10_mpa: float, bulk_mpa: float
-) -> RubberBlock:
+) -> RubberGroup:
     """Rubber elements with a linear pressure; a constant one where they are linear in a direction.
 
     An element that is linear through its thickness has too few displacements for a linear
@@ -32,7 +31,7 @@ def rubber_block(
     modes = np.ones((len(points), 1))
     if min(orders) > 1:
         modes = np.column_stack([modes, points])
-    return RubberBlock(elements.nodes, gradient, volume * weights, modes, c10_mpa, bulk_mpa)
+    return RubberGroup(elements.nodes, gradient, volume * weights, modes, c10_mpa, bulk_mpa)
 
 
 def plate_blocks(
@@ -42,7 +41,7 @@ def plate_blocks(
     ply: Mapping[str, float],
     angle_deg: float,
     thickness_mm: float,
-) -> list[LinearBlock]:
+) -> list[LinearGroup]:
     """Laminate [+A/-A] in a layer of solid elements that are linear through their thickness.
 
     The in-plane strains of the layer vary linearly through it; they are read at the plies' true
@@ -91,11 +90,11 @@ def plate_blocks(
     ]
 
 
-def _plate_block(elements: ElementSet, axes: Array, rule: Rule, stiffness: Array) -> LinearBlock:
+def _plate_block(elements: ElementSet, axes: Array, rule: Rule, stiffness: Array) -> LinearGroup:
     points, weights = rule
     _, slope = tensor_shape(LAYER_ORDERS, points)
     gradient, volume = jacobians(slope, elements.corners)
     frames = axes[elements.leg]
     local = np.einsum("egni,eij->egnj", gradient, frames)
     frame = np.repeat(frames[:, None], len(points), axis=1)
-    return LinearBlock(elements.nodes, local, volume * weights, stiffness, frame)
+    return LinearGroup(elements.nodes, local, volume * weights, stiffness, frame)

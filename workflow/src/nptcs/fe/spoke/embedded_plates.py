@@ -11,13 +11,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.fe.elements.groups import Response
 from nptcs.fe.spoke.mesh import ElementSet
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 # spring along each line of nodes, in parts of the ply's transverse modulus: a hundred times more
 # changes a spoke's stiffness by less than 0.01 %, and brings the rounding of large numbers in

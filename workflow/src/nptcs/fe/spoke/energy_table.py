@@ -2,7 +2,7 @@
 
 The polynomial is fitted to energies, forces and condensed tangents of finite element states
 together, so that forces and tangents in the tyre are exact derivatives of one energy. Its variables
-are those of `chord`: it is even in β, and only states with β ≥ 0 are computed.
+are those of `coordinates`: it is even in β, and only states with β ≥ 0 are computed.
 """
 
 from __future__ import annotations
@@ -13,19 +13,17 @@ from itertools import chain, product
 
 import numpy as np
 from numpy.polynomial import chebyshev
-from numpy.typing import NDArray
 
-from nptcs.config.fe import SpokeTableOptions
-from nptcs.fe.spoke.coordinates import carried, chord_of, motion_of
+from nptcs.arrays import Array, Index
+from nptcs.config.fe import EnergyTableOptions
+from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel, SpokeState
 
-Array = NDArray[np.float64]
-
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-# what rounding in `chord_of` may add to a state on the table's edge, in parts of the range: motions
-# are differences of lengths of a hundred millimetres, known to 1e-14
+# what rounding in `coordinates_of` may add to a state on the table's edge, in parts of the range:
+# motions are differences of lengths of a hundred millimetres, known to 1e-14
 EDGE = 1e-12
-NAMES = ("change of chord (mm)", "inclination β (rad)", "φ (rad)")
+NAMES = ("elongation (mm)", "inclination β (rad)", "φ (rad)")
 
 
 class TableRangeError(ValueError):
@@ -34,22 +32,22 @@ class TableRangeError(ValueError):
 
 @dataclass(frozen=True)
 class SpokeSamples:
-    """States of a spoke at chords (n, 3): energy (n,), its derivatives (n, 3) and (n, 3, 3)."""
+    """States of a spoke at coordinates (n, 3): energy (n,), derivatives (n, 3) and (n, 3, 3)."""
 
-    chord: Array
+    coordinates: Array
     energy: Array
     force: Array
     tangent: Array
 
 
 @dataclass(frozen=True)
-class SpokeTable:
+class SpokeEnergyTable:
     """Energy of one spoke, E(s, β, φ) in N mm.
 
     Parameters
     ----------
     height_mm : float
-        Length of the unloaded chord.
+        Distance between the spoke's two feet before the load.
     low, high : arrays (3,)
         Range of s (mm), β (rad), φ (rad).
     exponents : array (terms, 3)
@@ -59,13 +57,13 @@ class SpokeTable:
     narrowing : float
         Part of the ranges of β and φ that is left at the lowest s, linear from s = 0.
     force_residual_n : float
-        Root mean square misfit of the force along the chord at the sampled states.
+        Root mean square misfit of the force along the line between the feet at the sampled states.
     """
 
     height_mm: float
     low: Array
     high: Array
-    exponents: NDArray[np.int64]
+    exponents: Index
     coefficients: Array
     narrowing: float
     force_residual_n: float
@@ -78,10 +76,10 @@ class SpokeTable:
         TableRangeError
             If a motion lies outside the table.
         """
-        chord, first, second = chord_of(motion, self.height_mm)
-        self._check(chord)
+        coordinates, first, second = coordinates_of(motion, self.height_mm)
+        self._check(coordinates)
         scale = 2.0 / (self.high - self.low)
-        local = (chord - self.low) * scale - 1.0
+        local = (coordinates - self.low) * scale - 1.0
         lines = _lines(local, self.exponents)
         energy = _term(lines, (0, 0, 0)) @ self.coefficients
         force = np.empty((len(motion), 3))
@@ -93,17 +91,17 @@ class SpokeTable:
             tangent[:, i, j] = tangent[:, j, i] = value
         return energy, *carried(force, tangent, first, second)
 
-    def _check(self, chord: Array) -> None:
-        part = side_part(chord[:, 0], self.low[0], self.narrowing)
+    def _check(self, coordinates: Array) -> None:
+        part = side_part(coordinates[:, 0], self.low[0], self.narrowing)
         shrink = np.stack([np.ones_like(part), part, part], axis=1)
         low, high = self.low * shrink, self.high * shrink
         rounding = EDGE * (self.high - self.low)
-        outside = ~((chord >= low - rounding) & (chord <= high + rounding))
+        outside = ~((coordinates >= low - rounding) & (coordinates <= high + rounding))
         if outside.any():
             spoke, axis = np.argwhere(outside)[0]
             raise TableRangeError(
-                f"spoke {spoke}: {NAMES[axis]} = {chord[spoke, axis]:.4g} is outside the table's "
-                f"range {low[spoke, axis]:.4g} … {high[spoke, axis]:.4g} there"
+                f"spoke {spoke}: {NAMES[axis]} = {coordinates[spoke, axis]:.4g} is outside the "
+                f"table's range {low[spoke, axis]:.4g} … {high[spoke, axis]:.4g} there"
             )
 
 
@@ -114,7 +112,7 @@ def _order(*axes: int) -> tuple[int, int, int]:
     return counts[0], counts[1], counts[2]
 
 
-def _lines(local: Array, exponents: NDArray[np.int64]) -> list[list[Array]]:
+def _lines(local: Array, exponents: Index) -> list[list[Array]]:
     """Chebyshev polynomials of each direction and their first two derivatives, by term."""
     lines: list[list[Array]] = []
     for axis in range(3):
@@ -146,7 +144,7 @@ def side_part(s: Array, lowest: float, narrowing: float) -> Array:
     return part
 
 
-def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
+def sample(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
     """Compute the spoke's states on the table's grid, walking from neighbour to neighbour.
 
     Where a row loses its stability in compression, the samples of all rows end at its last level.
@@ -158,23 +156,23 @@ def sample(model: SpokeModel, options: SpokeTableOptions) -> SpokeSamples:
     """
     height = model.design.geometry.height_mm
     rows = list(_rows(model, options))
-    chords = [chord_of(np.array([state.motion for state in row]), height)[0] for row in rows]
-    lowest = max(float(chord[:, 0].min()) for chord in chords)
-    kept = np.concatenate(chords)[:, 0] >= lowest - 1e-9
+    by_row = [coordinates_of(np.array([state.motion for state in row]), height)[0] for row in rows]
+    lowest = max(float(row[:, 0].min()) for row in by_row)
+    kept = np.concatenate(by_row)[:, 0] >= lowest - 1e-9
     states = [state for state, keep in zip(chain(*rows), kept, strict=True) if keep]
-    chord = np.concatenate(chords)[kept]
+    coordinates = np.concatenate(by_row)[kept]
     force = np.array([state.force for state in states])
     tangent = np.array([state.tangent for state in states])
     return SpokeSamples(
-        chord,
+        coordinates,
         np.array([state.energy for state in states]),
-        *carried(force, tangent, *motion_of(chord, height)[1:]),
+        *carried(force, tangent, *motion_of(coordinates, height)[1:]),
     )
 
 
-def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeState]]:
+def _rows(model: SpokeModel, options: EnergyTableOptions) -> Iterator[list[SpokeState]]:
     """For each (β, φ): rows from s = 0 to both ends, each state from the last two."""
-    lengths = chebyshev_nodes(*options.chord_mm, options.samples[0])
+    lengths = chebyshev_nodes(*options.elongation_mm, options.samples[0])
     turns = chebyshev_nodes(-options.inclination_rad, options.inclination_rad, options.samples[1])
     rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
     # a level of s = 0, up to rounding, is the row's start itself
@@ -195,28 +193,28 @@ def _rows(model: SpokeModel, options: SpokeTableOptions) -> Iterator[list[SpokeS
 
 
 def _row(
-    model: SpokeModel, options: SpokeTableOptions, turn: float, phi: float, lengths: Array
+    model: SpokeModel, options: EnergyTableOptions, turn: float, phi: float, lengths: Array
 ) -> Array:
-    """Motions (n, 3) of a row at these changes of the chord."""
-    part = side_part(lengths, options.chord_mm[0], options.narrowing)
-    chord = np.stack([lengths, part * turn, part * phi], axis=1)
-    return motion_of(chord, model.design.geometry.height_mm)[0]
+    """Motions (n, 3) of a row at these elongations."""
+    part = side_part(lengths, options.elongation_mm[0], options.narrowing)
+    coordinates = np.stack([lengths, part * turn, part * phi], axis=1)
+    return motion_of(coordinates, model.design.geometry.height_mm)[0]
 
 
-def fit(samples: SpokeSamples, options: SpokeTableOptions, height_mm: float) -> SpokeTable:
+def fit(samples: SpokeSamples, options: EnergyTableOptions, height_mm: float) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
     All data enter in units of energy: forces times the half range, tangents times its square. A
     table that ends early has fewer levels of s, and for them a lower degree.
     """
     sides = (-options.inclination_rad, options.inclination_rad)
-    low, high = np.array([options.chord_mm, sides, options.phi_rad]).T
-    low[0] = samples.chord[:, 0].min()
-    narrowing = float(side_part(low[:1], options.chord_mm[0], options.narrowing)[0])
+    low, high = np.array([options.elongation_mm, sides, options.phi_rad]).T
+    low[0] = samples.coordinates[:, 0].min()
+    narrowing = float(side_part(low[:1], options.elongation_mm[0], options.narrowing)[0])
     half = 0.5 * (high - low)
-    local = (samples.chord - low) / half - 1.0
+    local = (samples.coordinates - low) / half - 1.0
     radial, side = options.degrees
-    radial = min(radial, 2 * len(np.unique(samples.chord[:, 0].round(6))) - 2)
+    radial = min(radial, 2 * len(np.unique(samples.coordinates[:, 0].round(6))) - 2)
     exponents = np.array(
         [
             (i, j, k)
@@ -238,11 +236,11 @@ def fit(samples: SpokeSamples, options: SpokeTableOptions, height_mm: float) -> 
     coefficients, _, rank, _ = np.linalg.lstsq(matrix, target, rcond=1e-12)
     if rank < len(exponents):
         raise ValueError(
-            f"{len(exponents)} terms cannot be found from {len(samples.chord)} states "
+            f"{len(exponents)} terms cannot be found from {len(samples.coordinates)} states "
             f"(rank {rank}): lower degrees or take more samples"
         )
     force = _term(lines, _order(0)) @ coefficients / half[0]
     residual = float(np.sqrt(np.mean((force - samples.force[:, 0]) ** 2)))
-    return SpokeTable(
+    return SpokeEnergyTable(
         height_mm, low, high, exponents, coefficients.astype(float), narrowing, residual
     )

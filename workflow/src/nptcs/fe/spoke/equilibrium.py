@@ -6,16 +6,14 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
-from nptcs.fe.elements.groups import Block, Response, element_dofs
+from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockPattern
 from nptcs.fe.spoke.element_groups import plate_blocks, rubber_block
 from nptcs.fe.spoke.embedded_plates import straight_block
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
-
-Array = NDArray[np.float64]
 
 MAX_ITERATIONS = 14
 SMALLEST_CUT = 1.0 / 16.0
@@ -118,7 +116,7 @@ class SpokeModel:
         self.scale = float(design.plates)
 
     @property
-    def blocks(self) -> list[Block]:
+    def blocks(self) -> list[ElementGroup]:
         """All element blocks, and what holds the plates straight."""
         return [*self.rubbers, *self.plates, *self.embedding]
 

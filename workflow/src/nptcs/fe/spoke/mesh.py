@@ -12,12 +12,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 RUBBER_ORDERS = (2, 2, 2)
 LAYER_ORDERS = (1, 2, 2)

@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 from threadpoolctl import threadpool_limits
 
+from nptcs.arrays import Array
 from nptcs.fe.spoke.equilibrium import SpokeModel, SpokeState
-from nptcs.fe.spoke.stiffness_line import OriginFit, fit_through_origin
-
-Array = NDArray[np.float64]
+from nptcs.fe.spoke.stiffness_line import StiffnessLine, stiffness_line
 
 TENSION_MM = 4.0
 COMPRESSION_MM = 20.0
@@ -54,8 +52,8 @@ class SpokeStiffness:
 
     tension: tuple[Array, Array]
     compression: tuple[Array, Array]
-    tension_fit: OriginFit
-    compression_fit: OriginFit
+    tension_fit: StiffnessLine
+    compression_fit: StiffnessLine
 
 
 @threadpool_limits.wrap(limits=1)
@@ -66,5 +64,5 @@ def spoke_stiffness(
     tension = pull(model, TENSION_MM, tension_steps)
     compression = pull(model, -COMPRESSION_MM, compression_steps)
     return SpokeStiffness(
-        tension, compression, fit_through_origin(*tension), fit_through_origin(*compression)
+        tension, compression, stiffness_line(*tension), stiffness_line(*compression)
     )

@@ -5,13 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
-Array = NDArray[np.float64]
+from nptcs.arrays import Array
 
 
 @dataclass(frozen=True)
-class OriginFit:
+class StiffnessLine:
     """Straight line through the origin.
 
     Parameters
@@ -29,10 +28,10 @@ class OriginFit:
     r2_centred: float
 
 
-def fit_through_origin(displacement_mm: Array, force_n: Array) -> OriginFit:
+def stiffness_line(displacement_mm: Array, force_n: Array) -> StiffnessLine:
     """Regress force on displacement through the origin: k = Σ f d / Σ d²."""
     slope = float(displacement_mm @ force_n / (displacement_mm @ displacement_mm))
     misfit = float(np.sum((force_n - slope * displacement_mm) ** 2))
     total = float(force_n @ force_n)
     spread = float(np.sum((force_n - force_n.mean()) ** 2))
-    return OriginFit(slope, 1.0 - misfit / total, 1.0 - misfit / spread)
+    return StiffnessLine(slope, 1.0 - misfit / total, 1.0 - misfit / spread)

@@ -5,13 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.config.fe import GroundContact
 from nptcs.fe.elements.lagrange import line_shape
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 EDGE_POINTS = 4
 # tanh is 1 to rounding beyond this

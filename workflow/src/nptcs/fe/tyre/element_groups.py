@@ -3,15 +3,13 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.elements.groups import LinearBlock, RubberBlock
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
 from nptcs.fe.tyre.mesh import RingMesh
 
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 Rule = tuple[Array, Array]
 
 THICK, THIN = (2, 2), (1, 2)
@@ -21,7 +19,7 @@ SHEAR_CORRECTION = 0.886
 
 def ring_rubbers(
     ring: RingMesh, width_mm: float, c10_mpa: float, bulk_to_shear_ratio: float
-) -> list[RubberBlock]:
+) -> list[RubberGroup]:
     """Rubber of the thick elements and of the thin ones around the wires, in plane strain."""
     thin = np.concatenate(list(ring.wire_elements))
     return [
@@ -37,7 +35,7 @@ def _rubber(
     width_mm: float,
     c10_mpa: float,
     ratio: float,
-) -> RubberBlock:
+) -> RubberGroup:
     points, weights = gauss([order + 1 for order in orders])
     _, slope = tensor_shape(orders, points)
     gradient, area = jacobians(slope, ring.positions[nodes])
@@ -45,10 +43,10 @@ def _rubber(
     if min(orders) > 1:
         modes = np.column_stack([modes, points])
     weight = area * weights * width_mm
-    return RubberBlock(nodes, gradient, weight, modes, c10_mpa, 2.0 * c10_mpa * ratio)
+    return RubberGroup(nodes, gradient, weight, modes, c10_mpa, 2.0 * c10_mpa * ratio)
 
 
-def wire_blocks(ring: RingMesh, tyre: TyreGeometry) -> list[LinearBlock]:
+def wire_groups(ring: RingMesh, tyre: TyreGeometry) -> list[LinearGroup]:
     """Wires as beams in the middle of the thin elements.
 
     Two points at a quarter of the diameter from the wire's axis have the area and the moment of
@@ -74,7 +72,7 @@ def wire_blocks(ring: RingMesh, tyre: TyreGeometry) -> list[LinearBlock]:
 
 def _beam(
     ring: RingMesh, nodes: Index, rule: Rule, component: int, modulus: float, area_mm2: float
-) -> LinearBlock:
+) -> LinearGroup:
     """Stiffness of one strain component (Voigt place) along the wires; local axis 1 is theirs."""
     points, weights = rule
     _, slope = tensor_shape(THIN, points)
@@ -89,4 +87,4 @@ def _beam(
     local = np.einsum("egni,egij->egnj", gradient, frame[..., :2, :2])
     stiffness = np.zeros((len(points), 6, 6))
     stiffness[:, component, component] = modulus
-    return LinearBlock(nodes, local, length * weights * area_mm2, stiffness, frame)
+    return LinearGroup(nodes, local, length * weights * area_mm2, stiffness, frame)

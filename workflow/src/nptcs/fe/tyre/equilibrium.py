@@ -6,20 +6,17 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.config.fe import GroundContact, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.elements.groups import Block, Response, element_dofs
+from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
 from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.cyclic import BandedPattern, folded_order
-from nptcs.fe.spoke.energy_table import SpokeTable, TableRangeError
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable, TableRangeError
 from nptcs.fe.tyre.contact import Ground
-from nptcs.fe.tyre.element_groups import ring_rubbers, wire_blocks
+from nptcs.fe.tyre.element_groups import ring_rubbers, wire_groups
 from nptcs.fe.tyre.mesh import RingMesh, build_ring
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 MAX_ITERATIONS = 40
 # from this iteration on, steps that do not shrink are shortened
@@ -79,7 +76,7 @@ class TyreModel:
     Parameters
     ----------
     tyre : TyreGeometry
-    table : SpokeTable
+    table : SpokeEnergyTable
         Energy of one whole spoke.
     foot_width_mm : float
         Circumferential width of a spoke's foot on the band.
@@ -93,7 +90,7 @@ class TyreModel:
     def __init__(
         self,
         tyre: TyreGeometry,
-        table: SpokeTable,
+        table: SpokeEnergyTable,
         foot_width_mm: float,
         c10_mpa: float,
         bulk_to_shear_ratio: float,
@@ -104,8 +101,8 @@ class TyreModel:
         self.mesh = build_ring(tyre, mesh, foot_width_mm)
         ring = self.mesh
         self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
-        self.wires = wire_blocks(ring, tyre)
-        self._bodies: list[Block] = [*self.rubbers, *self.wires]
+        self.wires = wire_groups(ring, tyre)
+        self._bodies: list[ElementGroup] = [*self.rubbers, *self.wires]
         self.ground = Ground(ring.positions, ring.tread_edges, tyre.tread_width_mm, contact)
         self.foot_operator = foot_operators(ring)
         nodes = [*[block.nodes for block in self._bodies], ring.feet]

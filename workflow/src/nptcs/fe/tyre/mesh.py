@@ -9,13 +9,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Index
 from nptcs.config.fe import TyreMesh
 from nptcs.config.tyre import TyreGeometry
-
-Array = NDArray[np.float64]
-Index = NDArray[np.int64]
 
 
 @dataclass(frozen=True)

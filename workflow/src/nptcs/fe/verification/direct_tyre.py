@@ -15,19 +15,17 @@ from dataclasses import dataclass
 from typing import Protocol
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.elements.groups import Response, RubberBlock
+from nptcs.fe.elements.groups import Response, RubberGroup
 from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, solve_indefinite
-from nptcs.fe.spoke.energy_table import SpokeTable
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState, foot_operators
 from nptcs.fe.tyre.mesh import RingMesh
-
-Array = NDArray[np.float64]
 
 
 class Foot(Protocol):
@@ -122,7 +120,7 @@ class Linearised:
     ----------
     q : array (coordinates,)
     displacement : array (nodes, 3)
-    rubbers : list of RubberBlock
+    rubbers : list of RubberGroup
         With this iterate's pressures and linearisation.
     energy, force, tangent : float, array (coordinates,), array (coordinates, coordinates)
     step : array (free unknowns,)
@@ -134,7 +132,7 @@ class Linearised:
 
     q: Array
     displacement: Array
-    rubbers: list[RubberBlock]
+    rubbers: list[RubberGroup]
     energy: float
     force: Array
     tangent: Array
@@ -176,7 +174,7 @@ class MeshedSpoke(SpokeModel):
         return self._linearise(q, displacement, rubbers, foot)
 
     def _linearise(
-        self, q: Array, displacement: Array, rubbers: list[RubberBlock], foot: Foot
+        self, q: Array, displacement: Array, rubbers: list[RubberGroup], foot: Foot
     ) -> Linearised:
         self.rubbers = rubbers
         responses, force = self._respond(displacement)
@@ -217,7 +215,7 @@ class DirectTyre(TyreModel):
     model : FeModel
     tyre : TyreGeometry
     design : SpokeDesign
-    table : SpokeTable
+    table : SpokeEnergyTable
         Not used for the solution: names the motions that `TyreState` reports.
     band_c10_mpa : float
     rigid_foot : bool
@@ -229,7 +227,7 @@ class DirectTyre(TyreModel):
         model: FeModel,
         tyre: TyreGeometry,
         design: SpokeDesign,
-        table: SpokeTable,
+        table: SpokeEnergyTable,
         band_c10_mpa: float,
         rigid_foot: bool = False,
     ) -> None:

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
+from nptcs.arrays import Array
 from nptcs.config.ingest import Pairing
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Array, Signals, largest
-from nptcs.ingest.reading.raw_file import RawTable
+from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
+from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.reading.units import FACTORS
 
 FEWEST_COMMON_ROWS = 5
@@ -16,7 +17,7 @@ _LEVELS = np.linspace(0.1, 0.8, 15)
 
 
 def pair(
-    force: RawTable, strain: RawTable, offset_s: float | None, settings: Pairing, specimen: str
+    force: RawFile, strain: RawFile, offset_s: float | None, settings: Pairing, specimen: str
 ) -> Signals:
     """Bring the readings of two files to common rows.
 
@@ -26,7 +27,7 @@ def pair(
 
     Parameters
     ----------
-    force, strain : RawTable
+    force, strain : RawFile
         The two files.
     offset_s : float or None
         Added to the strain file's time. None: from the force that both recorded, else 0 and
@@ -58,7 +59,7 @@ def pair(
     )
 
 
-def _settle_force_unit(force: RawTable, strain: RawTable, settings: Pairing, specimen: str) -> None:
+def _settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
     """Tell the unit of the strain file's force from the peak that both files recorded."""
     ours, theirs = abs(largest(force.values["force"])), abs(largest(strain.values["force"]))
     fitting = {
@@ -82,9 +83,7 @@ def _settle_force_unit(force: RawTable, strain: RawTable, settings: Pairing, spe
     strain.notes = (*strain.notes, f"force: taken as {unit}, its peak is the machine's")
 
 
-def _require_equal_force(
-    force: RawTable, strain: RawTable, settings: Pairing, specimen: str
-) -> None:
+def _require_equal_force(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
     ours, theirs = largest(force.values["force"]), largest(strain.values["force"])
     difference = abs(abs(theirs) / abs(ours) - 1) if ours else np.inf
     if difference > settings.force_tolerance:
@@ -100,7 +99,7 @@ def _require_equal_force(
         )
 
 
-def _by_force(force: RawTable, strain: RawTable) -> Signals:
+def _by_force(force: RawFile, strain: RawFile) -> Signals:
     """Take the strain file's own force; add the machine's peak where the camera missed it."""
     values = dict(strain.values)
     signals = Signals(values)
@@ -119,8 +118,8 @@ def _by_force(force: RawTable, strain: RawTable) -> Signals:
 
 
 def _by_time(
-    force: RawTable,
-    strain: RawTable,
+    force: RawFile,
+    strain: RawFile,
     offset_s: float | None,
     shared: bool,
     settings: Pairing,
@@ -151,11 +150,11 @@ def _by_time(
     return signals
 
 
-def _rate(table: RawTable) -> float:
+def _rate(table: RawFile) -> float:
     return float(1 / np.median(np.diff(table.values["time"])))
 
 
-def _require_growing_time(table: RawTable, specimen: str) -> None:
+def _require_growing_time(table: RawFile, specimen: str) -> None:
     time = table.values["time"]
     bad = ~(np.diff(time) > 0)
     if bad.any():
@@ -170,7 +169,7 @@ def _require_growing_time(table: RawTable, specimen: str) -> None:
         )
 
 
-def _offset_by_force(force: RawTable, strain: RawTable) -> float:
+def _offset_by_force(force: RawFile, strain: RawFile) -> float:
     """Median difference of the times at which both reach the same forces."""
     peak = min(abs(largest(table.values["force"])) for table in (force, strain))
     ours = _times_at(force.values["time"], force.values["force"], _LEVELS * peak)
@@ -186,9 +185,7 @@ def _times_at(time: Array, signal: Array, levels: Array) -> Array:
     return np.interp(levels, rising[first], time[kept][first])
 
 
-def _require_equal_onset(
-    force: RawTable, strain: RawTable, settings: Pairing, specimen: str
-) -> None:
+def _require_equal_onset(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
     name = max(
         (channel for channel in STRAIN_CHANNELS if channel in strain.values),
         key=lambda channel: float(np.nanmax(np.abs(strain.values[channel]))),
@@ -206,7 +203,7 @@ def _require_equal_onset(
         )
 
 
-def _onset(table: RawTable, name: str, specimen: str) -> tuple[float, float]:
+def _onset(table: RawFile, name: str, specimen: str) -> tuple[float, float]:
     """Where the line through 5–25 % of the rise meets the level before loading; time to peak."""
     kept = ~np.isnan(table.values[name])
     time, signal = table.values["time"][kept], table.values[name][kept]
@@ -229,7 +226,7 @@ def _onset(table: RawTable, name: str, specimen: str) -> tuple[float, float]:
     return float(time[first] - level / slope), float(time[peak] - time[first])
 
 
-def _merge(force: RawTable, strain: RawTable, offset_s: float) -> dict[str, Array]:
+def _merge(force: RawFile, strain: RawFile, offset_s: float) -> dict[str, Array]:
     """Interpolate onto the slower file's times, and onto the time of the largest force."""
     strain_time = strain.values["time"] + offset_s
     force_time = force.values["time"]

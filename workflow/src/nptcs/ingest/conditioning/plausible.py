@@ -9,12 +9,12 @@ import numpy as np
 from nptcs.config.ingest import Plausible
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals
-from nptcs.ingest.reading.raw_file import RawTable
+from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.tables.specimens import Specimen
 
 
 def check_machine_area(
-    signals: Signals, specimen: Specimen, table: RawTable, settings: Plausible
+    signals: Signals, specimen: Specimen, table: RawFile, settings: Plausible
 ) -> None:
     """Compare the machine's stress with force over the measured area.
 
@@ -47,9 +47,7 @@ def check_machine_area(
         )
 
 
-def check_labels(
-    signals: Signals, specimen: Specimen, table: RawTable, settings: Plausible
-) -> None:
+def check_labels(signals: Signals, specimen: Specimen, table: RawFile, settings: Plausible) -> None:
     """Flag dimensions in the file's header that differ from the sheet's."""
     sheet = {
         "width": specimen.mean_width_mm,
@@ -69,7 +67,7 @@ def check_labels(
 
 
 def check_physics(
-    signals: Signals, specimen: Specimen, tables: Sequence[RawTable], settings: Plausible
+    signals: Signals, specimen: Specimen, tables: Sequence[RawFile], settings: Plausible
 ) -> None:
     """Stop if strain or apparent modulus cannot be.
 

@@ -5,11 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Mask, Rows
 from nptcs.tables.curves import Step
-
-Array = NDArray[np.float64]
 
 STRAIN_CHANNELS = (
     "strain",
@@ -37,7 +35,7 @@ class Signals:
     def __len__(self) -> int:
         return len(next(iter(self.values.values())))
 
-    def take(self, rows: NDArray[np.bool_] | NDArray[np.intp]) -> None:
+    def take(self, rows: Mask | Rows) -> None:
         """Keep some rows."""
         self.values = {name: readings[rows] for name, readings in self.values.items()}
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import EndOfTest, ExtensometerRemoval, ForceZero, MissingValues
-from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Array, Signals, largest
+from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
 
 STRAINS = ("strain_axial", "strain_transverse", "strain_axial_back")
 
@@ -55,7 +55,7 @@ def empty_spikes(signals: Signals, settings: MissingValues) -> None:
         signals.flags.append(f"{len(found)} wild readings emptied: {', '.join(list(found)[:3])}")
 
 
-def _spikes(readings: Array, share: float) -> NDArray[np.intp]:
+def _spikes(readings: Array, share: float) -> Rows:
     kept = np.flatnonzero(~np.isnan(readings))
     if len(kept) < 10:
         return kept[:0]

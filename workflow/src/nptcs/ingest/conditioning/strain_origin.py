@@ -5,10 +5,10 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import OriginOfStrain
-from nptcs.ingest.conditioning.signals import Array, Signals
+from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.conditioning.steps import STRAINS
 
 _ITERATIONS = 20
@@ -16,14 +16,14 @@ _CONVERGED = 1e-7
 
 
 @dataclass(frozen=True)
-class OriginFit:
+class StrainOriginFit:
     """Parabola strain = c0 + c1·σ + c2·σ² over the window; c0 is the shift."""
 
     coefficients: Array
     standard_error: float
     scatter: float
     r_squared: float
-    rows: NDArray[np.intp]
+    rows: Rows
 
 
 def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> None:
@@ -72,7 +72,7 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
 
 def _fit(
     strain: Array, stress: Array, window: tuple[float, float], fewest: int
-) -> tuple[OriginFit | None, str]:
+) -> tuple[StrainOriginFit | None, str]:
     """Fit, with the window counted from the origin that the fit itself finds."""
     measured = np.flatnonzero(~np.isnan(strain[: int(np.argmax(stress)) + 1]))
     if len(measured) < fewest:
@@ -94,16 +94,14 @@ def _fit(
     return fit, ""
 
 
-def _rows_in_window(
-    strain: Array, measured: NDArray[np.intp], low: float, high: float
-) -> NDArray[np.intp]:
+def _rows_in_window(strain: Array, measured: Rows, low: float, high: float) -> Rows:
     """Find the readings of the first passage through the window."""
     beyond = np.flatnonzero(strain[measured] > high)
     first_pass = measured[: int(beyond[0])] if len(beyond) else measured
     return first_pass[strain[first_pass] >= low]
 
 
-def _parabola(strain: Array, stress: Array, rows: NDArray[np.intp]) -> OriginFit:
+def _parabola(strain: Array, stress: Array, rows: Rows) -> StrainOriginFit:
     scale = float(np.abs(stress[rows]).max()) or 1.0
     design = np.vander(stress[rows] / scale, 3, increasing=True)
     scaled, *_ = np.linalg.lstsq(design, strain[rows])
@@ -113,10 +111,10 @@ def _parabola(strain: Array, stress: Array, rows: NDArray[np.intp]) -> OriginFit
     total = float(((strain[rows] - strain[rows].mean()) ** 2).sum())
     r_squared = 1 - float(residuals @ residuals) / total if total else 0.0
     coefficients = scaled / scale ** np.arange(3)
-    return OriginFit(coefficients, error, variance**0.5, r_squared, rows)
+    return StrainOriginFit(coefficients, error, variance**0.5, r_squared, rows)
 
 
-def _shift(signals: Signals, fit: OriginFit, sign: float) -> dict[str, float]:
+def _shift(signals: Signals, fit: StrainOriginFit, sign: float) -> dict[str, float]:
     """Subtract each strain's own c0 over the same readings."""
     shifts = {}
     stress = sign * signals.values["stress"]
@@ -130,7 +128,7 @@ def _shift(signals: Signals, fit: OriginFit, sign: float) -> dict[str, float]:
     return shifts
 
 
-def _toe_end(strain: Array, stress: Array, fit: OriginFit) -> int:
+def _toe_end(strain: Array, stress: Array, fit: StrainOriginFit) -> int:
     """First row after the last one below the window that is off the parabola."""
     before = np.arange(int(fit.rows[0]))
     predicted = np.polynomial.polynomial.polyval(stress[before], fit.coefficients)

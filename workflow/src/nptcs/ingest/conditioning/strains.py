@@ -7,8 +7,9 @@ from pathlib import Path
 
 import numpy as np
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning.signals import Array, Signals, largest
+from nptcs.ingest.conditioning.signals import Signals, largest
 from nptcs.ingest.reading.profiles import normalise
 from nptcs.tables.specimens import Specimen, TestType
 

@@ -12,18 +12,18 @@ from typing import Literal, Protocol
 
 import numpy as np
 import pandas as pd
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
-from nptcs.ingest.reading.table_columns import Block
+from nptcs.ingest.reading.table_columns import FoundTable
 
 NOTHING = "nan"
 Kind = Literal["data", "odd data", "empty", "remark", "names", "other"]
 """``odd data``: a row of numbers that holds something else too."""
 
 
-class Source(Protocol):
+class CellSource(Protocol):
     """Rows of cells, whatever the file is."""
 
     part: str
@@ -42,7 +42,7 @@ class Source(Protocol):
         """Number of cells of each row."""
         ...
 
-    def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
+    def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers, shape (rows, positions)."""
         ...
 
@@ -142,7 +142,7 @@ class TextSource:
         """Tell whether the cell says that there is no value."""
         return cell.casefold() in MISSING or cell in self.missing
 
-    def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
+    def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
         lines = [self._line_for_pandas(block, row, positions) for row in block.rows_of_data]
         text = "\n".join(lines)
@@ -165,7 +165,7 @@ class TextSource:
         self._refuse_infinite(block, values, positions)
         return values
 
-    def _line_for_pandas(self, block: Block, row: int, positions: Sequence[int]) -> str:
+    def _line_for_pandas(self, block: FoundTable, row: int, positions: Sequence[int]) -> str:
         """Return the line as it is if it is all numbers, else only the checked cells."""
         if self.kinds[row] == "data":
             return self.lines[row]
@@ -178,7 +178,7 @@ class TextSource:
             return " ".join(cells)
         return self.dialect.delimiter.join(f'"{cell}"' for cell in cells)
 
-    def _check_cells(self, block: Block, row: int, positions: Sequence[int]) -> None:
+    def _check_cells(self, block: FoundTable, row: int, positions: Sequence[int]) -> None:
         cells = self.cells(row)
         for position in positions:
             cell = cells[position] if position < len(cells) else ""
@@ -199,9 +199,7 @@ class TextSource:
         before = r"\d" if self._marks_apart else r'"[+-]?\d{1,3}'
         return re.search(rf"{before}{re.escape(mark)}\d{{3}}", text, re.ASCII) is not None
 
-    def _numbers_with_thousands(
-        self, block: Block, positions: Sequence[int]
-    ) -> NDArray[np.float64]:
+    def _numbers_with_thousands(self, block: FoundTable, positions: Sequence[int]) -> Array:
         def plain(cell: str) -> str:
             if self.is_missing(cell):
                 return "nan"
@@ -211,9 +209,7 @@ class TextSource:
         text = [[plain(c[p]) if p < len(c) else "nan" for p in positions] for c in rows]
         return np.array(text, dtype=np.float64)
 
-    def _refuse_infinite(
-        self, block: Block, values: NDArray[np.float64], positions: Sequence[int]
-    ) -> None:
+    def _refuse_infinite(self, block: FoundTable, values: Array, positions: Sequence[int]) -> None:
         for index, column in np.argwhere(np.isinf(values))[:1]:
             raise InputError(
                 "number is too large",
@@ -254,7 +250,7 @@ class SheetSource:
         """Number of cells of each row."""
         return [len(row) for row in self.rows]
 
-    def numbers(self, block: Block, positions: Sequence[int]) -> NDArray[np.float64]:
+    def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
         values = [
             [self._number(block, row, position) for position in positions]
@@ -262,7 +258,7 @@ class SheetSource:
         ]
         return np.array(values, dtype=np.float64)
 
-    def _number(self, block: Block, row: int, position: int) -> float:
+    def _number(self, block: FoundTable, row: int, position: int) -> float:
         cell = self.rows[row][position] if position < len(self.rows[row]) else None
         if _is_native_number(cell):
             return float(cell)  # type: ignore[arg-type]

@@ -6,29 +6,29 @@ from itertools import groupby
 from pathlib import Path
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import SheetSource, Source, TextSource
-from nptcs.ingest.reading.table_columns import SMALLEST_BLOCK, Block, describe_columns
+from nptcs.ingest.reading.cells import CellSource, SheetSource, TextSource
+from nptcs.ingest.reading.table_columns import SMALLEST_TABLE, FoundTable, describe_columns
 
 DATA = ("data", "odd data")
 _ROWS_ABOVE = 3
 
 
-def find_blocks(source: Source, path: Path, unnamed: str) -> list[Block]:
-    """Find every table of at least `SMALLEST_BLOCK` rows.
+def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable]:
+    """Find every table of at least `SMALLEST_TABLE` rows.
 
     Blank rows and one-cell remarks inside a table are left out and noted. A row that is
     neither numbers nor remark nor names, in the middle of a table, stops the file.
 
     Parameters
     ----------
-    source : Source
+    source : CellSource
         Rows of cells.
     path : Path
         For messages.
     unnamed : str
         Where surplus columns without a name stand (`FormatProfile.unnamed_columns`).
     """
-    blocks = [block for block in _runs(source) if len(block.rows_of_data) >= SMALLEST_BLOCK]
+    blocks = [block for block in _runs(source) if len(block.rows_of_data) >= SMALLEST_TABLE]
     for number, block in enumerate(blocks, 1):
         block.part = str(number)
         _refuse_broken(source, block, path)
@@ -39,7 +39,7 @@ def find_blocks(source: Source, path: Path, unnamed: str) -> list[Block]:
     return blocks
 
 
-def _refuse_broken(source: Source, block: Block, path: Path) -> None:
+def _refuse_broken(source: CellSource, block: FoundTable, path: Path) -> None:
     for row in block.broken:
         raise InputError(
             "row inside a table is not one of numbers",
@@ -50,7 +50,7 @@ def _refuse_broken(source: Source, block: Block, path: Path) -> None:
         )
 
 
-def _settle_unnamed(source: Source, block: Block, unnamed: str, path: Path) -> None:
+def _settle_unnamed(source: CellSource, block: FoundTable, unnamed: str, path: Path) -> None:
     """Drop phantom columns at the end; a column of numbers without a name is an error."""
     surplus = block.unnamed_at_end
     if not surplus or unnamed == "last":
@@ -68,9 +68,9 @@ def _settle_unnamed(source: Source, block: Block, unnamed: str, path: Path) -> N
     block.notes.append(f"{surplus} phantom column(s) without name and values left out")
 
 
-def _runs(source: Source) -> list[Block]:
+def _runs(source: CellSource) -> list[FoundTable]:
     """Consecutive rows of data; what may interrupt a table is decided here."""
-    runs: list[Block] = []
+    runs: list[FoundTable] = []
     gap: list[int] = []
     kinds, widths = source.kinds, source.widths
     for is_data, group in groupby(range(len(kinds)), lambda row: kinds[row] in DATA):
@@ -87,13 +87,13 @@ def _runs(source: Source) -> list[Block]:
             last.width = max(last.width, width)
         else:
             _note_end(source, runs, gap)
-            runs.append(Block(rows[0], rows[-1] + 1, width, rows_of_data=rows))
+            runs.append(FoundTable(rows[0], rows[-1] + 1, width, rows_of_data=rows))
         gap = []
     _note_end(source, runs, gap)
     return runs
 
 
-def _note_end(source: Source, runs: list[Block], gap: list[int]) -> None:
+def _note_end(source: CellSource, runs: list[FoundTable], gap: list[int]) -> None:
     """Say where a table ends if something that is not blank follows."""
     row = next((row for row in gap if source.kinds[row] != "empty"), None)
     if runs and row is not None:
@@ -101,7 +101,7 @@ def _note_end(source: Source, runs: list[Block], gap: list[int]) -> None:
         runs[-1].notes.append(f"the table ends above line {row + 1}: {text[:60]!r}")
 
 
-def _continues(source: Source, block: Block, gap: list[int], width: int) -> bool:
+def _continues(source: CellSource, block: FoundTable, gap: list[int], width: int) -> bool:
     """Tell whether the table goes on after the rows of `gap`."""
     kinds = [source.kinds[row] for row in gap]
     if "names" in kinds:
@@ -109,7 +109,7 @@ def _continues(source: Source, block: Block, gap: list[int], width: int) -> bool
     return "other" not in kinds or abs(width - block.width) <= 1
 
 
-def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
+def _note_gap(source: CellSource, block: FoundTable, gap: list[int]) -> None:
     for row in gap:
         kind = source.kinds[row]
         if kind == "other":
@@ -119,7 +119,7 @@ def _note_gap(source: Source, block: Block, gap: list[int]) -> None:
             block.notes.append(f"line {row + 1} is a remark: {text[:60]!r}")
 
 
-def _trim(source: Source, block: Block, path: Path) -> None:
+def _trim(source: CellSource, block: FoundTable, path: Path) -> None:
     """Refuse rows that lack cells in the middle; drop a last line that was cut off."""
     widths = source.widths
     lengths = [widths[row] for row in block.rows_of_data]
@@ -137,7 +137,7 @@ def _trim(source: Source, block: Block, path: Path) -> None:
             )
 
 
-def _rows_above(source: Source, block: Block) -> list[tuple[int, list[str]]]:
+def _rows_above(source: CellSource, block: FoundTable) -> list[tuple[int, list[str]]]:
     """Collect the filled rows above a table, nearest first; in a text a blank row ends it."""
     found: list[tuple[int, list[str]]] = []
     for row in range(block.first - 1, max(block.first - 8, -1), -1):

@@ -7,9 +7,9 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import Source
+from nptcs.ingest.reading.cells import CellSource
 from nptcs.ingest.reading.profiles import FormatProfile, name_matches, normalise
-from nptcs.ingest.reading.table_columns import Block, Column, side_by_side
+from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
 
 STRAINS = ("strain", "strain_xx", "strain_yy", "stretch", "extension")
@@ -29,8 +29,8 @@ class Test:
     __test__ = False
 
     label: str
-    source: Source
-    block: Block
+    source: CellSource
+    block: FoundTable
     quantities: dict[str, Column]
 
     def serves(self, role: str) -> bool:
@@ -39,7 +39,7 @@ class Test:
 
 
 def tests_in(
-    source: Source, blocks: Sequence[Block], profile: FormatProfile, path: Path
+    source: CellSource, blocks: Sequence[FoundTable], profile: FormatProfile, path: Path
 ) -> list[Test]:
     """Every test in the tables of one source, tests side by side told apart."""
     found: list[Test] = []
@@ -51,7 +51,7 @@ def tests_in(
         for group in groups or [""]:
             columns = [
                 column
-                for column, part in zip(block.columns, side_by_side(block.columns), strict=True)
+                for column, part in zip(block.columns, repeated_columns(block.columns), strict=True)
                 if not groups or part in ("", group)
             ]
             name = label if not group else group if len(blocks) == 1 else f"{label}/{group}"
@@ -60,19 +60,19 @@ def tests_in(
     return found
 
 
-def _groups(block: Block, profile: FormatProfile) -> list[str]:
+def _groups(block: FoundTable, profile: FormatProfile) -> list[str]:
     """Parts of columns that repeat a name the profile knows; empty if there is one test."""
     known = [name for names in profile.columns.values() for name in names]
     parts = [
         part
-        for column, part in zip(block.columns, side_by_side(block.columns), strict=True)
+        for column, part in zip(block.columns, repeated_columns(block.columns), strict=True)
         if part and any(name_matches(column.name, name) for name in known)
     ]
     return list(dict.fromkeys(parts))
 
 
 def map_columns(
-    columns: Sequence[Column], profile: FormatProfile, path: Path, block: Block
+    columns: Sequence[Column], profile: FormatProfile, path: Path, block: FoundTable
 ) -> dict[str, Column]:
     """Quantity → column, by the profile's names or order.
 
@@ -111,7 +111,7 @@ def map_columns(
 
 
 def _several(
-    path: Path, block: Block, quantity: str, name: str, fitting: Sequence[Column]
+    path: Path, block: FoundTable, quantity: str, name: str, fitting: Sequence[Column]
 ) -> InputError:
     choices = ", ".join(f"'{column.name}' (number {column.position + 1})" for column in fitting)
     return InputError(

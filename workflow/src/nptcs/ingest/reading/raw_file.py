@@ -8,13 +8,13 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import Source, TextSource, split_lines
+from nptcs.ingest.reading.cells import CellSource, TextSource, split_lines
 from nptcs.ingest.reading.decode import decode
 from nptcs.ingest.reading.dialect import Dialect, find_dialect
-from nptcs.ingest.reading.find_tables import find_blocks
+from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.labels import LabelValue, read_labels
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
 from nptcs.ingest.reading.quantities import Test, choose_test, tests_in, unit_of
@@ -26,7 +26,7 @@ HEAD_LINES = 60
 
 
 @dataclass
-class RawTable:
+class RawFile:
     """The table of one test as a file holds it.
 
     Parameters
@@ -41,7 +41,7 @@ class RawTable:
     profile: FormatProfile
     detected: bool
     sha256: str
-    values: dict[str, NDArray[np.float64]]
+    values: dict[str, Array]
     columns: dict[str, str]
     units: dict[str, str]
     part: str = ""
@@ -68,7 +68,7 @@ class OpenedFile:
     encoding: str
     sha256: str
     lines: list[str] = field(default_factory=list)
-    sheets: list[Source] = field(default_factory=list)
+    sheets: list[CellSource] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
     @property
@@ -139,7 +139,7 @@ def read_raw(
     part: str = "",
     specimen: str = "",
     role: str = "force and strain",
-) -> RawTable:
+) -> RawFile:
     """Read the table of one test from a raw file.
 
     Parameters
@@ -166,7 +166,7 @@ def read_raw(
     if declared is not None:
         return _read(opened, declared, ("profile named by the sheet",), part, specimen, role)
     fitting, reason = matching(opened, profiles)
-    tables: list[RawTable] = []
+    tables: list[RawFile] = []
     errors: list[InputError] = []
     for profile in fitting:
         again = open_file(path, profiles, profile) if profile.encoding else opened
@@ -186,12 +186,14 @@ def read_raw(
     return tables[0]
 
 
-def _reading(table: RawTable) -> tuple[tuple[str, bytes], ...]:
+def _reading(table: RawFile) -> tuple[tuple[str, bytes], ...]:
     """Return what a table says, to compare two readings of one file."""
     return tuple((name, values.tobytes()) for name, values in sorted(table.values.items()))
 
 
-def sources_of(opened: OpenedFile, profile: FormatProfile) -> tuple[list[Source], Dialect | None]:
+def sources_of(
+    opened: OpenedFile, profile: FormatProfile
+) -> tuple[list[CellSource], Dialect | None]:
     """Rows of cells of a file: one source for a text, one a sheet for a workbook."""
     if opened.kind != profile.kind and profile.signature:
         raise InputError(
@@ -213,7 +215,7 @@ def _read(
     specimen: str,
     role: str,
     detected: bool = False,
-) -> RawTable:
+) -> RawFile:
     path = opened.path
     profile = profile.for_head(opened.head)
     sources, dialect = sources_of(opened, profile)
@@ -221,13 +223,13 @@ def _read(
         test
         for source in sources
         for test in tests_in(
-            source, find_blocks(source, path, profile.unnamed_columns), profile, path
+            source, find_tables(source, path, profile.unnamed_columns), profile, path
         )
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     values, units, notes = _values(test, profile, path, role)
     block = test.block
-    return RawTable(
+    return RawFile(
         path,
         profile,
         detected,
@@ -248,7 +250,7 @@ def _read(
 
 def _values(
     test: Test, profile: FormatProfile, path: Path, role: str
-) -> tuple[dict[str, NDArray[np.float64]], dict[str, str], list[str]]:
+) -> tuple[dict[str, Array], dict[str, str], list[str]]:
     """Read the mapped columns and bring them to base units; rows without any load are left."""
     quantities = test.quantities
     line = (test.block.names_row if test.block.names_row is not None else test.block.first) + 1

@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from nptcs.ingest.reading.profiles import normalise
 from nptcs.ingest.reading.units import is_unit, split_unit
 
-SMALLEST_BLOCK = 5
+SMALLEST_TABLE = 5
 """Rows that a table must have to be a test."""
 
 
@@ -23,7 +23,7 @@ class Column:
 
 
 @dataclass
-class Block:
+class FoundTable:
     """One table: the rows [first, last) of the file (from 0) and its columns."""
 
     first: int
@@ -38,12 +38,14 @@ class Block:
     broken: list[int] = field(default_factory=list)
 
 
-def describe_columns(block: Block, above: Sequence[tuple[int, list[str]]], unnamed: str) -> None:
+def describe_columns(
+    block: FoundTable, above: Sequence[tuple[int, list[str]]], unnamed: str
+) -> None:
     """Find names, units and groups in the rows above a table and note them in `block`.
 
     Parameters
     ----------
-    block : Block
+    block : FoundTable
         Gets ``columns``, ``names_row`` and ``notes``.
     above : sequence of (int, list of str)
         The filled rows above it with their numbers, nearest first; three are enough.
@@ -83,7 +85,7 @@ def _is_names_row(cells: list[str]) -> bool:
     return any(any(letter.isalpha() or letter == "%" for letter in cell) for cell in cells)
 
 
-def _shift(block: Block, names: list[str], unnamed: str) -> int:
+def _shift(block: FoundTable, names: list[str], unnamed: str) -> int:
     """How many columns stand unnamed before the first name."""
     while names and not names[-1].strip():
         names.pop()
@@ -108,7 +110,7 @@ def _groups(cells: list[str], width: int) -> list[str]:
     return labels
 
 
-def side_by_side(columns: Sequence[Column]) -> list[str]:
+def repeated_columns(columns: Sequence[Column]) -> list[str]:
     """Find groups of equal names next to each other: one test each.
 
     Returns

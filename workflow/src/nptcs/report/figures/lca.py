@@ -57,7 +57,7 @@ def load_displacement(table: pd.DataFrame) -> Figure:
     figure, axes = _section_panel(table, "vertical load [N]", "displacement [mm]")
     _line_a_rubber(axes, table, "spoke_c10_mpa", "load_n", "displacement_mm")
     printed = table["published_displacement_mm"]
-    axes.plot(table["load_n"], printed, "o", mfc="none", mec="black", ms=9, label="_printed")
+    axes.plot(table["load_n"], printed, "o", mfc="none", mec="black", ms=9, label="_published")
     axes.plot([], [], "o", mfc="none", mec="black", ms=8, label="printed")
     _rubber_legend(axes)
     return figure
@@ -166,33 +166,33 @@ def _grouped_bars(axes: Axes, groups: Sequence[str], series: dict[str, np.ndarra
 
 
 @styled
-def ring_shape(shape: pd.DataFrame, rim_diameter_mm: float) -> Figure:
+def ring_neutral_line(line: pd.DataFrame, rim_diameter_mm: float) -> Figure:
     """Draw the deformed middle line of the band over the undeformed one, figure 14.
 
     Parameters
     ----------
-    shape : DataFrame
-        Rows of ``lca_shape.csv`` of one design, in the order of the angle.
+    line : DataFrame
+        Rows of ``lca_neutral_line.csv`` of one design, in the order of the angle.
     rim_diameter_mm : float
         For the rim, drawn to show the scale.
     """
-    first = shape.iloc[0]
+    first = line.iloc[0]
     title = f"spoke C10 {first['spoke_c10_mpa']:g} MPa, {first['load_n']:g} N, {first['section']}"
     figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 4.4))
     axes.plot(
-        shape["x_undeformed_mm"],
-        shape["y_undeformed_mm"],
+        line["x_undeformed_mm"],
+        line["y_undeformed_mm"],
         color=GREY,
         linestyle="--",
         linewidth=0.9,
         label="undeformed",
     )
     for region, colour in REGION_COLOURS.items():
-        inside = (shape["region"] == region).to_numpy()
+        inside = (line["region"] == region).to_numpy()
         # a gap where the line leaves the region, so that arcs are not joined across it
         axes.plot(
-            shape["x_mm"].where(inside),
-            shape["y_mm"].where(inside),
+            line["x_mm"].where(inside),
+            line["y_mm"].where(inside),
             color=colour,
             linewidth=2.2,
             label=region,
@@ -205,7 +205,7 @@ def ring_shape(shape: pd.DataFrame, rim_diameter_mm: float) -> Figure:
         linewidth=0.7,
         label="rim",
     )
-    axes.axhline(shape["y_mm"].min(), color="black", linewidth=0.8)
+    axes.axhline(line["y_mm"].min(), color="black", linewidth=0.8)
     axes.set_aspect("equal")
     axes.legend(loc="center")
     return figure

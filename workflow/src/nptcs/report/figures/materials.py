@@ -7,8 +7,8 @@ from collections.abc import Callable, Mapping, Sequence
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.report.figures.style import COLOURS, GREY, MARKERS, mark_synthetic, panel, styled
 
 DRAWN_POINTS = 400
@@ -81,7 +81,7 @@ def stress_strain(
 def hyperelastic_fit(
     title: str,
     curves: Mapping[str, pd.DataFrame],
-    stress: Callable[[NDArray[np.float64]], NDArray[np.float64]],
+    stress: Callable[[Array], Array],
     label: str,
     strain_range: tuple[float, float],
     synthetic: bool = False,

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from nptcs.report.figures.style import GREY, line_look, mark_synthetic, panel, styled
 from nptcs.report.figures.surface import FactorLabel
-from nptcs.tables.published_stiffness import COMPUTED, PRINTED
+from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
 """Differences that the parity figure draws, and how."""
@@ -57,7 +57,7 @@ def parity(
         Whether the materials of any solver are synthetic.
     """
     figure, axes = panel(title, "published stiffness [N/mm]", "computed stiffness [N/mm]", (4.3, 4))
-    values = table[[COMPUTED, PRINTED]].to_numpy(float)
+    values = table[[COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS]].to_numpy(float)
     ends = np.array([0.97 * np.nanmin(values), 1.03 * np.nanmax(values)])
     axes.plot(ends, ends, color="black", linewidth=0.9, label="equal")
     for percent, dashes in BANDS_PERCENT.items():
@@ -69,7 +69,7 @@ def parity(
         look = _look(solver, order)
         if calibrated:
             look |= {"mfc": "none", "label": f"{solver}, calibrated on"}
-        axes.plot(rows[PRINTED], rows[COMPUTED], linestyle="", **look)
+        axes.plot(rows[PUBLISHED_STIFFNESS], rows[COMPUTED_STIFFNESS], linestyle="", **look)
     axes.set(xlim=ends, ylim=ends)
     axes.set_aspect("equal")
     return _finished(figure, synthetic)

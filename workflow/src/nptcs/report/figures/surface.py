@@ -9,8 +9,8 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.report.figures.style import COLOURS, MAP, MARKERS, mark_synthetic, panel, styled
 from nptcs.surface.fit import Surface
 
@@ -43,7 +43,7 @@ def pairs(surface: Surface) -> list[tuple[str, str]]:
 
 def _grid(
     surface: Surface, cases: pd.DataFrame, x_name: str, y_name: str
-) -> tuple[NDArray[np.float64], NDArray[np.float64], NDArray[np.float64]]:
+) -> tuple[Array, Array, Array]:
     """Evaluate a surface over two factors, the others at their middle levels."""
     factors = list(surface.polynomial.factors)
     limits = dict(zip(factors, zip(surface.lower, surface.upper, strict=True), strict=True))

@@ -14,17 +14,17 @@ from nptcs.report.figures.lca import (
     differences,
     fem_differences,
     load_displacement,
-    ring_shape,
+    ring_neutral_line,
     stiffness_bars,
 )
 from nptcs.report.tables import catalogue
 from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Block, Plot, Plots, Section, Text, plot, sheet_view
+from nptcs.report.view import PageBlock, Plot, Plots, Section, Text, plot, sheet_view
 
 
 def lca_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         Text(
             "The model is solved with the spoke stiffness of table 10. The section constants that "
             "the paper prints are those of another bending axis; both sections stand here, the "
@@ -51,14 +51,14 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
         Plots(
             "Deformed middle line of the shear band by region (figure 14 of the paper). "
             "Displacements are to scale; the rim is drawn for orientation.",
-            tuple(_shape_plots(results)),
+            tuple(_neutral_line_plots(results)),
         ),
     ]
     return Section("lca", "Load-bearing model (LCA) against the paper", tuple(blocks))
 
 
 def _difference_plots(results: Results) -> list[Plot]:
-    table = _with_printed(results)
+    table = _with_published(results)
     largest = float(table[list(DIFFERENCES)].abs().max().max())
     limit = math.ceil(largest + 0.5)
     return [
@@ -77,7 +77,9 @@ def _fem_plots(results: Results) -> list[Plot]:
 
 
 def _stiffness_plot(results: Results) -> Plot:
-    return plot(stiffness_bars(_with_printed(results)), "Stiffness by FEM, printed LCA and our LCA")
+    return plot(
+        stiffness_bars(_with_published(results)), "Stiffness by FEM, printed LCA and our LCA"
+    )
 
 
 def _load_plots(results: Results) -> list[Plot]:
@@ -94,16 +96,19 @@ def _load_plots(results: Results) -> list[Plot]:
     ]
 
 
-def _shape_plots(results: Results) -> list[Plot]:
+def _neutral_line_plots(results: Results) -> list[Plot]:
     rim = results.config.tyre.rim_diameter_mm
     return [
-        plot(ring_shape(rows, rim), f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa")
-        for (_, load, c10), rows in results.lca_shape.groupby(
+        plot(
+            ring_neutral_line(rows, rim),
+            f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa",
+        )
+        for (_, load, c10), rows in results.lca_neutral_line.groupby(
             ["section", "load_n", "spoke_c10_mpa"], sort=False
         )
     ]
 
 
-def _with_printed(results: Results) -> pd.DataFrame:
+def _with_published(results: Results) -> pd.DataFrame:
     table = results.lca_validation
     return table[table["published_displacement_mm"].notna()]

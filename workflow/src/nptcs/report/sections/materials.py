@@ -5,8 +5,8 @@ from __future__ import annotations
 from functools import partial
 
 import numpy as np
-from numpy.typing import NDArray
 
+from nptcs.arrays import Array
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.models import model_named
 from nptcs.report.data import Results
@@ -14,13 +14,13 @@ from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
 from nptcs.report.tables import catalogue
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Block, Listing, Plot, Plots, Section, plot, sheet_view
+from nptcs.report.view import Listing, PageBlock, Plot, Plots, Section, plot, sheet_view
 from nptcs.tables.material_card import RubberCard
 
 
 def materials_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         sheet_view(sheets[catalogue.PLY.sheet]),
         sheet_view(sheets[catalogue.RUBBERS.sheet]),
     ]
@@ -76,9 +76,7 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
     return plots
 
 
-def _stress(
-    model: Model, mode: str, constants: NDArray[np.float64], stretch: NDArray[np.float64]
-) -> NDArray[np.float64]:
+def _stress(model: Model, mode: str, constants: Array, stretch: Array) -> Array:
     return model.stress(mode, stretch, constants)
 
 

@@ -21,10 +21,10 @@ from nptcs.report.tables import catalogue
 from nptcs.report.tables.headings import Heading
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.view import (
-    Block,
     Fact,
     Facts,
     Listing,
+    PageBlock,
     Plot,
     Plots,
     Section,
@@ -35,25 +35,30 @@ from nptcs.report.view import (
     sheet_view,
     table_view,
 )
-from nptcs.tables.published_stiffness import COMPUTED, DIFFERENCE, PRINTED, PUBLISHED
+from nptcs.tables.published_stiffness import (
+    COMPUTED_STIFFNESS,
+    DIFFERENCE,
+    PUBLISHED,
+    PUBLISHED_STIFFNESS,
+)
 from nptcs.tables.spoke_stiffness import DIRECTIONS
 
 
-def against_section(results: Results, sheets: Sheets) -> Section:
+def published_stiffness_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     title = "Computed stiffness against the paper's finite elements"
     blocks = [*_stiffness_blocks(results, sheets), *_line_blocks(results)]
     if not blocks:
         nothing = "No study of the configuration has published results beside computed ones."
         return Section("against", title, (Text(nothing),))
-    synthetic = sheets[catalogue.AGAINST_PUBLISHED.sheet].synthetic
+    synthetic = sheets[catalogue.STIFFNESS_AGAINST_PUBLISHED.sheet].synthetic
     return Section("against", title, tuple(blocks), synthetic)
 
 
-def _stiffness_blocks(results: Results, sheets: Sheets) -> list[Block]:
-    if results.against_published.empty:
+def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
+    if results.compare_published.empty:
         return []
-    studies = [results.config.study(name) for name in results.against_published["study"].unique()]
+    studies = [results.config.study(name) for name in results.compare_published["study"].unique()]
     bands = joined(f"±{percent:g} %" for percent in BANDS_PERCENT)
     return [
         Text(
@@ -80,7 +85,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[Block]:
             tuple(_effects(results, studies, differences=True)),
         ),
         sheet_view(sheets[catalogue.STIFFNESS_BY_LEVEL.sheet]),
-        *(_side_by_side(results, study) for study in studies),
+        *(_case_comparison(results, study) for study in studies),
     ]
 
 
@@ -94,7 +99,7 @@ def _order(results: Results) -> list[str]:
 
 
 def _parity(results: Results, study: Study) -> Plot:
-    table = results.against_published
+    table = results.compare_published
     rows = table[table["study"] == study.name]
     synthetic = _synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
@@ -184,12 +189,12 @@ def _trend(levels: pd.DataFrame) -> str:
     return f"{change}; every step has the published direction"
 
 
-def _side_by_side(results: Results, study: Study) -> TableView:
+def _case_comparison(results: Results, study: Study) -> TableView:
     """Lay the cases of one study out, the solvers beside each other."""
-    table = results.against_published
+    table = results.compare_published
     rows = table[table["study"] == study.name]
-    view, headings = side_by_side(rows, [factor.name for factor in study.factors])
-    entry = catalogue.AGAINST_PUBLISHED.with_headings(headings)
+    view, headings = case_comparison(rows, [factor.name for factor in study.factors])
+    entry = catalogue.STIFFNESS_AGAINST_PUBLISHED.with_headings(headings)
     return table_view(
         view,
         entry,
@@ -199,7 +204,7 @@ def _side_by_side(results: Results, study: Study) -> TableView:
     )
 
 
-def side_by_side(
+def case_comparison(
     rows: pd.DataFrame, factors: list[str]
 ) -> tuple[pd.DataFrame, Mapping[str, Heading]]:
     """Lay one study of ``stiffness_against_published.csv`` out with a row a case.
@@ -211,12 +216,12 @@ def side_by_side(
         ``failed`` and ``calibrated_on`` name solvers.
     headings : mapping of str to Heading
     """
-    table = rows.drop_duplicates("case_id").set_index("case_id")[[*factors, PRINTED]]
-    headings = {PRINTED: Heading("published", "N/mm")}
+    table = rows.drop_duplicates("case_id").set_index("case_id")[[*factors, PUBLISHED_STIFFNESS]]
+    headings = {PUBLISHED_STIFFNESS: Heading("published", "N/mm")}
     failed, calibrated = (pd.Series("", index=table.index) for _ in range(2))
     for solver, of_solver in rows.groupby("solver", sort=False):
         case = of_solver.set_index("case_id")
-        table[f"{solver}_computed"] = case[COMPUTED]
+        table[f"{solver}_computed"] = case[COMPUTED_STIFFNESS]
         table[f"{solver}_{DIFFERENCE}"] = case[DIFFERENCE]
         headings[f"{solver}_computed"] = Heading(str(solver), "N/mm")
         headings[f"{solver}_{DIFFERENCE}"] = Heading(f"{solver} − published", "%")
@@ -226,10 +231,10 @@ def side_by_side(
     return table.reset_index(), headings
 
 
-def _line_blocks(results: Results) -> list[Block]:
+def _line_blocks(results: Results) -> list[PageBlock]:
     lines = results.neutral_line
     missing = [case_id for case_id in _line_cases(results) if case_id not in set(lines["case_id"])]
-    blocks: list[Block] = []
+    blocks: list[PageBlock] = []
     if missing:
         blocks.append(Text(f"No solver gave a neutral line of {joined(missing)}."))
     return blocks if lines.empty else [*blocks, *_drawn_lines(results)]
@@ -245,7 +250,7 @@ def _line_cases(results: Results) -> list[str]:
     ]
 
 
-def _drawn_lines(results: Results) -> list[Block]:
+def _drawn_lines(results: Results) -> list[PageBlock]:
     lines = results.neutral_line
     tyre = results.config.tyre
     middle = (tyre.inner_wire_diameter_mm + tyre.outer_wire_diameter_mm) / 4

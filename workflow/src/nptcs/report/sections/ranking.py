@@ -7,17 +7,17 @@ import pandas as pd
 from nptcs.report.data import Results, factor_labels
 from nptcs.report.tables.catalogue import Entry
 from nptcs.report.tables.headings import Heading, words
-from nptcs.report.view import Block, Listing, table_view
+from nptcs.report.view import Listing, PageBlock, table_view
 
 FILE = "results/tables/impact.csv"
 
 
-def ranking_blocks(results: Results) -> list[Block]:
+def ranking_blocks(results: Results) -> list[PageBlock]:
     """Build the table of impact values beside table 9, and say whether the order is the same."""
     printed = results.impact.dropna(subset=["published_impact"])
     if printed.empty:
         return []
-    table, headings = side_by_side(printed)
+    table, headings = published_ranking(printed)
     entry = Entry(
         "impact_ranking",
         "Table 9 and ours: impact values with their rank by every rule",
@@ -36,7 +36,7 @@ def ranking_blocks(results: Results) -> list[Block]:
     ]
 
 
-def side_by_side(printed: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Heading]]:
+def published_ranking(printed: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Heading]]:
     """Lay |impact| and rank of each solver out beside table 9, a row a rule and factor."""
     keys = ["rule", "study", "factor"]
     theirs = printed.drop_duplicates(keys)[[*keys, "published_impact"]]

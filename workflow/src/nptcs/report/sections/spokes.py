@@ -10,7 +10,7 @@ from nptcs.report.figures.spoke import force_displacement
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.tables import catalogue
 from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Block, Plot, Plots, Section, Text, plot, sheet_view
+from nptcs.report.view import PageBlock, Plot, Plots, Section, Text, plot, sheet_view
 from nptcs.tables.spoke_stiffness import DIRECTIONS
 
 SHOWN = [
@@ -40,7 +40,7 @@ def spoke_section(results: Results, sheets: Sheets) -> Section:
         nothing = "No study of the configuration computes single spokes."
         return Section("spoke", "Single spoke", (Text(nothing),))
     sheet = sheets[catalogue.SPOKE_STIFFNESS.sheet]
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         Text(
             "One spoke, clamped at the rim; its foot at the band is moved along the radius and "
             "neither slides nor turns (section 4.3.1 of the paper). The stiffness is the slope of "

@@ -17,7 +17,7 @@ from nptcs.report.tables import row_classes as marks
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.view import (
-    Block,
+    PageBlock,
     Plot,
     Plots,
     Section,
@@ -90,7 +90,7 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
         f"{name}: {_about(name, facts)}{_choices(facts)}."
         for name, facts in results.solvers.items()
     ]
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         Text("Solvers. " + " — ".join(solvers)),
         table_view(case_counts(results.cases), COUNTS, mark=marks.by_status),
     ]
@@ -134,7 +134,7 @@ def case_counts(cases: pd.DataFrame) -> pd.DataFrame:
 
 def surfaces_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the response surfaces."""
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         Text(
             "Coefficients are fitted in coded units, each factor scaled to [−1, 1] over its range, "
             "and given in both units at full precision: a surface can be evaluated from this "
@@ -147,7 +147,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
     return Section("surfaces", "Response surfaces", tuple(blocks))
 
 
-def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Block]:
+def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
         asked = f"No surface is asked for of the study {study.name}: it has no terms."
@@ -157,7 +157,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Bloc
         return [Text(study.title, "head"), Text(refused, "bad")]
     sheet = sheets[catalogue.surface_entry(study.name).sheet]
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         Text(study.title, "head"),
         sheet_view(sheet, given_digits=precise),
     ]
@@ -203,7 +203,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
         _impact_plot(results, str(solver), rows)
         for solver, rows in results.impact.groupby("solver", sort=True)
     ]
-    blocks: list[Block] = [
+    blocks: list[PageBlock] = [
         Text(
             "Comprehensive impact value = average gradient × range of the factor (section 4.2.3 of "
             "the paper). The paper does not state how it averages, and no single rule gives all "

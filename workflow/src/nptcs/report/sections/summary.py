@@ -8,16 +8,16 @@ from nptcs.report.figures.lca import DIFFERENCES, SECTION_NAMES
 from nptcs.report.tables import catalogue
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Block, Fact, Facts, Listing, Text, joined, sheet_view, with_error
+from nptcs.report.view import Fact, Facts, Listing, PageBlock, Text, joined, sheet_view, with_error
 
 WARNING = "warning: "
 """How a check of a material card begins that a reader of any result must see."""
 
 
-def head_blocks(results: Results, sheets: Sheets) -> tuple[Block, ...]:
+def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
     """Build the blocks above the first section."""
     sound, line = results.verdict()
-    blocks: list[Block] = [Text(line, "ok" if sound else "bad")]
+    blocks: list[PageBlock] = [Text(line, "ok" if sound else "bad")]
     if not sound:
         blocks.append(sheet_view(sheets[catalogue.PROBLEMS.sheet]))
     if remarks := _remarks(results):

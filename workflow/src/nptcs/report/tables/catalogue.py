@@ -140,7 +140,7 @@ QUALITY = _entry("surface_quality.csv", QUALITY_HEADINGS)
 IMPACT = _entry("impact.csv", IMPACT_HEADINGS)
 SPOKE_STIFFNESS = _entry("spoke_stiffness.csv", SPOKE_HEADINGS)
 SPOKE_CURVES = _entry("spoke_curves.csv")
-AGAINST_PUBLISHED = _entry("stiffness_against_published.csv")
+STIFFNESS_AGAINST_PUBLISHED = _entry("stiffness_against_published.csv")
 STIFFNESS_ERRORS = _entry(
     "stiffness_errors.csv",
     {"compared": Heading("cases compared"), "largest_case_id": Heading("case of the largest")},
@@ -149,7 +149,7 @@ STIFFNESS_BY_LEVEL = _entry("stiffness_by_level.csv", LEVEL_HEADINGS)
 NEUTRAL_LINE = _entry("neutral_line.csv")
 LCA_VALIDATION = _entry("lca_validation.csv")
 LCA_AGAINST_FEM = _entry("lca_against_fem.csv")
-LCA_SHAPE = _entry("lca_shape.csv")
+LCA_SHAPE = _entry("lca_neutral_line.csv")
 SOFTWARE = Entry(
     "software",
     "Software that built the report",

@@ -41,7 +41,7 @@ def sheets_of(results: Results) -> Sheets:
         *_compared_sheets(results),
         Sheet(catalogue.LCA_VALIDATION, results.lca_validation),
         Sheet(catalogue.LCA_AGAINST_FEM, results.lca_against_fem),
-        Sheet(catalogue.LCA_SHAPE, results.lca_shape),
+        Sheet(catalogue.LCA_SHAPE, results.lca_neutral_line),
         Sheet(catalogue.INPUTS, inputs_table(results)),
         Sheet(catalogue.SOFTWARE, software_table(results)),
     ]
@@ -96,7 +96,7 @@ def _compared_sheets(results: Results) -> list[Sheet]:
         (catalogue.SPOKE_STIFFNESS, results.spoke_stiffness, marks.by_status),
         (catalogue.SPOKE_CURVES, results.spoke_curves, marks.nothing),
         (catalogue.STIFFNESS_ERRORS, results.stiffness_errors, marks.nothing),
-        (catalogue.AGAINST_PUBLISHED, results.against_published, marks.by_calibration),
+        (catalogue.STIFFNESS_AGAINST_PUBLISHED, results.compare_published, marks.by_calibration),
         (catalogue.STIFFNESS_BY_LEVEL, results.stiffness_by_level, marks.nothing),
         (catalogue.NEUTRAL_LINE, results.neutral_line, marks.nothing),
     ]

@@ -7,11 +7,11 @@ from nptcs.console import clear_errors
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.io import check, read_table, write_table
 from nptcs.tables.published_stiffness import (
-    AgainstPublished,
     Comparison,
+    StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
-    against_published,
+    compare_published,
     stiffness_by_level,
     stiffness_errors,
 )
@@ -29,9 +29,9 @@ def compare(
         )
         for (name, facts), file in zip(job["studies"].items(), designs, strict=True)
     }
-    table = against_published(read_table(cases, Cases), studies)
-    table = check(table, AgainstPublished, output["table"])
-    write_table(output["table"], table, AgainstPublished)
+    table = compare_published(read_table(cases, Cases), studies)
+    table = check(table, StiffnessAgainstPublished, output["table"])
+    write_table(output["table"], table, StiffnessAgainstPublished)
     write_table(output["errors"], stiffness_errors(table), StiffnessErrors)
     write_table(output["levels"], stiffness_by_level(table, studies), StiffnessByLevel)
 
