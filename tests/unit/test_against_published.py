@@ -4,16 +4,18 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.errors import InputError
-from nptcs.tables.io import check, empty_table, read_table, write_table
-from nptcs.tables.published_stiffness import (
+from nptcs.compare.published_stiffness import (
     Comparison,
-    StiffnessAgainstPublished,
-    StiffnessByLevel,
-    StiffnessErrors,
     compare_published,
     stiffness_by_level,
     stiffness_errors,
+)
+from nptcs.errors import InputError
+from nptcs.tables.io import check, empty_table, read_table, write_table
+from nptcs.tables.published_stiffness import (
+    StiffnessAgainstPublished,
+    StiffnessByLevel,
+    StiffnessErrors,
 )
 
 PUBLISHED = {"s_001": 100.0, "s_002": 200.0, "s_003": 400.0, "s_004": 500.0}

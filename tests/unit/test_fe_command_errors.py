@@ -34,7 +34,7 @@ def test_a_tyre_that_is_not_solved_is_one_line_with_how_far_it_came(
     def fail(*_):
         raise SpokeError(f"no equilibrium beyond u_r = {np.float64(-31.0)}")
 
-    monkeypatch.setattr("nptcs.fe.case.spoke_table", fail)
+    monkeypatch.setattr("nptcs.fe.case.energy_table", fail)
     assert main([command, str(tmp_path / "x.png")]) == 2
     said = capsys.readouterr().err
     assert "beyond u_r = -31.0" in said

@@ -7,9 +7,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from nptcs.compare.impact import with_published
 from nptcs.surface.fit import fit
 from nptcs.surface.sensitivity import impact
-from nptcs.tables.impact import Impact, with_published
+from nptcs.tables.impact import Impact
 from nptcs.tables.io import check
 
 PUBLISHED = Path(__file__).parents[2] / "raw_data" / "published"

@@ -7,11 +7,13 @@ import pandas as pd
 import pytest
 
 from nptcs.campaign.record import CaseRecord
+from nptcs.compare.neutral_line import neutral_lines
+from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.solvers.contract import SolverResult, neutral_line_columns
 from nptcs.tables.io import check, read_table, write_table
-from nptcs.tables.neutral_line import NeutralLine, neutral_lines
+from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.published_inputs import PublishedSpokeStiffness
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
+from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
 TABLE_10 = Path(__file__).parents[2] / "raw_data/published/table10_spoke_stiffness.csv"
 PLACE = [-20.0, -10.0, 0.0, 2.0, 4.0]
@@ -103,8 +105,8 @@ def test_a_neutral_line_runs_once_around_from_the_top():
 
 
 def test_only_named_cases_with_a_shape_are_gathered():
-    shape = neutral_line_columns([-90.0, 0.0, 90.0], [1.0, -9.0, 1.0], [0.0, 0.0, 0.0])
-    solved = SolverResult(status="ok", shape=shape)
+    line = neutral_line_columns([-90.0, 0.0, 90.0], [1.0, -9.0, 1.0], [0.0, 0.0, 0.0])
+    solved = SolverResult(status="ok", neutral_line=line)
     records = [
         record(solved, case_id=case_id, solver=solver, load_n=5000.0)
         for case_id, solver in (("r_001", "lca"), ("r_002", "lca"), ("r_002", "fe_tyre"))
@@ -117,7 +119,7 @@ def test_only_named_cases_with_a_shape_are_gathered():
 
 
 def test_columns_of_a_result_must_be_equally_long():
-    for name in ("curve", "shape"):
+    for name in ("curve", "neutral_line"):
         with pytest.raises(ValueError, match="equally long"):
             SolverResult(status="ok", **{name: {"a": [1.0], "b": [1.0, 2.0]}})
 

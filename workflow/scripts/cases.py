@@ -2,9 +2,10 @@
 
 from collections.abc import Sequence
 
+from nptcs.campaign.cases import cases_table
 from nptcs.campaign.record import read_records
 from nptcs.console import clear_errors
-from nptcs.tables.cases import Cases, cases_table
+from nptcs.tables.cases import Cases
 from nptcs.tables.io import write_table
 
 

@@ -3,17 +3,19 @@
 from collections.abc import Sequence
 from typing import Any
 
+from nptcs.compare.published_stiffness import (
+    Comparison,
+    compare_published,
+    stiffness_by_level,
+    stiffness_errors,
+)
 from nptcs.console import clear_errors
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.io import check, read_table, write_table
 from nptcs.tables.published_stiffness import (
-    Comparison,
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
-    compare_published,
-    stiffness_by_level,
-    stiffness_errors,
 )
 
 

@@ -4,10 +4,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from nptcs.campaign.record import read_records
+from nptcs.compare.neutral_line import neutral_lines
 from nptcs.console import clear_errors
 from nptcs.tables.cases import Design
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.neutral_line import NeutralLine, neutral_lines
+from nptcs.tables.neutral_line import NeutralLine
 
 
 def gather(job: dict[str, Any], records: Sequence[str], designs: Sequence[str], lines: str) -> None:

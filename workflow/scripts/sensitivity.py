@@ -6,11 +6,12 @@ from typing import Any
 
 import pandas as pd
 
+from nptcs.compare.impact import with_published
 from nptcs.console import clear_errors
 from nptcs.surface.sensitivity import impact
 from nptcs.surface.stored import load
 from nptcs.tables.cases import Design
-from nptcs.tables.impact import Impact, with_published
+from nptcs.tables.impact import Impact
 from nptcs.tables.io import empty_table, read_table, write_table
 from nptcs.tables.published_inputs import PublishedImpact
 from nptcs.tables.surface import SurfaceQuality

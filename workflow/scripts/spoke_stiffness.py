@@ -4,10 +4,11 @@ from collections.abc import Sequence
 from typing import Any
 
 from nptcs.campaign.record import read_records
+from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.console import clear_errors
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.published_inputs import PublishedSpokeStiffness
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
+from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
 
 def gather(

@@ -3,24 +3,20 @@
 from collections.abc import Sequence
 from typing import Any
 
+from nptcs.campaign.cases import cases_table
 from nptcs.campaign.record import read_records
+from nptcs.compare.coefficients import by_powers
 from nptcs.console import clear_errors
 from nptcs.errors import InputError
 from nptcs.files import write_text
 from nptcs.surface.fit import Surface, fit
 from nptcs.surface.quality import assess
 from nptcs.surface.stored import dump
-from nptcs.tables.cases import cases_table
+from nptcs.surface.tables import quality_table, surface_table
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
 from nptcs.tables.published_inputs import PublishedCoefficients
-from nptcs.tables.surface import (
-    SurfaceQuality,
-    SurfaceTable,
-    by_powers,
-    quality_table,
-    surface_table,
-)
+from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 
 
 def fit_surfaces(

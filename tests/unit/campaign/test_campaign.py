@@ -10,6 +10,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from nptcs.campaign.cases import cases_table
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseJob, RecordStore, read_records, read_tables, write_records
 from nptcs.campaign.runner import run_cases
@@ -17,7 +18,7 @@ from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.provenance import code_hash
-from nptcs.tables.cases import Cases, cases_table
+from nptcs.tables.cases import Cases
 from nptcs.tables.io import check
 
 SOLVER = Path(__file__).with_name("faulty_solver.py")

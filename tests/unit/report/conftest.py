@@ -9,7 +9,16 @@ import pytest
 import yaml
 
 from nptcs.campaign.record import CaseRecord
+from nptcs.compare.coefficients import by_powers
+from nptcs.compare.impact import with_published
 from nptcs.compare.lca import lca_against_fem, lca_validation, ring_neutral_lines
+from nptcs.compare.published_stiffness import (
+    Comparison,
+    compare_published,
+    stiffness_by_level,
+    stiffness_errors,
+)
+from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.config.root import read_config
 from nptcs.config.tyre import TyreGeometry
 from nptcs.report.data import Results, SolverFacts
@@ -17,27 +26,22 @@ from nptcs.solvers.contract import SolverResult
 from nptcs.surface.fit import fit
 from nptcs.surface.quality import assess
 from nptcs.surface.sensitivity import impact
+from nptcs.surface.tables import quality_table, surface_table
 from nptcs.tables.cases import Design
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.curves import Curve, IngestRecord
-from nptcs.tables.impact import with_published
 from nptcs.tables.io import check, empty_table, read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, Quantity, RubberCard
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.problems import Problems, problems_table
 from nptcs.tables.published_inputs import PublishedCoefficients, PublishedSpokeStiffness
 from nptcs.tables.published_stiffness import (
-    Comparison,
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
-    compare_published,
-    stiffness_by_level,
-    stiffness_errors,
 )
 from nptcs.tables.specimens import Specimen
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines, spoke_curves, spoke_lines
-from nptcs.tables.surface import by_powers, quality_table, surface_table
+from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
 ROOT = Path(__file__).parents[3]
 PUBLISHED = ROOT / "raw_data" / "published"

@@ -47,7 +47,7 @@ def table(name, column, value):
                                        N O D E   O U T P U T
 
 
-   THE FOLLOWING TABLE IS PUBLISHED_STIFFNESS FOR NODES BELONGING TO NODE SET TYRE_{name}
+   THE FOLLOWING TABLE IS PRINTED FOR NODES BELONGING TO NODE SET TYRE_{name}
 
        NODE FOOT-   {column:<4}
             NOTE

@@ -276,9 +276,7 @@ def test_a_granted_licence_is_neither_wait_nor_denial():
 
 def test_values_that_are_all_zero_and_half_lines_are_read():
     start = "INCREMENT     1 SUMMARY\n"
-    named = (
-        " THE FOLLOWING TABLE IS PUBLISHED_STIFFNESS FOR NODES BELONGING TO NODE SET TYRE_{}\n\n"
-    )
+    named = " THE FOLLOWING TABLE IS PRINTED FOR NODES BELONGING TO NODE SET TYRE_{}\n\n"
     zero = named.format("RIM-REF") + " ALL VALUES IN THIS TABLE ARE ZERO\n\n"
     road = named.format("GROUND-REF") + " NODE FOOT-   RF2\n  NOTE\n\n  12  1.5E+02\n"
     assert load_curve(start + zero + road) == ([0.0, 0.0], [0.0, 150.0])

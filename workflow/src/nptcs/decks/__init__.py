@@ -1,1 +1,5 @@
-""""""
+"""Input decks for solvers that the user has.
+
+A case with its ply and its tyre comes in, the text of a deck goes out (`abaqus`, `calculix`).
+Running a deck and reading its answer belong to `nptcs.solvers`.
+"""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
@@ -38,38 +37,3 @@ class Impact(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
-
-
-def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Set the printed values of table 9 beside ours.
-
-    Parameters
-    ----------
-    impact : DataFrame
-        ``solver, study, factor, rule, gradient, range, impact``.
-    published : DataFrame
-        ``study, factor, gradient, range, impact`` as printed; may be empty.
-
-    Returns
-    -------
-    DataFrame
-        As `Impact`. A printed value stands beside ours only where the range is the same; only
-        these factors are ranked, over all studies, for each solver and rule.
-    """
-    printed = published.rename(
-        columns={"gradient": "published_gradient", "impact": "published_impact"}
-    )
-    table = impact.merge(printed, how="left", on=["study", "factor"], suffixes=("", "_published"))
-    other_range = ~np.isclose(table["range"], table.pop("range_published").astype(float))
-    table.loc[other_range, ["published_gradient", "published_impact"]] = np.nan
-    table["difference_percent"] = 100 * (table["impact"].abs() / table["published_impact"] - 1)
-    size = pd.DataFrame(
-        {
-            "rank": table["impact"].abs().where(table["published_impact"].notna()),
-            "published_rank": table["published_impact"],
-        }
-    )
-    ranks = size.groupby([table["solver"], table["rule"]]).rank(ascending=False, method="min")
-    for name in ("rank", "published_rank"):
-        table[name] = ranks[name].astype("Int64")
-    return table[list(Impact.to_schema().columns)]

@@ -2,13 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Collection, Sequence
-
-import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
-
-from nptcs.campaign.record import CaseRecord
 
 
 class NeutralLine(pa.DataFrameModel):
@@ -34,24 +29,3 @@ class NeutralLine(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
-
-
-def neutral_lines(records: Sequence[CaseRecord], case_ids: Collection[str]) -> pd.DataFrame:
-    """Gather the neutral lines of these cases by all solvers that give one, as `NeutralLine`."""
-    tables = [
-        pd.DataFrame(
-            {
-                "study": record.study,
-                "case_id": record.case_id,
-                "solver": record.solver,
-                "load_n": record.load_n,
-                **record.result.neutral_line,
-            }
-        )
-        for record in records
-        if record.case_id in case_ids and record.result.neutral_line is not None
-    ]
-    columns = list(NeutralLine.to_schema().columns)
-    return (
-        pd.concat(tables, ignore_index=True)[columns] if tables else pd.DataFrame(columns=columns)
-    )

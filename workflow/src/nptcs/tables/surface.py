@@ -2,15 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
-
-import numpy as np
-import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
-
-from nptcs.surface.fit import Surface
-from nptcs.surface.terms import parse
 
 
 class SurfaceTable(pa.DataFrameModel):
@@ -56,48 +49,3 @@ class SurfaceQuality(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
-
-
-def surface_table(
-    surfaces: Mapping[str, Surface], published: Mapping[tuple[int, ...], float]
-) -> pd.DataFrame:
-    """Lay the surfaces of a study, by solver, out as `SurfaceTable`.
-
-    `published` maps the powers of a term to the coefficient that the paper prints.
-    """
-    rows = [
-        row
-        for solver, surface in surfaces.items()
-        for row in zip(
-            [solver] * len(surface.polynomial),
-            surface.polynomial.names,
-            surface.coefficients_natural,
-            surface.coefficients_coded,
-            surface.natural_standard_errors(),
-            surface.coded_standard_errors(),
-            [published.get(powers, np.nan) for powers in surface.polynomial.exponents],
-            strict=True,
-        )
-    ]
-    return pd.DataFrame(rows, columns=list(SurfaceTable.to_schema().columns))
-
-
-def quality_table(study: str, quality: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:
-    """Lay the quality of a study's surfaces, by solver, out as `SurfaceQuality`."""
-    rows = [
-        {
-            "study": study,
-            "solver": solver,
-            "response": "vertical_stiffness_n_per_mm",
-            **numbers,
-            "rule": "ordinary least squares in coded units, solved cases only",
-        }
-        for solver, numbers in quality.items()
-    ]
-    return pd.DataFrame(rows, columns=list(SurfaceQuality.to_schema().columns))
-
-
-def by_powers(printed: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:
-    """Map the powers of each printed term (`PublishedCoefficients`) to its coefficient."""
-    powers = parse(list(printed["term"]), factors).exponents
-    return dict(zip(powers, printed["coefficient"], strict=True))

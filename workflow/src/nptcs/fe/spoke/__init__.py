@@ -1,1 +1,5 @@
-""""""
+"""One spoke: mesh, equilibrium, the energy table that stands for it in the tyre, its pull and push.
+
+A `SpokeDesign` comes in, states (`equilibrium`), an energy (`energy_table`) or a force–displacement
+curve (`pull`) goes out. The tyre is not known here.
+"""

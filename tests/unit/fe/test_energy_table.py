@@ -16,14 +16,14 @@ OPTIONS = EnergyTableOptions(
     elongation_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
     degrees=(6, 4), narrowing=1.0,
 )  # fmt: skip
-SAMPLE_FIELDS = ("chord", "energy", "force", "tangent")
+SAMPLE_FIELDS = ("coordinates", "energy", "force", "tangent")
 HEIGHT = SpokeGeometry().height_mm
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 
 
-def manufactured(chord):
+def manufactured(coordinates):
     """E = s² (1 + 40 β²) + 300 φ² + 2 s φ + 5000 β², with its derivatives."""
-    s, beta, phi = chord.T
+    s, beta, phi = coordinates.T
     energy = s**2 * (1 + 40 * beta**2) + 300 * phi**2 + 2 * s * phi + 5000 * beta**2
     force = np.stack(
         [
@@ -33,13 +33,13 @@ def manufactured(chord):
         ],
         axis=1,
     )
-    tangent = np.zeros((len(chord), 3, 3))
+    tangent = np.zeros((len(coordinates), 3, 3))
     tangent[:, 0, 0] = 2 * (1 + 40 * beta**2)
     tangent[:, 0, 1] = tangent[:, 1, 0] = 160 * s * beta
     tangent[:, 1, 1] = 80 * s**2 + 10000
     tangent[:, 2, 2] = 600
     tangent[:, 0, 2] = tangent[:, 2, 0] = 2
-    return SpokeSamples(chord, energy, force, tangent)
+    return SpokeSamples(coordinates, energy, force, tangent)
 
 
 def grid_samples():
@@ -60,11 +60,11 @@ CHORDS = st.tuples(st.floats(-6.0, 3.0), st.floats(-0.045, 0.045), st.floats(-0.
 @given(CHORDS)
 @example((0.0, 0.045, 0.004))  # s comes back as -1.4e-14, where β's range is already narrower
 @settings(max_examples=40, deadline=None)
-def test_a_polynomial_energy_is_recovered_everywhere(chord):
-    chord = np.array([chord])
-    motion, first, second = motion_of(chord, HEIGHT)
+def test_a_polynomial_energy_is_recovered_everywhere(coordinates):
+    coordinates = np.array([coordinates])
+    motion, first, second = motion_of(coordinates, HEIGHT)
     energy, force, tangent = TABLE.evaluate(motion)
-    wanted = manufactured(chord)
+    wanted = manufactured(coordinates)
     assert energy == pytest.approx(wanted.energy, abs=1e-8)
     assert carried(force, tangent, first, second)[0] == pytest.approx(wanted.force, abs=1e-6)
     assert carried(force, tangent, first, second)[1] == pytest.approx(wanted.tangent, abs=1e-4)
@@ -72,8 +72,8 @@ def test_a_polynomial_energy_is_recovered_everywhere(chord):
 
 @given(CHORDS)
 @settings(max_examples=20, deadline=None)
-def test_forces_and_tangents_are_derivatives_by_the_motion(chord):
-    motion = motion_of(0.9 * np.array([chord]), HEIGHT)[0]
+def test_forces_and_tangents_are_derivatives_by_the_motion(coordinates):
+    motion = motion_of(0.9 * np.array([coordinates]), HEIGHT)[0]
     _, force, tangent = TABLE.evaluate(motion)
     for axis, step in enumerate((1e-4, 1e-4, 1e-6)):
         shift = step * np.eye(3)[axis]
@@ -86,7 +86,7 @@ def test_forces_and_tangents_are_derivatives_by_the_motion(chord):
 
 def test_leaving_the_table_is_an_error_that_names_the_spoke():
     motion = np.array([[0.0, 0.0, 0.0], [-7.0, 0.0, 0.0]])
-    with pytest.raises(TableRangeError, match=r"spoke 1: change of chord \(mm\) = -7"):
+    with pytest.raises(TableRangeError, match=r"spoke 1: elongation \(mm\) = -7"):
         TABLE.evaluate(motion)
     with pytest.raises(TableRangeError):
         TABLE.evaluate(np.array([[np.nan, 0.0, 0.0]]))
@@ -144,28 +144,28 @@ def test_the_table_of_a_spoke_predicts_states_between_its_samples():
         assert force[0, 0] == pytest.approx(state.force[0], rel=5e-3)
 
 
-def test_a_level_of_the_unloaded_chord_is_one_state():
+def test_a_level_of_the_unloaded_spoke_is_one_state():
     options = EnergyTableOptions(
         elongation_mm=(-1.5, 1.5), inclination_rad=0.02, phi_rad=(-0.02, 0.02), samples=(3, 3, 3),
         degrees=(4, 4),
     )  # fmt: skip
-    chord = sample(SpokeModel(spoke_design()), options).chord
-    assert len(chord) == 3 * 2 * 3
-    assert np.unique(chord[:, 0].round(9)) == pytest.approx([-1.5, 0.0, 1.5])
+    coordinates = sample(SpokeModel(spoke_design()), options).coordinates
+    assert len(coordinates) == 3 * 2 * 3
+    assert np.unique(coordinates[:, 0].round(9)) == pytest.approx([-1.5, 0.0, 1.5])
 
 
 def test_a_half_turn_leaves_the_spoke_as_it_is():
     """States at β and -β: rim and band change places, with coupled plies as with any."""
     model = SpokeModel(spoke_design(angle_deg=30.0))
-    chord = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
-    motions = motion_of(chord, HEIGHT)[0]
-    assert coordinates_of(motions, HEIGHT)[0] == pytest.approx(chord, abs=1e-12)
+    coordinates = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
+    motions = motion_of(coordinates, HEIGHT)[0]
+    assert coordinates_of(motions, HEIGHT)[0] == pytest.approx(coordinates, abs=1e-12)
     assert abs(motions[0, 1] + motions[1, 1]) > 1.0
     states = [model.move(model.rest(), motion) for motion in motions]
     assert states[0].energy == pytest.approx(states[1].energy, rel=1e-9)
     force = np.array([state.force for state in states])
     tangent = np.array([state.tangent for state in states])
-    force, tangent = carried(force, tangent, *motion_of(chord, HEIGHT)[1:])
+    force, tangent = carried(force, tangent, *motion_of(coordinates, HEIGHT)[1:])
     mirror = np.array([1.0, -1.0, 1.0])
     assert force[1] == pytest.approx(mirror * force[0], rel=1e-6)
     # tangents are those of the last iterate, where the work left is 1e-9 of the energy
@@ -181,7 +181,7 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
         calls.append(design)
         return TABLE
 
-    monkeypatch.setattr("nptcs.fe.spoke.cache.spoke_table", computed)
+    monkeypatch.setattr("nptcs.fe.spoke.cache.energy_table", computed)
     model = FeModel(spoke_mesh=COARSE, table=OPTIONS)
     first = shared_table(model, spoke_design(), tmp_path)
     again = shared_table(model, spoke_design(), tmp_path)

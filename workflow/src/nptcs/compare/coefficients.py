@@ -1,0 +1,15 @@
+"""Published coefficients of a response surface by the powers of their terms: tables 6 and 8."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+import pandas as pd
+
+from nptcs.surface.terms import parse
+
+
+def by_powers(printed: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:
+    """Map the powers of each printed term (`PublishedCoefficients`) to its coefficient."""
+    powers = parse(list(printed["term"]), factors).exponents
+    return dict(zip(powers, printed["coefficient"], strict=True))
