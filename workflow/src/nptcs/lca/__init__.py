@@ -2,7 +2,7 @@
 
 The paper's section 3.3, solved exactly: ``solve`` for one design, ``curve`` for its load–
 displacement curve, ``solve_batch`` for a table of designs; ``solve_law`` for spokes whose force
-follows a curve or that stand singly.
+follows a curve or that are single spokes.
 """
 
 from nptcs.lca.batch import Batch, solve_batch
