@@ -34,6 +34,21 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
     ------
     InputError
         When a level names a rubber that has no card, or two levels of a factor coincide.
+
+    Examples
+    --------
+    >>> from nptcs.config.study import Study
+    >>> angle = {"name": "angle_deg", "label": "A", "unit": "deg", "levels": [0, 45, 90]}
+    >>> spacing = {"name": "spacing_mm", "label": "S", "unit": "mm", "levels": [10, 20]}
+    >>> study = Study(name="plate", title="", factors=[spacing, angle], solvers=["fe_tyre"])
+    >>> print(full_factorial(study, {}).to_string(index=False))
+      case_id  case  spacing_mm  angle_deg
+    plate_001     1        10.0        0.0
+    plate_002     2        10.0       45.0
+    plate_003     3        10.0       90.0
+    plate_004     4        20.0        0.0
+    plate_005     5        20.0       45.0
+    plate_006     6        20.0       90.0
     """
     levels = {
         factor.name: [

@@ -25,6 +25,18 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
     ------
     Path
         The name to write to, with the same suffix.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     target = Path(folder) / "table.csv"
+    ...     with atomic_path(target) as temporary:
+    ...         _ = temporary.write_text("a,b")
+    ...         print(target.exists())
+    ...     print(target.exists())
+    False
+    True
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -57,5 +69,11 @@ def sha256_of_file(path: str | Path) -> str:
 
 
 def sha256_of_text(text: str) -> str:
-    """SHA-256 of a text's UTF-8 bytes, as 64 hexadecimal digits."""
+    """SHA-256 of a text's UTF-8 bytes, as 64 hexadecimal digits.
+
+    Examples
+    --------
+    >>> sha256_of_text("nptcs")[:12]
+    'dc31111c47cb'
+    """
     return hashlib.sha256(text.encode("utf-8")).hexdigest()

@@ -99,6 +99,15 @@ def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> 
         The covariance is the delete-one jackknife over specimens within each mode,
         Σ_h (n_h - 1)/n_h Σ_i (c_hi - c̄_h)(c_hi - c̄_h)ᵀ, which is s²/n for a mean; with a
         single specimen in some mode it is the regression's (HC1), and says so.
+
+    Examples
+    --------
+    >>> from nptcs.calibrate.invariants import NEO_HOOKEAN
+    >>> stretch = np.linspace(1.01, 1.15, 8)
+    >>> stress = 2 * 1.18 * (stretch - stretch**-2)
+    >>> data = [Observation("R75-1", "rubber_tension", stretch, stress, np.ones(8))]
+    >>> fit_model(NEO_HOOKEAN, data, error_floor=0.1).constants.round(6).tolist()
+    [1.18]
     """
     constants = model.solve(data)
     stress = np.concatenate([o.stress for o in data])

@@ -32,7 +32,16 @@ EXPONENTS = {
 
 
 def stretches(mode: str, stretch: Array) -> tuple[Array, Array, Array]:
-    """Principal stretches (λ1, λ2, λ3) of a mode; λ1 is in the loading direction."""
+    """Principal stretches (λ1, λ2, λ3) of a mode; λ1 is in the loading direction.
+
+    Examples
+    --------
+    An equibiaxial stretch of 2 thins the sheet to a quarter:
+
+    >>> import numpy as np
+    >>> stretches("rubber_equibiaxial", np.array(2.0))[2].item()
+    0.25
+    """
     second = stretch ** SECOND_STRETCH[mode]
     return stretch, second, 1.0 / (stretch * second)
 
@@ -49,6 +58,17 @@ class InvariantModel:
         Names of the constants c_k, MPa.
     powers : tuple of (int, int)
         (p_k, q_k) of each term.
+
+    Examples
+    --------
+    P = 2 C10 (λ - λ⁻²) at 15 % strain, with the paper's C10 of rubber 75A:
+
+    >>> import numpy as np
+    >>> stress = NEO_HOOKEAN.stress("rubber_tension", np.array([1.15]), np.array([1.18]))
+    >>> stress.round(4).tolist()
+    [0.9295]
+    >>> NEO_HOOKEAN.initial_shear_modulus(np.array([1.18]))
+    2.36
     """
 
     name: str

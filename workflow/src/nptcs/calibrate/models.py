@@ -9,7 +9,13 @@ from nptcs.config.calibration import ModelName
 
 
 def model_named(name: ModelName, ogden_terms: int) -> Model:
-    """Return a hyperelastic model; `ogden_terms` is the number of terms of Ogden's."""
+    """Return a hyperelastic model; `ogden_terms` is the number of terms of Ogden's.
+
+    Examples
+    --------
+    >>> model_named("yeoh", ogden_terms=2).constants
+    ('c10_mpa', 'c20_mpa', 'c30_mpa')
+    """
     if name == "ogden":
         return ogden(ogden_terms)
     models: dict[str, Model] = {m.name: m for m in (NEO_HOOKEAN, MOONEY_RIVLIN, YEOH)}

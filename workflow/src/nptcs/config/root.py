@@ -128,6 +128,12 @@ def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> 
     ------
     InputError
         All faults in one message: the key's path, the value, and the nearest known key.
+
+    Examples
+    --------
+    >>> read_config({"studys": []}, "mine.yaml")
+    Traceback (most recent call last):
+    nptcs.errors.InputError: ...studys: unknown key; did you mean 'studies'?...
     """
     try:
         return Config.model_validate(values)

@@ -37,7 +37,13 @@ class TyreGeometry(Strict):
     wire_poisson_ratio: float = Field(0.3, gt=-1, lt=0.5, description="Poisson's ratio of the wire")
 
     def plates_across(self, spacing_mm: float) -> int:
-        """Return how many plates of a leg fit into the width at this spacing (table 4: 15)."""
+        """Return how many plates of a leg fit into the width at this spacing (table 4: 15).
+
+        Examples
+        --------
+        >>> [TyreGeometry().plates_across(spacing) for spacing in (10, 15, 20)]
+        [22, 15, 11]
+        """
         return floor((self.tread_width_mm - self.plate_width_mm) / spacing_mm + 1e-9) + 1
 
     @model_validator(mode="after")

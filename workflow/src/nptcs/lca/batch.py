@@ -93,6 +93,24 @@ def solve_batch(
     ------
     InputError
         A column is missing, or not exactly one target is given.
+
+    Examples
+    --------
+    >>> designs = {
+    ...     "axial_stiffness_n": 2.711e7,
+    ...     "shear_stiffness_n": 30100,
+    ...     "bending_stiffness_n_mm2": 1.0554e9,
+    ...     "radius_mm": 303.875,
+    ...     "width_mm": 215,
+    ...     "tension_n_per_mm": [30.2, -1],
+    ...     "compression_n_per_mm": 13.26,
+    ...     "spoke_count": 60,
+    ... }
+    >>> batch = solve_batch(designs, load_n=5000)
+    >>> batch.status.tolist(), batch.columns["stiffness_n_per_mm"].round(1).tolist()
+    (['ok', 'bad_input'], [241.1, nan])
+    >>> batch.message[1]
+    'tension_n_per_mm must be a finite number above zero, got -1'
     """
     name, value = only_target(load_n, displacement_mm, theta_c_deg)
     table = columns(designs, value, largest_displacement_mm)

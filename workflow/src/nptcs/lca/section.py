@@ -67,6 +67,12 @@ class RingSection:
             Neo-Hookean constant of the band's rubber (MPa).
         kind : {"sandwich", "printed"}
             The physical section or that of the paper's section 3.3.3.
+
+        Examples
+        --------
+        >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+        >>> f"{ring.axial_stiffness_n:.4g} N, {ring.bending_stiffness_n_mm2:.4g} N mm2"
+        '2.711e+07 N, 1.055e+09 N mm2'
         """
         require_positive("shear_band_c10_mpa", c10_mpa)
         ea, ga, ei = section_stiffness(tyre.model_dump(), c10_mpa, kind)

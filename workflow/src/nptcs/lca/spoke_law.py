@@ -71,6 +71,13 @@ class SpokeLaw:
             Shortening and force; the first point is the origin.
         count : int
             Number of spokes.
+
+        Examples
+        --------
+        >>> law = SpokeLaw.from_curves([0, 2, 4], [0, 60, 130], [0, 10, 20], [0, 120, 300])
+        >>> force, slope = law.evaluate(4.0)
+        >>> float(force), law.range_mm
+        (130.0, (-20.0, 4.0))
         """
         left = [np.asarray(v, dtype=float)[:0:-1] for v in (compression_mm, compression_n)]
         right = [np.asarray(v, dtype=float) for v in (tension_mm, tension_n)]

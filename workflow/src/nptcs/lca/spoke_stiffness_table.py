@@ -23,7 +23,21 @@ class OutOfRangeError(InputError):
 
 @dataclass(frozen=True)
 class SpokeStiffnessTable:
-    """Stiffness in tension and compression at increasing C10; arrays of shape ``(n,)``."""
+    """Stiffness in tension and compression at increasing C10; arrays of shape ``(n,)``.
+
+    Examples
+    --------
+    >>> rows = [
+    ...     {
+    ...         "spoke_c10_mpa": c10,
+    ...         "tension_stiffness_n_per_mm": 30 * c10,
+    ...         "compression_stiffness_n_per_mm": 13 * c10,
+    ...     }
+    ...     for c10 in (1, 2, 3)
+    ... ]
+    >>> round(SpokeStiffnessTable.from_rows(rows).spokes(1.5, count=60).tension_n_per_mm, 6)
+    45.0
+    """
 
     c10_mpa: Floating
     tension_n_per_mm: Floating

@@ -211,6 +211,17 @@ def solve_law(
         The target or the combination of options makes no sense.
     ModelError
         The target cannot be reached, or a spoke is stretched or compressed beyond its curve.
+
+    Examples
+    --------
+    Spokes that follow two straight lines, as in equation 14, are those of `nptcs.lca.single.solve`:
+
+    >>> from nptcs.config.tyre import TyreGeometry
+    >>> from nptcs.lca.spokes import LinearSpokes
+    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> law = SpokeLaw.linear(LinearSpokes(30.2, 13.26), reach_mm=50)
+    >>> round(solve_law(ring, law, load_n=5000, contact="paper").displacement_mm, 2)
+    20.74
     """
     name, raw = only_target(load_n, displacement_mm, theta_c_deg)
     target = float(np.asarray(raw))

@@ -71,6 +71,12 @@ def fit_line(x: Array, y: Array) -> Line:
     -------
     Line
         R² and errors are NaN where n leaves no degree of freedom.
+
+    Examples
+    --------
+    >>> line = fit_line(np.array([0.0, 1.0, 2.0]), np.array([1.0, 3.0, 5.0]))
+    >>> line.slope, line.intercept
+    (2.0, 1.0)
     """
     x_mean, y_mean = float(x.mean()), float(y.mean())
     dx, dy = x - x_mean, y - y_mean
@@ -112,6 +118,17 @@ def chord_slope(
     -------
     Chord
         With NaN and a flag "not assessed: …" where the data do not cover the range.
+
+    Examples
+    --------
+    The chord modulus of a straight curve of 128 GPa, and a curve that ends too soon:
+
+    >>> strain = np.linspace(0, 0.004, 41)
+    >>> chord = chord_slope(strain, 128000 * strain, 0.001, 0.003, "nearest_points")
+    >>> round(chord.slope), chord.points
+    (128000, 2)
+    >>> chord_slope(strain[:20], 128000 * strain[:20], 0.001, 0.003, "nearest_points").flags
+    ('not assessed: the curve ends at 0.0019, before 0.003',)
     """
     width = high - low
     if len(x) < 2:

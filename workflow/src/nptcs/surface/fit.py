@@ -106,6 +106,17 @@ def fit(
         When there are no more cases than terms, when the response has gaps or does not vary, or
         when the design cannot tell terms apart: the aliased terms are named, never fitted by a
         minimum-norm solution.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> design = pd.DataFrame({"spacing_mm": [10.0, 12.5, 15.0, 17.5, 20.0]})
+    >>> stiffness = 300 - 2 * design["spacing_mm"] + 0.1 * design["spacing_mm"] ** 2
+    >>> surface = fit(design, stiffness, ["spacing_mm"], ["1", "spacing_mm", "spacing_mm^2"])
+    >>> surface.coefficients_natural.astype(float).round(6).tolist()
+    [300.0, -2.0, 0.1]
+    >>> surface.predict(np.array([[16.0]])).astype(float).round(6).tolist()
+    [293.6]
     """
     polynomial = parse(terms, factors)
     x = design[list(factors)].to_numpy(float)

@@ -37,6 +37,20 @@ def impact(surface: Surface, design: pd.DataFrame, rule: AveragingRule) -> pd.Da
     DataFrame
         ``factor, rule, gradient, range, impact``; the impact carries the sign of the gradient,
         in the unit of the response.
+
+    Examples
+    --------
+    The slope of 2 a over 0 to 4 is 2 everywhere, its impact 2 · 4; b has none:
+
+    >>> from itertools import product
+    >>> from nptcs.surface.fit import fit
+    >>> design = pd.DataFrame(product([0.0, 2.0, 4.0], [1.0, 2.0]), columns=["a", "b"])
+    >>> surface = fit(design, 2 * design["a"], ["a", "b"], ["1", "a", "b"])
+    >>> table = impact(surface, design, "domain_mean_absolute").round(6)
+    >>> print(table[["factor", "gradient", "range", "impact"]].to_string(index=False))
+    factor  gradient  range  impact
+         a       2.0    4.0     8.0
+         b       0.0    1.0     0.0
     """
     factors = surface.polynomial.factors
     gradients = []

@@ -26,6 +26,17 @@ class Polynomial:
         Names of the n factors.
     exponents : tuple of tuple of int
         One tuple of n powers for each of the p terms.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> polynomial = Polynomial(("a", "b"), ((0, 0), (1, 0), (2, 1)))
+    >>> polynomial.names
+    ('1', 'a', 'a^2*b')
+    >>> polynomial.matrix(np.array([[2.0, 3.0]])).tolist()
+    [[1.0, 2.0, 12.0]]
+    >>> polynomial.derivative_matrix(np.array([[2.0, 3.0]]), "a").tolist()
+    [[0.0, 1.0, 12.0]]
     """
 
     factors: tuple[str, ...]
@@ -73,6 +84,14 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
         For a term that cannot be read, an unknown factor, a term named twice, or a term whose
         lower-order relatives are missing (the fit in coded units and the one in natural units
         would then be two different surfaces).
+
+    Examples
+    --------
+    >>> parse(["1", "a", "b", "a^2", "a*b"], ["a", "b"]).exponents
+    ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1))
+    >>> parse(["1", "a^2"], ["a"])
+    Traceback (most recent call last):
+    nptcs.errors.InputError: column 'terms': terms of lower order are missing, ...
     """
     exponents = [_exponents(term, factors) for term in terms]
     polynomial = Polynomial(tuple(factors), tuple(exponents))
@@ -97,6 +116,16 @@ def coded_to_natural(polynomial: Polynomial, centre: Array, half_range: Array) -
     """Build the matrix M with b_natural = M b_coded, for c = (x - centre) / half_range.
 
     Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem. Shape (p, p).
+
+    Examples
+    --------
+    With centre 3 and half range 2, 5 + 4 c is 5 + 4 (x - 3)/2 = -1 + 2 x:
+
+    >>> import numpy as np
+    >>> line = parse(["1", "x"], ["x"])
+    >>> matrix = coded_to_natural(line, np.array([3.0]), np.array([2.0]))
+    >>> (matrix @ [5.0, 4.0]).round(6).tolist()
+    [-1.0, 2.0]
     """
     index = {powers: row for row, powers in enumerate(polynomial.exponents)}
     matrix = np.zeros((len(polynomial), len(polynomial)))

@@ -23,7 +23,16 @@ def reduced_stiffness(ply: Mapping[str, float]) -> Array:
 
 
 def rotated_stiffness(ply: Mapping[str, float], angle_deg: float) -> Array:
-    """Plane-stress stiffness Q̄ (3, 3) with the fibres at an angle from the plate's axis, MPa."""
+    """Plane-stress stiffness Q̄ (3, 3) with the fibres at an angle from the plate's axis, MPa.
+
+    Examples
+    --------
+    Across the fibres a ply is as stiff as its matrix lets it be:
+
+    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> rotated_stiffness(PUBLISHED_PLY, 90)[0, 0].round(0).item()
+    8878.0
+    """
     c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
     # strains of the plate's axes to those of the fibre, engineering shear
     turn = np.array(
@@ -43,6 +52,17 @@ def abd(ply: Mapping[str, float], angle_deg: float, thickness_mm: float) -> Arra
     """Laminate stiffness [[A, B], [B, D]] (6, 6) of [+A/-A]; the ply +A lies at z < 0.
 
     A in N/mm, B in N, D in N mm; strains and curvatures in the order 11, 22, 12.
+
+    Examples
+    --------
+    Fibres along the plate: no coupling, and D11 = Q11 t³/12:
+
+    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> stiffness = abd(PUBLISHED_PLY, angle_deg=0, thickness_mm=1.2)
+    >>> bool(np.allclose(stiffness[:3, 3:], 0))
+    True
+    >>> round(float(stiffness[3, 3] / reduced_stiffness(PUBLISHED_PLY)[0, 0] / 1.2**3 * 12), 6)
+    1.0
     """
     edges = np.array([-0.5, 0.0, 0.5]) * thickness_mm
     plies = [rotated_stiffness(ply, angle) for angle in (angle_deg, -angle_deg)]
