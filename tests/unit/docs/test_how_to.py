@@ -25,7 +25,7 @@ pages = load_pages()
 @pytest.fixture
 def tree(tmp_path):
     leave = shutil.ignore_patterns("__pycache__", "*.egg-info")
-    for name in ("config", "profiles", "raw_data", "workflow"):
+    for name in ("config", "docs", "profiles", "raw_data", "workflow"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=leave)
     shutil.copy(ROOT / "Snakefile", tmp_path)
     return tmp_path
