@@ -6,7 +6,7 @@
 The deck is read back and solved by the solver of its tests (``tests/unit/fe/abaqus_spoke.py``):
 constant-pressure bricks, embedded shear-flexible laminates. Radial stiffness of a whole spoke.
 `--angles` gives the steps from angle to angle with bricks as wide as a plate and half as wide,
-beside those of fe_spoke with embedded and with conforming plates, and table 5's.
+next to those of fe_spoke with embedded and with conforming plates, and table 5's.
 """
 
 from __future__ import annotations
