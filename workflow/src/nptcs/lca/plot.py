@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from nptcs.compare.lca import ring_neutral_line
+from nptcs.lca.deformed_ring import ring_neutral_line
 from nptcs.lca.state import LcaState
 
 FORMATS = (".svg", ".png", ".pdf")
