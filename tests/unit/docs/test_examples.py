@@ -61,6 +61,6 @@ def test_what_newcomers_call_first_has_an_example():
         "nptcs.reduce.chord.chord_slope",
         "nptcs.surface.fit.fit",
         "nptcs.surface.sensitivity.impact",
-        "nptcs.surface.terms.parse",
+        "nptcs.surface.terms.Polynomial",
         "nptcs.tables.io.write_table",
     }

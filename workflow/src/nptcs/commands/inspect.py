@@ -39,5 +39,5 @@ def run(arguments: argparse.Namespace) -> int:
         if target.exists():
             raise InputError("this file exists already", "choose another name", target)
         write_text(target, draft_profile(inspection, target.stem))
-        print(f"\nprofile written to {target}: check each of its lines")
+        print(f"\nprofile written to {target}: check every line of it")
     return 0 if inspection.tests and inspection.problem is None else 1

@@ -1,4 +1,20 @@
-"""Terms of a response surface: how they are written, evaluated and differentiated."""
+"""Terms of a response surface: how they are written, evaluated and differentiated.
+
+Examples
+--------
+>>> parse(["1", "a", "b", "a^2", "a*b"], ["a", "b"]).exponents
+((0, 0), (1, 0), (0, 1), (2, 0), (1, 1))
+>>> parse(["1", "a^2"], ["a"])
+Traceback (most recent call last):
+nptcs.errors.InputError: column 'terms': terms of lower order are missing, ...
+
+With centre 3 and half range 2, 5 + 4 c is 5 + 4 (x - 3)/2 = -1 + 2 x:
+
+>>> line = parse(["1", "x"], ["x"])
+>>> matrix = coded_to_natural(line, np.array([3.0]), np.array([2.0]))
+>>> (matrix @ [5.0, 4.0]).astype(float).round(6).tolist()
+[-1.0, 2.0]
+"""
 
 from __future__ import annotations
 
@@ -84,14 +100,6 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
         For a term that cannot be read, an unknown factor, a term named twice, or a term whose
         lower-order relatives are missing (the fit in coded units and the one in natural units
         would then be two different surfaces).
-
-    Examples
-    --------
-    >>> parse(["1", "a", "b", "a^2", "a*b"], ["a", "b"]).exponents
-    ((0, 0), (1, 0), (0, 1), (2, 0), (1, 1))
-    >>> parse(["1", "a^2"], ["a"])
-    Traceback (most recent call last):
-    nptcs.errors.InputError: column 'terms': terms of lower order are missing, ...
     """
     exponents = [_exponents(term, factors) for term in terms]
     polynomial = Polynomial(tuple(factors), tuple(exponents))
@@ -116,16 +124,6 @@ def coded_to_natural(polynomial: Polynomial, centre: Array, half_range: Array) -
     """Build the matrix M with b_natural = M b_coded, for c = (x - centre) / half_range.
 
     Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem. Shape (p, p).
-
-    Examples
-    --------
-    With centre 3 and half range 2, 5 + 4 c is 5 + 4 (x - 3)/2 = -1 + 2 x:
-
-    >>> import numpy as np
-    >>> line = parse(["1", "x"], ["x"])
-    >>> matrix = coded_to_natural(line, np.array([3.0]), np.array([2.0]))
-    >>> (matrix @ [5.0, 4.0]).round(6).tolist()
-    [-1.0, 2.0]
     """
     index = {powers: row for row, powers in enumerate(polynomial.exponents)}
     matrix = np.zeros((len(polynomial), len(polynomial)))
