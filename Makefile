@@ -23,6 +23,7 @@ lint: $(VENV)/ready-dev
 	ruff format --check .
 	snakefmt --check Snakefile workflow/rules
 	mypy
+	lint-imports
 
 format: $(VENV)/ready-dev
 	ruff check --fix .

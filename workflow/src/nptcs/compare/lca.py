@@ -15,10 +15,10 @@ import pandas as pd
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
+from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
 from nptcs.lca.single import design_row, solve
 from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
-from nptcs.lca.state import LcaState
 
 TABLE_11_SHEAR_BAND_C10_MPA = 5.0
 _COMPARED = {
@@ -163,34 +163,6 @@ def lca_against_fem(
     return pd.concat(parts, ignore_index=True)
 
 
-def ring_neutral_line(state: LcaState, points: int = 721) -> pd.DataFrame:
-    """Return the deformed middle line of the band, as figure 14 draws it.
-
-    Parameters
-    ----------
-    state : LcaState
-        A solved design.
-    points : int
-        Points around the whole ring.
-
-    Returns
-    -------
-    DataFrame
-        ``theta_deg``, ``region``, ``x_mm``, ``y_mm`` (deformed, the hub at the origin, y up) and
-        ``x_undeformed_mm``, ``y_undeformed_mm``.
-    """
-    shape = state.at(np.linspace(-180.0, 180.0, points))
-    angle = np.radians(shape["theta_deg"].to_numpy())
-    radius = state.section.radius_mm
-    radial = radius + shape["u_r_mm"].to_numpy()
-    along = shape["u_theta_mm"].to_numpy()
-    shape["x_mm"] = radial * np.sin(angle) + along * np.cos(angle)
-    shape["y_mm"] = -radial * np.cos(angle) + along * np.sin(angle)
-    shape["x_undeformed_mm"] = radius * np.sin(angle)
-    shape["y_undeformed_mm"] = -radius * np.cos(angle)
-    return shape[["theta_deg", "region", "x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]]
-
-
 def ring_neutral_lines(
     spoke_table: pd.DataFrame,
     table_11: pd.DataFrame,
@@ -199,7 +171,7 @@ def ring_neutral_lines(
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
     points: int = 721,
 ) -> pd.DataFrame:
-    """Return the ring shapes of table 11's designs under its loads (contract `LcaNeutralLine`).
+    """Return the neutral lines of table 11's designs under its loads (contract `LcaNeutralLine`).
 
     Parameters
     ----------
@@ -216,12 +188,12 @@ def ring_neutral_lines(
     """
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
     ring = RingSection.from_tyre(tyre, shear_band_c10_mpa, section)
-    shapes = []
+    lines = []
     for c10, load in zip(table_11["spoke_c10_mpa"], table_11["lca_force_n"], strict=True):
         state = solve(ring, spokes.spokes(float(c10), tyre.spoke_count), load_n=float(load))
-        shape = ring_neutral_line(state, points)
+        line = neutral_line(state, points)
         for name, value in (("load_n", load), ("spoke_c10_mpa", c10)):
-            shape.insert(0, name, float(value))
-        shape.insert(0, "section", section)
-        shapes.append(shape)
-    return pd.concat(shapes, ignore_index=True)
+            line.insert(0, name, float(value))
+        line.insert(0, "section", section)
+        lines.append(line)
+    return pd.concat(lines, ignore_index=True)
