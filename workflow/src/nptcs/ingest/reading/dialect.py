@@ -65,6 +65,7 @@ class Dialect:
 
 @lru_cache
 def number_pattern(decimal: str, thousands: str) -> re.Pattern[str]:
+    """Return what a whole cell with a number looks like, with these marks."""
     mark = re.escape(decimal)
     exponent = r"(?:[eE][+-]?\d+)?"
     plain = rf"(?:\d+(?:{mark}\d*)?|{mark}\d+){exponent}"
