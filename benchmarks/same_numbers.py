@@ -17,6 +17,7 @@ OF_THE_RUN = ["wall_time_s", "key", "solver_version"]
 
 
 def pairs(words: list[str]) -> dict[str, str]:
+    """Read ``old=new`` words."""
     return dict(word.split("=", 1) for word in words)
 
 
@@ -24,7 +25,7 @@ def compare(before: pd.DataFrame, after: pd.DataFrame) -> tuple[float, list[str]
     """Largest relative difference of the numbers, and the columns whose text differs."""
     largest, texts = 0.0, []
     for name in before.columns:
-        if pd.api.types.is_numeric_dtype(before[name]) and not before[name].dtype == bool:
+        if pd.api.types.is_numeric_dtype(before[name]) and before[name].dtype != bool:
             one, two = (table[name].to_numpy(float) for table in (before, after))
             if (np.isnan(one) != np.isnan(two)).any():
                 return np.inf, texts
@@ -38,6 +39,7 @@ def compare(before: pd.DataFrame, after: pd.DataFrame) -> tuple[float, list[str]
 
 
 def main() -> int:
+    """Compare the tables of two runs."""
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("before", type=Path, help="folder of the one run")
     parser.add_argument("after", type=Path, help="folder of the other")
