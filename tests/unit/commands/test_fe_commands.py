@@ -78,7 +78,7 @@ def test_abaqus_deck_needs_the_bands_rubber(tmp_path, card, design):
 def test_deck_refuses_a_configuration_that_is_none(tmp_path, card, design):
     words = ["deck", design, "plate_001", "-o", tmp_path / "x.inp", "--card", card]
     arguments = parse(deck, *words, "--ply", "cfrp", "--config", tmp_path / "none.yaml")
-    with pytest.raises(InputError, match="no YAML file"):
+    with pytest.raises(InputError, match="is not a YAML file"):
         arguments.run(arguments)
 
 
@@ -86,7 +86,7 @@ def test_deck_refuses_a_configuration_that_is_none(tmp_path, card, design):
     ("change", "message"),
     [
         ({"case": "plate_999"}, "0 rows"),
-        ({"ply": "glass"}, "no such ply"),
+        ({"ply": "glass"}, "does not have this ply"),
         ({"spoke_c10": None}, "spoke_c10_mpa"),
     ],
 )
@@ -123,7 +123,7 @@ def test_calibration_refuses_more_than_five_cases_and_unknown_ones(tables):
         fe_calibrate.build_problem(
             parse(fe_calibrate, "fe-calibrate", *tables, "--cases", *range(6))
         )
-    with pytest.raises(InputError, match="not in the tables"):
+    with pytest.raises(InputError, match="does not have these rows"):
         fe_calibrate.build_problem(parse(fe_calibrate, "fe-calibrate", *tables, "--cases", 33))
 
 

@@ -12,14 +12,14 @@ from pathlib import Path
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """Give a temporary name beside `path`; rename it to `path` when the block ends well.
+    """Give a temporary name next to `path`; rename it to `path` when the block ends without error.
 
     A reader sees the old file or the new one, never half of it, also after ``kill -9``.
 
     Parameters
     ----------
     path : str or Path
-        Where the finished file shall be; its folder is made.
+        Where the finished file goes; its folder is created.
 
     Yields
     ------

@@ -1,4 +1,4 @@
-"""``nptcs check``: find faults of the configuration and the specimen sheet before a run."""
+"""``nptcs check``: find faults in the configuration and the specimen sheet before a run."""
 
 from __future__ import annotations
 
@@ -29,11 +29,13 @@ def run(arguments: argparse.Namespace) -> int:
 
     path = Path(arguments.config)
     if not path.is_file():
-        raise InputError("this file does not exist", file=path, remedy="name a configuration file")
+        raise InputError(
+            "this file does not exist", file=path, remedy="give the name of a configuration file"
+        )
     try:
         values = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
     except yaml.YAMLError as error:
-        raise InputError(f"not YAML: {error}", file=path, remedy="correct the syntax") from None
+        raise InputError(f"is not YAML: {error}", file=path, remedy="correct the syntax") from None
     config = read_config(values, str(path))
     for study in config.studies:
         check_study(study, config.solver_options(study))
@@ -48,7 +50,7 @@ def run(arguments: argparse.Namespace) -> int:
             "this raw file does not exist",
             file=folder / name,
             specimen=specimen.specimen,
-            remedy="correct the file name in the specimen sheet, or put the file there",
+            remedy="correct the file name in the specimen sheet, or copy the file into its folder",
         )
         for specimen in specimens
         for name in specimen.files

@@ -1,4 +1,4 @@
-"""``nptcs inspect``: show what detection makes of a raw file."""
+"""``nptcs inspect``: show how a raw file is read."""
 
 from __future__ import annotations
 
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.write_profile is not None:
         target = arguments.write_profile
         if target.exists():
-            raise InputError("file exists already", "choose another name", target)
+            raise InputError("this file exists already", "choose another name", target)
         write_text(target, draft_profile(inspection, target.stem))
-        print(f"\nprofile written to {target}: check every line of it")
+        print(f"\nprofile written to {target}: check each of its lines")
     return 0 if inspection.tests and inspection.problem is None else 1

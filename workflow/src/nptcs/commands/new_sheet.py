@@ -20,7 +20,7 @@ def register(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write ``specimens.csv`` into the folder, unless there is one."""
+    """Write ``specimens.csv`` into the folder, unless it has one."""
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.new_sheet import propose_sheet
@@ -28,10 +28,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     folder = arguments.folder
     if not folder.is_dir():
-        raise InputError("is not a folder", "name the folder with the raw files", folder)
+        raise InputError("is not a folder", "give the folder with the raw files", folder)
     sheet = folder / "specimens.csv"
     if sheet.exists():
-        raise InputError("sheet exists already", "move it away first", sheet)
+        raise InputError("this sheet exists already", "move or rename it first", sheet)
     proposal = propose_sheet(folder, load_profiles(arguments.formats))
     write_text(sheet, proposal.text())
     print(f"{sheet}: {len(proposal.rows)} specimens proposed; fill in what the remarks name")

@@ -1,4 +1,4 @@
-"""Input decks of one spoke for CalculiX, and reading its answers.
+"""Input decks of one spoke for CalculiX, and reading its results.
 
 CalculiX ignores ``*EMBEDDED ELEMENT`` and ``*REBAR LAYER`` with a warning only, so the plies are
 meshed, at their true thickness, with one C3D20R brick each through the thickness.
@@ -205,7 +205,7 @@ def _materials(design: SpokeDesign, plies: Sequence[str]) -> list[str]:
 def total_forces(dat_text: str) -> Array:
     """Read the printed total forces of the band, array (steps, 3), N for one period.
 
-    There is a row for each step that was completed; CalculiX leaves the file empty if none was.
+    There is one row per completed step; CalculiX leaves the file empty if none was.
     """
     number = r"([-+0-9.Ee]+)"
     pattern = rf"total force \(fx,fy,fz\) for set NTOP.*\n\s*\n\s*{number}\s+{number}\s+{number}"
@@ -216,7 +216,8 @@ def complaints(output: str) -> str:
     """Return the warnings and errors about the model in what CalculiX printed, or an empty text.
 
     CalculiX ignores keywords that it does not know with a warning and exit code 0, so a warning
-    means that another model was solved. That an iteration got no further is not about the model.
+    means that another model was solved. A failure to converge is not about
+    the model.
     """
     lines = [line.strip() for line in output.splitlines()]
     starts = [

@@ -75,7 +75,7 @@ def generate(folder: Path, seed: int = SEED) -> None:
     Parameters
     ----------
     folder : Path
-        Is made; files of the same name are replaced.
+        Created if needed; files of the same name are replaced.
     seed : int
         Equal seeds give equal files.
     """

@@ -1,4 +1,4 @@
-"""Simulated tests: a specimen drawn from its series, loaded to its end, and measured."""
+"""Simulated tests: a specimen drawn from its series, loaded to its end and measured."""
 
 from __future__ import annotations
 
@@ -84,7 +84,7 @@ def _mean_poisson(series: Series) -> float:
 
 
 def load_to_break(series: Series, specimen: Draw, rate_hz: float) -> Readings:
-    """Load a specimen at constant strain rate until it breaks, and record on after that."""
+    """Load a specimen at constant strain rate until it breaks, and keep recording after that."""
     strain = np.linspace(0, _largest_strain(series), 20_001)
     stress, axial, transverse = _response(series, specimen, strain)
     broken = stress >= specimen.strength_mpa

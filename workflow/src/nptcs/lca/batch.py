@@ -82,7 +82,7 @@ def solve_batch(
     largest_displacement_mm : array-like, optional
         Displacement at which the band meets the rim; without it the radius R.
     workers : int
-        Threads among which the table is shared out.
+        Threads among which the table is divided.
 
     Returns
     -------
@@ -199,7 +199,7 @@ def _by_hardness(table: dict[str, Floating], target: str, rows: Rows) -> Rows:
 
 @dataclass(frozen=True)
 class Piece:
-    """Some rows of a table, solved.
+    """Solved rows of a table.
 
     Parameters
     ----------
@@ -208,7 +208,7 @@ class Piece:
     numbers : dict of str to array
         Columns `RESULT_COLUMNS`.
     status, message : array of str, list of str
-        One a row.
+        One per row.
     ring, arcs, joined : Ring, Arcs, Joined
         The scaled designs and their solutions.
     """
@@ -223,7 +223,7 @@ class Piece:
 
 
 def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
-    """Solve rows that are known to be well formed; the stubborn ones make a second piece.
+    """Solve well-formed rows; those that Newton's method does not solve form a second piece.
 
     Parameters
     ----------

@@ -24,7 +24,7 @@ order of the step's square, has arrived."""
 MISFIT = 1e-9
 """Largest relative misfit of the target, and of u(θt) to δ, in a solution."""
 LARGEST_CONTACT = np.radians(85)
-"""Contact angles above are no tyre's; the flat constraint is singular at 90°."""
+"""No tyre has larger contact angles; the flat constraint is singular at 90°."""
 NEWTON_STEPS, BRACKET_STEPS = 20, 80
 BRACKET_STEP = 1e-10
 """Relative step after which a bracketed search, whose last steps are Newton's, has arrived."""

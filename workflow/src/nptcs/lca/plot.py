@@ -11,7 +11,7 @@ from nptcs.lca.state import LcaState
 
 FORMATS = (".svg", ".png", ".pdf")
 COLOURS = {"contact": "#d55e00", "compression": "#0072b2", "tension": "#009e73"}
-"""One colour a region, told apart by colour-blind readers too."""
+"""One colour per region, distinguishable for colour-blind readers too."""
 
 
 def ring_figure(state: LcaState) -> Figure:
@@ -46,7 +46,7 @@ def _draw_ring(axes: Axes, state: LcaState) -> None:
         part = line.where(line["region"] == region)
         axes.plot(part["x_mm"], part["y_mm"], color=COLOURS[region], linewidth=2.5, label=label)
     axes.plot(0, 0, "k+")
-    axes.set(aspect="equal", xlabel="x in mm, the hub at 0", ylabel="y in mm")
+    axes.set(aspect="equal", xlabel="x in mm, hub at 0", ylabel="y in mm")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.85), fontsize="small", frameon=False)
 
 

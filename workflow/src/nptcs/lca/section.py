@@ -1,9 +1,9 @@
 """The ring of the load-bearing model: its section constants and where they come from.
 
-Two sections are known. *Sandwich* is the physical one: steel layers at their distance from the
+There are two sections. *Sandwich* is the physical one: steel layers at their distance from the
 middle of a rubber band of the thickness of table 3. *Printed* repeats the numbers of the paper's
 section 3.3.3, whose moment of inertia is that about the wrong axis; it is kept so that both can
-be shown side by side.
+be compared.
 """
 
 from __future__ import annotations

@@ -30,7 +30,7 @@ REMEDIES = {
 
 
 class ModelError(InputError):
-    """A design that is well formed, but that the model cannot carry or solve."""
+    """A design that is well formed but that the model cannot solve."""
 
 
 def design_row(section: RingSection, spokes: LinearSpokes) -> dict[str, float]:
@@ -77,7 +77,9 @@ def solve(
     name, value = only_target(load_n, displacement_mm, theta_c_deg)
     table = columns(design_row(section, spokes), value, largest_displacement_mm)
     if bad := bad_rows(table, name)[0]:
-        raise InputError(f"load-bearing model: {bad}", remedy="give numbers that a tyre can have")
+        raise InputError(
+            f"load-bearing model: {bad}", remedy="give values that are possible for a tyre"
+        )
     (piece,) = solve_rows(table, name)
     if (status := str(piece.status[0])) in REMEDIES:
         raise ModelError(f"load-bearing model: {piece.message[0]}", remedy=REMEDIES[status])
@@ -114,7 +116,8 @@ def curve(
     Returns
     -------
     DataFrame
-        Columns `RESULT_COLUMNS`, ``contact_length_mm``, ``status`` and ``message``, a row a point.
+        Columns `RESULT_COLUMNS`, ``contact_length_mm``, ``status`` and ``message``; one row per
+        point.
     """
     batch: Batch = solve_batch(
         design_row(section, spokes),

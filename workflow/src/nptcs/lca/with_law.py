@@ -203,7 +203,7 @@ def solve_law(
         Spokes of the contact region at their local displacement, or all shortened by δ as in
         equation 14 (smeared spokes only).
     hub_angle_deg : float, optional
-        With it the spokes stand singly, one of them at this angle from the contact's centre.
+        With it the spokes are single ones, one of them at this angle from the contact's centre.
 
     Raises
     ------
@@ -217,7 +217,7 @@ def solve_law(
     require_positive(name, target)
     if hub_angle_deg is not None and (contact == "paper" or name == "theta_c_deg"):
         raise InputError(
-            "single spokes act at their local displacement and have no single contact angle",
+            "single spokes act at their local displacement, and their contact is not symmetric",
             remedy="give a load or a displacement, and contact='local'",
             column="hub_angle_deg",
             value=hub_angle_deg,
