@@ -256,13 +256,13 @@ def test_a_solver_of_spokes_is_handed_no_load_and_solves_once_for_all_loads(tmp_
     assert np.isnan(table["load_n"].iloc[0])
 
 
-def test_a_shape_is_carried_through_process_store_and_batch_file(tmp_path, store):
-    module = tmp_path / "shaped.py"
+def test_a_neutral_line_is_carried_through_process_store_and_batch_file(tmp_path, store):
+    module = tmp_path / "lined.py"
     module.write_text(
-        "from nptcs.solvers.contract import Solver, SolverResult, neutral_line\n"
+        "from nptcs.solvers.contract import Solver, SolverResult, neutral_line_columns as line\n"
         "def solve(inputs):\n"
-        "    return SolverResult(status='ok', shape=neutral_line([0, 90], [-1, 2], [0, 1]))\n"
-        "SOLVER = Solver('shaped', '1', solve, frozenset())\n"
+        "    return SolverResult(status='ok', neutral_line=line([0, 90], [-1, 2], [0, 1]))\n"
+        "SOLVER = Solver('lined', '1', solve, frozenset())\n"
     )
     (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)
     write_records(tmp_path / "batch.jsonl", [record])

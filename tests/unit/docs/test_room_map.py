@@ -1,67 +1,39 @@
-"""The map of rooms in CONTRIBUTING is that of the imports: no circle, nothing left out."""
+"""The map of rooms in CONTRIBUTING names every room, and what each one imports."""
 
-import ast
 import re
 from pathlib import Path
 
+import grimp
+
 ROOT = Path(__file__).parents[3]
-PACKAGE = ROOT / "workflow" / "src" / "nptcs"
 ROW = re.compile(r"^\| (`[^|]*`) \|[^|]*\|([^|]*)\|$", re.MULTILINE)
-EVERYWHERE = {"errors", "files", "arrays", "__version__"}
-"""What every room may import."""
+EVERYWHERE = {"arrays", "console", "errors", "files", "mechanical_tests", "provenance"}
+"""Modules at the bottom, which every room may import."""
 
 
 def read_map():
     """Return what each room of the map rests on, directly or not."""
-    text = (ROOT / "CONTRIBUTING.md").read_text("utf-8")
-    direct = {}
-    for rooms, needs in ROW.findall(text):
-        above = set(direct) if "all of the above" in needs else set()
-        for room in re.findall(r"`(\w+)`", rooms):
-            direct[room] = above | set(re.findall(r"`(\w+)`", needs))
-    return {room: closure(room, direct) for room in direct}
+    rests_on = {}
+    for rooms, needs in ROW.findall((ROOT / "CONTRIBUTING.md").read_text("utf-8")):
+        named = set(re.findall(r"`(\w+)`", needs))
+        direct = set(rests_on) if "all of the above" in needs else named
+        below = set().union(*(rests_on[room] for room in direct))
+        rests_on |= dict.fromkeys(re.findall(r"`(\w+)`", rooms), direct | below)
+    return rests_on
 
 
-def closure(room, direct):
-    found, waiting = set(), list(direct[room])
-    while waiting:
-        found.add(name := waiting.pop())
-        waiting += direct.get(name, set()) - found
-    return found
-
-
-def imports():
-    """Return the rooms that the modules of each room import."""
-    found = {}
-    for file in PACKAGE.rglob("*.py"):
-        room = file.relative_to(PACKAGE).parts[0].removesuffix(".py")
-        for node in ast.walk(ast.parse(file.read_text("utf-8"))):
-            names = []
-            if isinstance(node, ast.ImportFrom) and node.module == "nptcs":
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom) and (node.module or "").startswith("nptcs."):
-                names = [node.module.split(".")[1]]
-            elif isinstance(node, ast.Import):
-                names = [a.name.split(".")[1] for a in node.names if a.name.startswith("nptcs.")]
-            found.setdefault(room, set()).update(set(names) - {room})
-    return found
-
-
-def test_the_map_has_no_circle():
-    assert [room for room, needs in read_map().items() if room in needs] == []
-
-
-def test_every_import_between_rooms_is_on_the_map():
-    rooms = read_map()
-    stray = {
-        (room, needed)
-        for room, names in imports().items()
-        if room in rooms
-        for needed in names - EVERYWHERE - rooms[room]
+def test_the_map_names_every_room_and_what_it_imports():
+    graph, rests_on = grimp.build_graph("nptcs"), read_map()
+    imported = {
+        room: {
+            target.split(".")[1]
+            for module in graph.find_descendants(f"nptcs.{room}") | {f"nptcs.{room}"}
+            for target in graph.find_modules_directly_imported_by(module)
+            if "." in target
+        }
+        for room in (child.split(".")[1] for child in graph.find_children("nptcs"))
+        if room not in EVERYWHERE
     }
-    assert stray == set()
-
-
-def test_every_room_is_on_the_map():
-    folders = {file.parent.name for file in PACKAGE.glob("*/__init__.py")}
-    assert folders - set(read_map()) == set()
+    assert imported.keys() == rests_on.keys()
+    stray = {room: names - EVERYWHERE - {room} - rests_on[room] for room, names in imported.items()}
+    assert {room: names for room, names in stray.items() if names} == {}

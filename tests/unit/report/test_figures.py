@@ -6,7 +6,7 @@ import pytest
 
 from nptcs.report.data import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
-from nptcs.report.figures.lca import load_displacement, ring_neutral_line
+from nptcs.report.figures.lca import deformed_ring, load_displacement
 from nptcs.report.figures.materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
 from nptcs.report.figures.style import to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
@@ -116,7 +116,7 @@ def test_impact_bars_are_the_table(results, config):
 
 def test_the_ring_stands_on_the_ground(results):
     shape = results.lca_neutral_line
-    figure = ring_neutral_line(shape, 431.8)
+    figure = deformed_ring(shape, 431.8)
     drawn = lines(figure)
     lowest = np.nanmin(drawn["contact"].get_ydata())
     assert lowest == pytest.approx(shape["y_mm"].min())

@@ -1,4 +1,9 @@
-"""From properties and curves to material cards."""
+"""From properties and curves to material cards.
+
+Properties of specimens and rubber curves come in; the ply card, the rubber cards and the tables
+that compare models and ranges go out: `calibrate_ply`, `calibrate_rubber`, `compare_models`,
+`c10_against_range`. A test is not reduced here (`nptcs.reduce`), and no design is evaluated.
+"""
 
 from nptcs.calibrate.compare import c10_against_range, compare_models
 from nptcs.calibrate.ply import calibrate_ply

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 import pandas as pd
@@ -152,10 +153,14 @@ def observe(
 
 
 def _weight(stress: Array, settings: RubberSettings) -> Array:
-    if settings.weights == "points":
-        return np.ones_like(stress)
-    if settings.weights == "specimens":
-        return np.full_like(stress, 1.0 / len(stress))
-    # below the floor a relative residual is noise over nearly nothing
-    scale = np.maximum(np.abs(stress), settings.relative_error_floor * np.abs(stress).max())
-    return 1.0 / (len(stress) * scale**2)
+    match settings.weights:
+        case "points":
+            return np.ones_like(stress)
+        case "specimens":
+            return np.full_like(stress, 1.0 / len(stress))
+        case "relative":
+            # below the floor a relative residual is noise over nearly nothing
+            floor = settings.relative_error_floor * np.abs(stress).max()
+            return 1.0 / (len(stress) * np.maximum(np.abs(stress), floor) ** 2)
+        case _:
+            assert_never(settings.weights)

@@ -11,13 +11,13 @@ from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
 from nptcs.errors import InputError
+from nptcs.mechanical_tests import COMPOSITE_TESTS
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
 from nptcs.tables.specimens import Specimen
 
 MEASURED = ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")
 UNITS = {name: "MPa" if name.endswith("_mpa") else "1" for name in PLY_CONSTANTS}
-COMPOSITE_TESTS = ("tension", "compression", "shear")
 
 
 def calibrate_ply(

@@ -8,14 +8,13 @@ error only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
 
 import numpy as np
 import pandas as pd
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
-from nptcs.lca.deformed_ring import ring_neutral_line
+from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
 from nptcs.lca.single import design_row, solve
 from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
@@ -32,15 +31,14 @@ _OURS_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
 
 
 def _solve_cases(
-    cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: str
+    cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: SectionKind
 ) -> pd.DataFrame:
     """Solve rows of shear_band_c10_mpa, spoke_c10_mpa and load_n; returns the model's columns."""
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
-    kind: Literal["sandwich", "printed"] = "sandwich" if section == "sandwich" else "printed"
     designs = pd.DataFrame(
         [
             design_row(
-                RingSection.from_tyre(tyre, band, kind), spokes.spokes(spoke, tyre.spoke_count)
+                RingSection.from_tyre(tyre, band, section), spokes.spokes(spoke, tyre.spoke_count)
             )
             for band, spoke in zip(cases["shear_band_c10_mpa"], cases["spoke_c10_mpa"], strict=True)
         ]
@@ -63,7 +61,7 @@ def lca_validation(
     table_11: pd.DataFrame,
     load_errors: pd.DataFrame,
     tyre: TyreGeometry,
-    sections: Sequence[str] = SECTION_KINDS,
+    sections: Sequence[SectionKind] = SECTION_KINDS,
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
 ) -> pd.DataFrame:
     """Return the rows of ``lca_validation.csv`` (`nptcs.tables.lca_validation.LcaValidation`).
@@ -79,7 +77,7 @@ def lca_validation(
         Figure 15: load_n, largest_relative_error_percent of the paper's model.
     tyre : TyreGeometry
         The tyre.
-    sections : sequence of str
+    sections : sequence of {"sandwich", "printed"}
         Sections to solve with.
     shear_band_c10_mpa : float
         C10 of the band in table 11 and figure 15 (MPa).
@@ -129,7 +127,7 @@ def lca_against_fem(
     spoke_table: pd.DataFrame,
     table_7: pd.DataFrame,
     tyre: TyreGeometry,
-    sections: Sequence[str] = SECTION_KINDS,
+    sections: Sequence[SectionKind] = SECTION_KINDS,
     load_n: float = 5000.0,
 ) -> pd.DataFrame:
     """Return the model beside the FE stiffness of table 7 (`LcaAgainstFem`).
@@ -142,7 +140,7 @@ def lca_against_fem(
         Table 7: case, shear_band_c10_mpa, spoke_c10_mpa, stiffness_n_per_mm.
     tyre : TyreGeometry
         The tyre.
-    sections : sequence of str
+    sections : sequence of {"sandwich", "printed"}
         Sections to solve with.
     load_n : float
         Load of the FE results (N).
@@ -171,7 +169,7 @@ def ring_neutral_lines(
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
     points: int = 721,
 ) -> pd.DataFrame:
-    """Return the ring shapes of table 11's designs under its loads (contract `LcaNeutralLine`).
+    """Return the neutral lines of table 11's designs under its loads (contract `LcaNeutralLine`).
 
     Parameters
     ----------
@@ -188,12 +186,12 @@ def ring_neutral_lines(
     """
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
     ring = RingSection.from_tyre(tyre, shear_band_c10_mpa, section)
-    shapes = []
+    lines = []
     for c10, load in zip(table_11["spoke_c10_mpa"], table_11["lca_force_n"], strict=True):
         state = solve(ring, spokes.spokes(float(c10), tyre.spoke_count), load_n=float(load))
-        shape = ring_neutral_line(state, points)
+        line = neutral_line(state, points)
         for name, value in (("load_n", load), ("spoke_c10_mpa", c10)):
-            shape.insert(0, name, float(value))
-        shape.insert(0, "section", section)
-        shapes.append(shape)
-    return pd.concat(shapes, ignore_index=True)
+            line.insert(0, name, float(value))
+        line.insert(0, "section", section)
+        lines.append(line)
+    return pd.concat(lines, ignore_index=True)

@@ -8,11 +8,12 @@ were not read in a public source, are marked "check against your copy of the sta
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, assert_never
 
 from pydantic import AfterValidator, Field
 
 from nptcs.config.base import Strict
+from nptcs.mechanical_tests import TestType
 
 ChordMethod = Literal["nearest_points", "interpolated", "least_squares"]
 
@@ -257,22 +258,44 @@ class ReductionSettings(Strict):
 
     def tension(self) -> TensionRules:
         """Rules in force for tension tests."""
-        return self.astm_d3039 if self.tension_standard == "astm_d3039" else self.iso_527_4
+        match self.tension_standard:
+            case "astm_d3039":
+                return self.astm_d3039
+            case "iso_527_4":
+                return self.iso_527_4
+            case _:
+                assert_never(self.tension_standard)
 
     def shear(self) -> ShearRules:
         """Rules in force for ±45° tension tests."""
-        return self.astm_d3518 if self.shear_standard == "astm_d3518" else self.iso_14129
+        match self.shear_standard:
+            case "astm_d3518":
+                return self.astm_d3518
+            case "iso_14129":
+                return self.iso_14129
+            case _:
+                assert_never(self.shear_standard)
 
     def rubber(self) -> RubberRules:
         """Rules in force for rubber tests."""
-        return self.astm_d412 if self.rubber_standard == "astm_d412" else self.iso_37
+        match self.rubber_standard:
+            case "astm_d412":
+                return self.astm_d412
+            case "iso_37":
+                return self.iso_37
+            case _:
+                assert_never(self.rubber_standard)
 
-    def rules(self, test: str) -> Rules:
+    def rules(self, test: TestType) -> Rules:
         """Rules in force for a test type of the specimen sheet."""
-        if test == "tension":
-            return self.tension()
-        if test == "compression":
-            return self.astm_d6641
-        if test == "shear":
-            return self.shear()
-        return self.rubber()
+        match test:
+            case TestType.TENSION:
+                return self.tension()
+            case TestType.COMPRESSION:
+                return self.astm_d6641
+            case TestType.SHEAR:
+                return self.shear()
+            case TestType.RUBBER_TENSION | TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+                return self.rubber()
+            case _:
+                assert_never(test)

@@ -6,7 +6,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from nptcs.lca.deformed_ring import ring_neutral_line
+from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.state import LcaState
 
 FORMATS = (".svg", ".png", ".pdf")
@@ -35,17 +35,15 @@ def ring_figure(state: LcaState) -> Figure:
 
 def _draw_ring(axes: Axes, state: LcaState) -> None:
     """Draw the middle line before and after, in the colours of its regions."""
-    shape = ring_neutral_line(state, 1441)
-    axes.plot(
-        shape["x_undeformed_mm"], shape["y_undeformed_mm"], "--", color="0.6", label="unloaded"
-    )
+    line = neutral_line(state, 1441)
+    axes.plot(line["x_undeformed_mm"], line["y_undeformed_mm"], "--", color="0.6", label="unloaded")
     names = {
         "contact": "contact",
         "compression": f"compression, to θt = {state.theta_t_deg:.1f}°",
         "tension": "tension",
     }
     for region, label in names.items():
-        part = shape.where(shape["region"] == region)
+        part = line.where(line["region"] == region)
         axes.plot(part["x_mm"], part["y_mm"], color=COLOURS[region], linewidth=2.5, label=label)
     axes.plot(0, 0, "k+")
     axes.set(aspect="equal", xlabel="x in mm, hub at 0", ylabel="y in mm")

@@ -114,13 +114,13 @@ def loading_branch(curve: pd.DataFrame, specimen: Specimen) -> pd.DataFrame:
         If no row has a finite force, or the load has the wrong sign.
     """
     branch = curve.loc[np.isfinite(curve["stress_mpa"])]
-    if specimen.test == "compression":
-        mirrored = [c for c in branch.columns if c != "time_s"]
-        branch = branch.assign(**{c: -branch[c] for c in mirrored})
+    sign = specimen.test.load_sign
+    mirrored = [c for c in branch.columns if c != "time_s"]
+    branch = branch.assign(**{c: sign * branch[c] for c in mirrored})
     peak = NAN if branch.empty else float(branch["stress_mpa"].max())
     if not peak > 0:
         raise InputError(
-            f"no {'compressive' if specimen.test == 'compression' else 'tensile'} load",
+            f"no {'tensile' if sign > 0 else 'compressive'} load",
             "check the test type and the sign of the force",
             specimen=specimen.specimen,
             column="stress_mpa",

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import assert_never
 
 import pandas as pd
 
 from nptcs.config.reduction import ReductionSettings
+from nptcs.mechanical_tests import TestType
 from nptcs.reduce.compression import reduce_compression
 from nptcs.reduce.deviations import CROSSHEAD, deviations, speed_properties
 from nptcs.reduce.rows import Property, loading_branch, to_table
@@ -65,10 +67,14 @@ def reduce_specimen(
 def _reduce(
     branch: pd.DataFrame, specimen: Specimen, settings: ReductionSettings
 ) -> list[Property]:
-    if specimen.test == "tension":
-        return reduce_tension(branch, settings.tension())
-    if specimen.test == "compression":
-        return reduce_compression(branch, settings.astm_d6641)
-    if specimen.test == "shear":
-        return reduce_shear(branch, settings.shear())
-    return reduce_rubber(branch, settings.rubber())
+    match specimen.test:
+        case TestType.TENSION:
+            return reduce_tension(branch, settings.tension())
+        case TestType.COMPRESSION:
+            return reduce_compression(branch, settings.astm_d6641)
+        case TestType.SHEAR:
+            return reduce_shear(branch, settings.shear())
+        case TestType.RUBBER_TENSION | TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+            return reduce_rubber(branch, settings.rubber())
+        case _:
+            assert_never(specimen.test)

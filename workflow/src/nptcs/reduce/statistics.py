@@ -8,6 +8,7 @@ import pandas as pd
 
 from nptcs.config.reduction import ReductionSettings
 from nptcs.errors import InputError
+from nptcs.mechanical_tests import TestType
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.reduce.pooling import pooled_rows
 from nptcs.reduce.rows import TEST_CONDITIONS
@@ -47,7 +48,7 @@ def group_statistics(
     rows = []
     for key, group in properties.groupby(GROUP, dropna=False, sort=False):
         included = group[[sheet[s].include for s in group["specimen"]]]
-        rules = settings.rules(str(key[0]))
+        rules = settings.rules(TestType(str(key[0])))
         row = {
             **dict(zip(GROUP, key, strict=True)),
             **_words(group, included),

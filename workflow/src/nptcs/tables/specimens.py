@@ -9,7 +9,6 @@ from __future__ import annotations
 import csv
 import io
 import re
-from enum import StrEnum
 from pathlib import Path, PurePosixPath
 from typing import Any, Literal, Self
 
@@ -17,27 +16,10 @@ from pydantic import Field, ValidationError, ValidationInfo, field_validator, mo
 
 from nptcs.config.base import Strict
 from nptcs.errors import InputError
+from nptcs.mechanical_tests import TestType
 
 NAME = r"^[A-Za-z0-9._-]+$"
 STATION_SEPARATORS = re.compile(r"[;|/\s]+")
-
-
-class TestType(StrEnum):
-    """What was done to a specimen."""
-
-    __test__ = False  # not a test class
-
-    TENSION = "tension"
-    COMPRESSION = "compression"
-    SHEAR = "shear"
-    RUBBER_TENSION = "rubber_tension"
-    RUBBER_EQUIBIAXIAL = "rubber_equibiaxial"
-    RUBBER_PURE_SHEAR = "rubber_pure_shear"
-
-    @property
-    def is_rubber(self) -> bool:
-        """True for the tests of a rubber (large strain, stretch as the variable)."""
-        return self.value.startswith("rubber_")
 
 
 class Specimen(Strict):

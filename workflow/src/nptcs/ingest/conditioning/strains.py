@@ -11,7 +11,7 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest
 from nptcs.ingest.reading.profiles import normalise
-from nptcs.tables.specimens import Specimen, TestType
+from nptcs.tables.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
 """Two in-plane strains closer than this cannot be told apart."""
@@ -184,7 +184,7 @@ def orient(signals: Signals, specimen: Specimen, path: Path) -> None:
         If a tension test shortens under its load.
     """
     values = signals.values
-    wanted = -1.0 if specimen.test is TestType.COMPRESSION else 1.0
+    wanted = float(specimen.test.load_sign)
     force = np.sign(largest(values["force"]))
     slope = _slope(signals, "strain_axial")
     strain = force * np.sign(slope)

@@ -15,7 +15,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
+from nptcs.ingest.reading.dialect import MISSING, Dialect, number_pattern
 from nptcs.ingest.reading.table_columns import FoundTable
 
 NOTHING = "nan"
@@ -77,7 +77,7 @@ class TextSource:
     @cached_property
     def _row(self) -> re.Pattern[str]:
         """All of a row is numbers or empty, in this dialect."""
-        number = _number(self.dialect.decimal, self.dialect.thousands).pattern
+        number = number_pattern(self.dialect.decimal, self.dialect.thousands).pattern
         if self.dialect.delimiter == "spaces":
             return re.compile(rf"\s*{number}(?:\s+{number})+\s*", re.ASCII)
         blank = "[ ]*" if self.dialect.delimiter == "\t" else r"[ \t]*"
@@ -89,7 +89,7 @@ class TextSource:
     @cached_property
     def _full_row(self) -> re.Pattern[str]:
         """Every cell of a row is a bare number, in this dialect: the usual row, found fast."""
-        number = _number(self.dialect.decimal, "").pattern
+        number = number_pattern(self.dialect.decimal, "").pattern
         spaces = self.dialect.delimiter == "spaces"
         mark = r"[ \t]+" if spaces else re.escape(self.dialect.delimiter)
         return re.compile(rf"{number}(?:{mark}{number})+", re.ASCII)

@@ -54,7 +54,7 @@ class Dialect:
 
     def is_number(self, cell: str) -> bool:
         """Tell whether `cell` is a number in this dialect."""
-        return _number(self.decimal, self.thousands).fullmatch(cell) is not None
+        return number_pattern(self.decimal, self.thousands).fullmatch(cell) is not None
 
     def is_data(self, cells: Sequence[str]) -> bool:
         """Tell whether this is a row of a table: two or more numbers, and mostly numbers."""
@@ -64,7 +64,8 @@ class Dialect:
 
 
 @lru_cache
-def _number(decimal: str, thousands: str) -> re.Pattern[str]:
+def number_pattern(decimal: str, thousands: str) -> re.Pattern[str]:
+    """Return what a whole cell with a number looks like, with these marks."""
     mark = re.escape(decimal)
     exponent = r"(?:[eE][+-]?\d+)?"
     plain = rf"(?:\d+(?:{mark}\d*)?|{mark}\d+){exponent}"

@@ -166,7 +166,7 @@ def _grouped_bars(axes: Axes, groups: Sequence[str], series: dict[str, np.ndarra
 
 
 @styled
-def ring_neutral_line(line: pd.DataFrame, rim_diameter_mm: float) -> Figure:
+def deformed_ring(line: pd.DataFrame, rim_diameter_mm: float) -> Figure:
     """Draw the deformed middle line of the band over the undeformed one, figure 14.
 
     Parameters

@@ -11,10 +11,10 @@ from nptcs.report.figures.lca import (
     CONTACT,
     DIFFERENCES,
     contact_against_load,
+    deformed_ring,
     differences,
     fem_differences,
     load_displacement,
-    ring_neutral_line,
     stiffness_bars,
 )
 from nptcs.report.tables import catalogue
@@ -100,7 +100,7 @@ def _neutral_line_plots(results: Results) -> list[Plot]:
     rim = results.config.tyre.rim_diameter_mm
     return [
         plot(
-            ring_neutral_line(rows, rim),
+            deformed_ring(rows, rim),
             f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa",
         )
         for (_, load, c10), rows in results.lca_neutral_line.groupby(

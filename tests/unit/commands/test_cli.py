@@ -9,7 +9,7 @@ import yaml
 
 from nptcs.cli import build_parser, main
 
-ROOT = Path(__file__).parents[2]
+ROOT = Path(__file__).parents[3]
 
 
 @pytest.fixture

@@ -6,7 +6,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
-from nptcs.fe.spoke.cache import read_table, shared_table, table_key
+from nptcs.fe.energy_cache import read_table, shared_table, table_key
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
@@ -181,7 +181,7 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
         calls.append(design)
         return TABLE
 
-    monkeypatch.setattr("nptcs.fe.spoke.cache.energy_table", computed)
+    monkeypatch.setattr("nptcs.fe.energy_cache.energy_table", computed)
     model = FeModel(spoke_mesh=COARSE, table=OPTIONS)
     first = shared_table(model, spoke_design(), tmp_path)
     again = shared_table(model, spoke_design(), tmp_path)
