@@ -57,18 +57,6 @@ def plain(section):
     return section.model_dump(mode="json")
 
 
-def cases_of(study_name):
-    """What decides the cases of a study, without what is made of their results."""
-    afterwards = {
-        "terms",
-        "published_coefficients",
-        "published_spoke_stiffness",
-        "calibration_cases",
-        "neutral_line_cases",
-    }
-    return CONFIG.study(study_name).model_dump(mode="json", exclude=afterwards)
-
-
 def code_of(script, *modules):
     """Hash of a rule's script, of all that it imports from the package, and of further modules.
 

@@ -3,7 +3,7 @@ from importlib.resources import files as package_files
 
 
 def solver_facts():
-    """What the report says of each solver: the first line of its module, and what it is given.
+    """What the report says of each solver: what it is, and what it is given.
 
     A solver's choices between models stand once for each study that makes them differently.
     """
@@ -11,11 +11,8 @@ def solver_facts():
     facts = {}
     for name, study in sorted(named):
         solver, options = solver_of(study, name)
-        about = (
-            (sys.modules[solver.solve.__module__].__doc__ or "").strip().splitlines()
-        )
         facts[name] = {
-            "about": about[0] if about else "",
+            "about": solver.about,
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
             "choices": facts.get(name, {}).get("choices", []),
@@ -117,13 +114,13 @@ rule report:
 
 rule verdict:
     input:
+        "results/report.html",
+        "results/workbook.xlsx",
         problems="results/tables/problems.csv",
-        page="results/report.html",
-        workbook="results/workbook.xlsx",
         cases="results/tables/cases.csv",
         records=records(SPECIMENS),
     output:
-        verdict="results/verdict.txt",
+        verdict_file="results/verdict.txt",
     log:
         "results/logs/verdict.log",
     params:
