@@ -80,7 +80,7 @@ def read_model(path: str | Path, model: type[Model]) -> Model:
     except (ValidationError, UnicodeDecodeError) as error:
         first = str(error).splitlines()
         raise InputError(
-            f"this file does not hold a {model.__name__}: {' '.join(first[:3])}", remedy, file=path
+            f"this file is not a sound {model.__name__}: {' '.join(first[:3])}", remedy, file=path
         ) from None
 
 
