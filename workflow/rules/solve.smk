@@ -1,4 +1,4 @@
-# Design tables → one record a case. A failed case is a record too; records are kept by content.
+# Design tables → one record per case. A failed case is a record too; records are kept by content.
 
 
 def ply_card(wildcards):

@@ -113,8 +113,8 @@ def test_impact_bars_are_the_table(results, config):
     for rule, bars in zip(rules, axes.containers, strict=True):
         widths = [bar.get_width() for bar in bars]
         np.testing.assert_allclose(widths, [table[(rule, *key)] for key in keys])
-    printed = axes.get_lines()[0].get_xdata()
-    np.testing.assert_allclose(printed, [319.83, 54.93, 38.60, 21.91, 15.97])
+    published = axes.get_lines()[0].get_xdata()
+    np.testing.assert_allclose(published, [319.83, 54.93, 38.60, 21.91, 15.97])
 
 
 def test_the_ring_stands_on_the_ground(results):

@@ -19,7 +19,7 @@ Model = TypeVar("Model", bound=BaseModel)
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """Give a temporary name beside `path`; rename it to `path` when the block ends well.
+    """Give a temporary name next to `path`; rename it to `path` when the block ends well.
 
     A reader sees the old file or the new one, never half of it, also after ``kill -9``.
 

@@ -1,1 +1,1 @@
-"""Solvers: one contract, one registry, one module or folder a solver."""
+"""Solvers: one contract, one registry, one module or folder per solver."""

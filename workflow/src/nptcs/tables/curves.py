@@ -26,7 +26,7 @@ CURVE_COLUMNS = (
 
 
 class Curve(pa.DataFrameModel):
-    """One specimen's test, one row a reading, in the order of the test.
+    """One specimen's test, one row per reading, in the order of the test.
 
     Tension is positive: a compression curve has negative force, stress and axial strain.
     Strain is dimensionless, nominal (ΔL/L0); for a rubber the stretch is λ = 1 + strain_axial.

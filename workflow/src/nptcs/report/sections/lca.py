@@ -30,8 +30,8 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             "The model is solved with the spoke stiffness of table 10. The section constants that "
-            "the paper prints are those of another bending axis; both sections stand here, the "
-            "sandwich section and the one as printed, each beside the printed results of table "
+            "the paper prints are those of another bending axis. Both sections are shown here, the "
+            "sandwich section and the one as printed, each next to the printed results of table "
             f"11 (shear band C10 = {results.config.lca_validation.shear_band_c10_mpa:g} MPa)."
         ),
         Plots(

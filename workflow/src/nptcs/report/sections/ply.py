@@ -1,4 +1,4 @@
-"""Which ply the solvers were given, in words, beside table 2 of the paper."""
+"""Which ply the solvers were given, in words, and how it differs from table 2 of the paper."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Section of the report on computed stiffness beside the published one: tables 5, 7, figure 14."""
+"""Section of the report that compares computed with published stiffness: tables 5, 7, figure 14."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def published_stiffness_section(results: Results, sheets: Sheets) -> Section:
     title = "Computed stiffness against the paper's finite elements"
     blocks = [*_stiffness_blocks(results, sheets), *line_blocks(results)]
     if not blocks:
-        nothing = "No study of the configuration has published results beside computed ones."
+        nothing = "No study of the configuration has both published and computed results."
         return Section(ReportSection.PUBLISHED_STIFFNESS, title, (Text(nothing),))
     synthetic = sheet_of(sheets, StiffnessAgainstPublished).synthetic
     return Section(ReportSection.PUBLISHED_STIFFNESS, title, tuple(blocks), synthetic)
@@ -116,7 +116,7 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
 
 
 def _case_comparison(results: Results, sheets: Sheets, study: Study) -> TableView:
-    """Lay the cases of one study out, the solvers beside each other."""
+    """Show the cases of one study, the solvers next to each other."""
     table = results.table(StiffnessAgainstPublished)
     rows = table[table["study"] == study.name]
     view, headings = case_comparison(rows, [factor.name for factor in study.factors])

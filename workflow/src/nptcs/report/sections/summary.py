@@ -38,7 +38,7 @@ def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
 
 
 def _remarks(results: Results) -> tuple[str, ...]:
-    """Collect what is no failure but must be seen."""
+    """Collect what is not a failure but must be seen."""
     remarks = []
     if results.any_synthetic:
         synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
