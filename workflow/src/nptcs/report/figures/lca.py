@@ -120,9 +120,8 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
         "LCA, paper": first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
-        series[f"LCA, computed, {SECTION_NAMES[str(section)]}"] = rows[
-            "stiffness_n_per_mm"
-        ].to_numpy()
+        name = f"LCA, computed, {SECTION_NAMES[str(section)]}"
+        series[name] = rows["stiffness_n_per_mm"].to_numpy()
     _grouped_bars(axes, [f"{c10:g}" for c10 in first["spoke_c10_mpa"]], series)
     figure.legend(loc="outside lower left", ncols=2)
     return figure

@@ -52,10 +52,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
     table = results.table(StiffnessAgainstPublished)
     if table.empty:
         return []
-    studies = [
-        results.config.study(name)
-        for name in results.table(StiffnessAgainstPublished)["study"].unique()
-    ]
+    studies = [results.config.study(name) for name in table["study"].unique()]
     bands = joined(f"±{percent:g} %" for percent in BANDS_PERCENT)
     return [
         Text(
@@ -91,9 +88,8 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    return plot(
-        parity(rows, f"study {study.name}", solver_order(results), synthetic), alt, synthetic
-    )
+    figure = parity(rows, f"study {study.name}", solver_order(results), synthetic)
+    return plot(figure, alt, synthetic)
 
 
 def _effects(results: Results, studies: list[Study], *, differences: bool) -> list[Plot]:
