@@ -1,5 +1,6 @@
 """The campaign: many solver cases, each isolated, each recorded, none solved twice.
 
-A design table comes in (`jobs.make_jobs`), one record per case goes out (`runner.run_cases`), and
-`cases.cases_table` makes one table of them. What a solver computes is not known here.
+A design table and a solver's name come in, one `record.CaseRecord` per case goes out; a case that
+failed is a record too. How a solver computes does not belong here (`nptcs.solvers`). Begin with
+`batch.solve_batch`.
 """

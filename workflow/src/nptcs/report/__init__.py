@@ -1,5 +1,6 @@
 """The report and the workbook: layout of finished results, nothing is computed here.
 
-`data.Results` come in, a page (`html.render_report`) and a workbook (`workbook.build_workbook`) go
-out. A number that is in no table of the run does not belong in either.
+`data.Results` comes in, one HTML page (`html.render_report`) and one workbook
+(`workbook.build_workbook`) go out. Which result tables there are, and where they are shown, is said
+by `nptcs.tables.catalogue`.
 """

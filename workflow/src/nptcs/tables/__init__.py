@@ -1,6 +1,5 @@
-"""One contract for each table that crosses a file boundary, and nothing that computes.
+"""One contract for each table and record that crosses a file boundary.
 
-A table comes in from a file or a stage, the same table goes out, checked (`io.read_table`,
-`io.write_table`); `catalogue` lists all tables of a run. What makes or compares them belongs to
-the stages.
+Columns, units and what they mean, and in `catalogue` one row per result table. Nothing is computed
+here, and nothing of the campaign, the solvers or the report is imported.
 """
