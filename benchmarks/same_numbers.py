@@ -3,7 +3,7 @@
 Prints one line per table: rows, the largest relative difference of any number, and what differs
 in text. Wall times and keys are left out: they belong to the run and to the code. A table that has
 another name in B is named by ``--renamed A.csv=B.csv``, a column by ``--column old=new``. Exits 1
-if any number or text differs.
+if any number differs by more than ``--within`` (0 unless told) or any text differs.
 """
 
 import argparse
@@ -45,6 +45,7 @@ def main() -> int:
     parser.add_argument("after", type=Path, help="folder of the other")
     parser.add_argument("--renamed", nargs="*", default=[], metavar="A.csv=B.csv")
     parser.add_argument("--column", nargs="*", default=[], metavar="OLD=NEW")
+    parser.add_argument("--within", type=float, default=0.0, help="relative difference")
     arguments = parser.parse_args()
     renamed, columns = pairs(arguments.renamed), pairs(arguments.column)
     tables = [folder / "results" / "tables" for folder in (arguments.before, arguments.after)]
@@ -64,7 +65,7 @@ def main() -> int:
             continue
         largest, texts = compare(before, after)
         print(f"{file.name:36} {len(before):6d} rows, numbers differ by {largest:.1e}", *texts)
-        same &= largest == 0.0 and not texts
+        same &= largest <= arguments.within and not texts
     return 0 if same else 1
 
 
