@@ -20,13 +20,23 @@ NOTES = ("readme", "readme.md", "readme.txt")
 
 
 def raw_files(folder: Path) -> dict[str, Path]:
-    """All files below a folder but hidden ones: relative name → path, in natural order."""
+    """All files below a folder, by relative name in natural order.
+
+    Hidden files are left out, and links that lead out of the folder.
+    """
     found = {
         path.relative_to(folder).as_posix(): path
         for path in folder.rglob("*")
-        if path.is_file() and not any(part.startswith(".") for part in path.parts[-3:])
+        if path.is_file()
+        and not any(part.startswith(".") for part in path.relative_to(folder).parts)
+        and _stays_inside(path, folder)
     }
     return dict(sorted(found.items(), key=lambda item: natural_key(item[0])))
+
+
+def _stays_inside(path: Path, folder: Path) -> bool:
+    """Tell whether a file lies in the folder itself, and not behind a link out of it."""
+    return path.resolve().is_relative_to(folder.resolve())
 
 
 def is_note(name: str) -> bool:

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.ingest import FileLimits, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.declared_test import require_declared_test
 from nptcs.ingest.conditioning.pairing import pair
@@ -74,7 +74,7 @@ def ingest_specimen(
     InputError
         If a file cannot be read with certainty, or physics contradicts it.
     """
-    tables = _read(specimen, Path(folder), profiles)
+    tables = _read(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
     signals = _pair(tables, specimen, settings)
     for table, name in zip(tables, (specimen.force_file, specimen.strain_file), strict=False):
@@ -91,7 +91,7 @@ def ingest_specimen(
         signals,
         specimen,
         strain.columns,
-        strain.profile.strain_source,
+        strain.strain_source,
         settings.compliance.compliance_mm_per_n,
         strain.path,
     )
@@ -111,7 +111,10 @@ def ingest_specimen(
 
 
 def _read(
-    specimen: Specimen, folder: Path, profiles: Mapping[str, FormatProfile]
+    specimen: Specimen,
+    folder: Path,
+    profiles: Mapping[str, FormatProfile],
+    limits: FileLimits,
 ) -> tuple[RawFile, ...]:
     """Read the force file, and the strain file if there is one."""
     wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
@@ -130,6 +133,7 @@ def _read(
                 part=part,
                 specimen=specimen.specimen,
                 role=role if len(wanted) > 1 else "force and strain",
+                limits=limits,
             )
         except InputError as error:
             error.specimen = specimen.specimen

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
 from typing import Literal, Protocol
@@ -15,6 +15,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
+from nptcs.ingest.reading.clock import holds_clock
 from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
 from nptcs.ingest.reading.table_columns import FoundTable
 
@@ -40,6 +41,14 @@ class CellSource(Protocol):
     @property
     def widths(self) -> list[int]:
         """Number of cells of each row."""
+        ...
+
+    def clock_columns(self, row: int) -> list[int]:
+        """Positions of the cells of a row that were a time of day."""
+        ...
+
+    def odd_clock_row(self, block: FoundTable) -> int | None:
+        """First row of a block whose times of day are not as many as in its first row."""
         ...
 
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
@@ -72,6 +81,8 @@ class TextSource:
     lines: list[str]
     dialect: Dialect
     missing: frozenset[str]
+    clock_lines: Mapping[int, str] = field(default_factory=dict)
+    clock_counts: Mapping[int, int] = field(default_factory=dict)
     part: str = ""
 
     @cached_property
@@ -129,6 +140,19 @@ class TextSource:
             len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
             for line in self.lines
         ]
+
+    def clock_columns(self, row: int) -> list[int]:
+        """Positions of the cells of a row that were a time of day."""
+        cells = self.dialect.split(self.clock_lines.get(row, ""))
+        return [position for position, cell in enumerate(cells) if holds_clock(cell)]
+
+    def odd_clock_row(self, block: FoundTable) -> int | None:
+        """First row of a block whose times of day are not as many as in its first row."""
+        if not self.clock_counts:
+            return None
+        counts = [self.clock_counts.get(row, 0) for row in block.rows_of_data]
+        odd = (row for row, n in zip(block.rows_of_data, counts, strict=True) if n != counts[0])
+        return next(odd, None)
 
     def header_cells(self, row: int, width: int) -> list[str]:
         """Cells of a row of names: with blanks in the names where blanks also separate."""
@@ -220,6 +244,14 @@ class TextSource:
             )
 
 
+FORMULA = "<formula without value>"
+"""Stands in a sheet's cell whose formula was never computed."""
+
+
+class Clock(float):
+    """A time of day or a date of a workbook, in s."""
+
+
 @dataclass
 class SheetSource:
     """One sheet of a workbook: native numbers and texts."""
@@ -235,7 +267,7 @@ class SheetSource:
         return [self._kind(row) for row in self.rows]
 
     def _kind(self, row: tuple[object, ...]) -> Kind:
-        numbers = sum(_is_native_number(cell) for cell in row)
+        numbers = sum(_is_native_number(cell) or cell == FORMULA for cell in row)
         filled = sum(cell is not None and str(cell).strip() != "" for cell in row)
         if numbers >= 2 and numbers == filled:
             return "data"
@@ -250,6 +282,14 @@ class SheetSource:
         """Number of cells of each row."""
         return [len(row) for row in self.rows]
 
+    def clock_columns(self, row: int) -> list[int]:
+        """Positions of the cells of a row that were a time of day."""
+        return [place for place, cell in enumerate(self.rows[row]) if isinstance(cell, Clock)]
+
+    def odd_clock_row(self, block: FoundTable) -> int | None:
+        """Leave it to the cells of the columns that are needed: each knows its own type."""
+        return None
+
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
         values = [
@@ -260,9 +300,17 @@ class SheetSource:
 
     def _number(self, block: FoundTable, row: int, position: int) -> float:
         cell = self.rows[row][position] if position < len(self.rows[row]) else None
-        if _is_native_number(cell):
+        if _is_native_number(cell) and isinstance(cell, Clock) == block.columns[position].clock:
             return float(cell)  # type: ignore[arg-type]
         text = _text(cell)
+        if cell == FORMULA:
+            raise InputError(
+                f"sheet '{self.part}': column {block.columns[position].name or position + 1} holds "
+                "formulas without stored values",
+                "open and save it in a spreadsheet",
+                self.path,
+                row + 1,
+            )
         if text.casefold() in MISSING or text in self.missing:
             return float("nan")
         raise InputError(

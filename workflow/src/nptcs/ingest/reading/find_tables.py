@@ -36,6 +36,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
         above = _rows_above(source, block)
         describe_columns(block, above, unnamed)
         _settle_unnamed(source, block, unnamed, path)
+        _settle_clocks(source, block, path)
     return blocks
 
 
@@ -66,6 +67,24 @@ def _settle_unnamed(source: CellSource, block: FoundTable, unnamed: str, path: P
             )
     block.columns = block.columns[:first]
     block.notes.append(f"{surplus} phantom column(s) without name and values left out")
+
+
+def _settle_clocks(source: CellSource, block: FoundTable, path: Path) -> None:
+    """Mark columns of times of day; a time of day in some rows only is an error."""
+    positions = source.clock_columns(block.first)
+    odd = source.odd_clock_row(block)
+    if odd is not None:
+        raise InputError(
+            "a time of day stands in some rows of the table only",
+            "correct the row",
+            path,
+            odd + 1,
+            value=" | ".join(source.cells(odd))[:80],
+        )
+    for column in block.columns:
+        if column.position in positions:
+            column.unit, column.clock = "s", True
+            block.notes.append(f"column {column.position + 1} is a time of day, read in s")
 
 
 def _runs(source: CellSource) -> list[FoundTable]:
