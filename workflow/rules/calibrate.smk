@@ -5,6 +5,7 @@ PLY_SERIES = sorted({s.series for s in SPECIMENS if not s.test.is_rubber})
 rule calibrate_ply:
     input:
         properties=expand("results/2_reduce/{series}.csv", series=PLY_SERIES),
+        records=records([s for s in SPECIMENS if not s.test.is_rubber]),
     output:
         card="results/3_calibrate/ply.json",
     log:

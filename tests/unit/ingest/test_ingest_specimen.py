@@ -16,7 +16,8 @@ from nptcs.commands import inspect, new_sheet
 from nptcs.config.ingest import ForceZero, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
-from nptcs.ingest.folder import account_for_files, find_file, natural_key
+from nptcs.ingest.account import account_for_files
+from nptcs.ingest.folder import find_file, natural_key
 from nptcs.ingest.new_sheet import specimen_id
 from nptcs.ingest.reading.profiles import load_profiles, read_profile
 from nptcs.tables.curves import Curve, IngestRecord

@@ -24,6 +24,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
+    from nptcs.ingest.reading.profiles import load_profiles
+    from nptcs.ingest.repeats import repeats_in_sheet
     from nptcs.solvers.registry import check_study
     from nptcs.tables.specimens import read_sheet
 
@@ -54,7 +56,11 @@ def run(arguments: argparse.Namespace) -> int:
         for name in specimen.files
         if not (folder / name).is_file()
     ]
+    profiles = load_profiles(config.lab_data.formats)
+    sheet = Path(config.lab_data.specimen_sheet)
+    again = repeats_in_sheet(specimens, folder, profiles, sheet, config.ingest.limits)
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
-    for fault in [*errors, *missing]:
+    faults = [*errors, *missing, *again]
+    for fault in faults:
         print(f"nptcs: {fault}", file=sys.stderr)
-    return 1 if errors or missing else 0
+    return 1 if faults else 0

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from nptcs.config.ingest import FileLimits, IngestSettings
+from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.declared_test import require_declared_test
 from nptcs.ingest.conditioning.pairing import pair
@@ -27,9 +27,10 @@ from nptcs.ingest.conditioning.steps import (
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import resolve_strains
-from nptcs.ingest.folder import find_file
-from nptcs.ingest.reading.profiles import FormatProfile, choose
-from nptcs.ingest.reading.raw_file import RawFile, read_raw
+from nptcs.ingest.read_tables import read_tables
+from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.raw_file import RawFile
+from nptcs.ingest.repeats import data_digest
 from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
@@ -74,7 +75,7 @@ def ingest_specimen(
     InputError
         If a file cannot be read with certainty, or physics contradicts it.
     """
-    tables = _read(specimen, Path(folder), profiles, settings.limits)
+    tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
     signals = _pair(tables, specimen, settings)
     for table, name in zip(tables, (specimen.force_file, specimen.strain_file), strict=False):
@@ -108,38 +109,6 @@ def ingest_specimen(
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
     return Ingested(_curve(signals), _record(specimen, tables, signals, source))
-
-
-def _read(
-    specimen: Specimen,
-    folder: Path,
-    profiles: Mapping[str, FormatProfile],
-    limits: FileLimits,
-) -> tuple[RawFile, ...]:
-    """Read the force file, and the strain file if there is one."""
-    wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
-    if specimen.strain_file:
-        wanted.append(
-            (specimen.strain_file, specimen.strain_format, specimen.strain_part, "strain")
-        )
-    tables = []
-    for name, format_name, part, role in wanted:
-        declared = choose(format_name, profiles, specimen.specimen) if format_name else None
-        try:
-            table = read_raw(
-                find_file(folder, name),
-                profiles,
-                declared=declared,
-                part=part,
-                specimen=specimen.specimen,
-                role=role if len(wanted) > 1 else "force and strain",
-                limits=limits,
-            )
-        except InputError as error:
-            error.specimen = specimen.specimen
-            raise
-        tables.append(table)
-    return tuple(tables)
 
 
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
@@ -239,6 +208,7 @@ def _record(
             width_stations=len(specimen.width_mm),
             thickness_stations=len(specimen.thickness_mm),
         ),
+        data_sha256=data_digest(tables),
         strain_source=source,
         failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),
