@@ -298,7 +298,8 @@ def test_new_sheet_pairs_by_name_and_leaves_open_what_it_cannot_know(tmp_path, c
         ("a/T0-1_vic3d.csv", "T0-1"),
         ("Probe 3 Kraft.txt", "Probe_3"),
         ("x_raw_data.csv", "x"),
-        ("é.csv", "specimen"),
+        ("é.csv", "e"),
+        ("力.csv", "specimen"),
     ],
 )
 def test_specimen_id_from_a_file_name(name, expected):

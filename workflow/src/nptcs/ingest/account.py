@@ -10,6 +10,7 @@ import pandas as pd
 
 from nptcs.files import sha256_of_file
 from nptcs.ingest.folder import is_note, raw_files
+from nptcs.ingest.repeats import repeated_specimens
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.files import Files
 from nptcs.tables.specimens import Specimen, files_named, read_sheet
@@ -33,10 +34,7 @@ def account_for_files(sheet: str | Path, records: Iterable[IngestRecord]) -> pd.
     sheet = Path(sheet)
     specimens = {specimen.specimen: specimen for specimen in read_sheet(sheet)[0]}
     outcomes = {record.specimen: record for record in records}
-    ordered = (
-        outcomes[name] for name, one in specimens.items() if one.include and name in outcomes
-    )
-    again = repeats(ordered, {name: getattr(one, "piece", "") for name, one in specimens.items()})
+    again = repeated_specimens(list(specimens.values()), outcomes.values())
     named = {unicodedata.normalize("NFC", name): ids for name, ids in files_named(sheet).items()}
     present = {
         unicodedata.normalize("NFC", name): path for name, path in raw_files(sheet.parent).items()

@@ -50,10 +50,10 @@ class Inspection:
             seen = [c.name for test in self.tests for c in test.block.columns if c.name]
             names = ", ".join(f"'{name}'" for name in dict.fromkeys(seen)) or "none"
             return f"no column is a load or a strain; columns: {names}"
-        reasons = [self._no_unit(test) for test in serving]
+        reasons = [self.no_unit(test) for test in serving]
         return "" if "" in reasons else reasons[0]
 
-    def _no_unit(self, test: Test) -> str:
+    def no_unit(self, test: Test) -> str:
         """Name the first column of a table whose unit cannot be told."""
         stated = any(column.unit for column in test.block.columns)
         for quantity, column in test.quantities.items():

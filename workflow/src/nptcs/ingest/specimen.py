@@ -88,6 +88,7 @@ def ingest_specimen(
     empty_lost_channels(
         signals, settings.extensometer, specimen.test.is_rubber, specimen.gauge_length_mm
     )
+    specimen = _with_gauge_length(specimen, tables, signals)
     source = resolve_strains(
         signals,
         specimen,
@@ -109,6 +110,18 @@ def ingest_specimen(
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
     return Ingested(_curve(signals), _record(specimen, tables, signals, source))
+
+
+def _with_gauge_length(
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals
+) -> Specimen:
+    """Take the gauge length of the file's head where the sheet has none and it is needed."""
+    needed = not {"strain", "strain_xx", "strain_yy", "stretch"} & set(signals.values)
+    found = next((t.labels["gauge_length"] for t in tables if "gauge_length" in t.labels), None)
+    if specimen.gauge_length_mm is not None or not needed or found is None or not found.value:
+        return specimen
+    signals.flags.append(f"gauge length {found.value:g} mm from the file's head, none in the sheet")
+    return specimen.model_copy(update={"gauge_length_mm": found.value})
 
 
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:

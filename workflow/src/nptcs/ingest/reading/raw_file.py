@@ -302,7 +302,7 @@ def _read(
         header_line=None if block.names_row is None else block.names_row + 1,
         first_line=block.first + 1,
         labels=header_labels(test, profile, dialect),
-        head=_head_lines(test),
+        head=head_lines(test),
         notes=(*reasons, *opened.notes, *block.notes, *notes),
     )
 
@@ -337,7 +337,7 @@ def _has_unit(column: Column, profile: FormatProfile) -> bool:
     return bool(column.unit or "force" in profile.units or "force" in profile.wrong_units)
 
 
-def _head_lines(test: Test) -> tuple[str, ...]:
+def head_lines(test: Test) -> tuple[str, ...]:
     """Return the filled lines above the names, at most `HEAD_LINES`, and the name of the sheet."""
     last = test.block.names_row if test.block.names_row is not None else test.block.first
     rows = (test.source.cells(row) for row in range(max(0, last - HEAD_LINES), last))
