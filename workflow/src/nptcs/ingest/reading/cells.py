@@ -17,6 +17,7 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.reading.clock import holds_clock
 from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
+from nptcs.ingest.reading.regular_rows import CHUNK, regular_width
 from nptcs.ingest.reading.table_columns import FoundTable
 
 NOTHING = "nan"
@@ -114,7 +115,22 @@ class TextSource:
     def kinds(self) -> list[Kind]:
         """Kind of each row."""
         usual = self._full_row.fullmatch if self._marks_apart else re.compile("(?!)").fullmatch
-        return ["data" if usual(line) else self._kind(line) for line in self.lines]
+        kinds: list[Kind] = []
+        for start, width in self._regular_chunks:
+            lines = self.lines[start : start + CHUNK]
+            if width >= 2:
+                kinds += ["data"] * len(lines)
+            else:
+                kinds += ["data" if usual(line) else self._kind(line) for line in lines]
+        return kinds
+
+    @cached_property
+    def _regular_chunks(self) -> list[tuple[int, int]]:
+        """First line of each chunk, and the number of its cells if all are numbers, else 0."""
+        starts = range(0, len(self.lines), CHUNK)
+        chunks = (self.lines[start : start + CHUNK] for start in starts)
+        widths = [regular_width(chunk, self.dialect) for chunk in chunks]
+        return list(zip(starts, widths, strict=True))
 
     def _kind(self, line: str) -> Kind:
         if not line.strip():
@@ -136,10 +152,18 @@ class TextSource:
         delimiter = self.dialect.delimiter
         if delimiter == "spaces":
             return [len(line.split()) for line in self.lines]
-        return [
-            len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
-            for line in self.lines
-        ]
+        widths: list[int] = []
+        for start, width in self._regular_chunks:
+            lines = self.lines[start : start + CHUNK]
+            widths += (
+                [width] * len(lines)
+                if width
+                else [
+                    len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
+                    for line in lines
+                ]
+            )
+        return widths
 
     def clock_columns(self, row: int) -> list[int]:
         """Positions of the cells of a row that were a time of day."""
@@ -168,7 +192,11 @@ class TextSource:
 
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
-        lines = [self._line_for_pandas(block, row, positions) for row in block.rows_of_data]
+        kinds = self.kinds
+        lines = [
+            self.lines[row] if kinds[row] == "data" else self._checked_line(block, row, positions)
+            for row in block.rows_of_data
+        ]
         text = "\n".join(lines)
         if self._uses_thousands(text):
             return self._numbers_with_thousands(block, positions)
@@ -189,10 +217,8 @@ class TextSource:
         self._refuse_infinite(block, values, positions)
         return values
 
-    def _line_for_pandas(self, block: FoundTable, row: int, positions: Sequence[int]) -> str:
-        """Return the line as it is if it is all numbers, else only the checked cells."""
-        if self.kinds[row] == "data":
-            return self.lines[row]
+    def _checked_line(self, block: FoundTable, row: int, positions: Sequence[int]) -> str:
+        """Return a line that is not all numbers with the checked cells only."""
         self._check_cells(block, row, positions)
         cells = [
             cell if position in positions and not self.is_missing(cell) else NOTHING

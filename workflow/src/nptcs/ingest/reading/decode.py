@@ -88,6 +88,7 @@ def _wide(raw: bytes, path: Path) -> Decoded:
 def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
     """Choose among `CANDIDATES` by the words that each makes readable."""
     head = raw[: raw.rfind(b"\n", 0, HEAD_BYTES) + 1] or raw
+    head = b"\n".join(line for line in head.splitlines() if not line.isascii()) or head
     special = {word.casefold() for word in words if not word.isascii() and _tells(word)}
     hits = {}
     for encoding in CANDIDATES:

@@ -22,6 +22,7 @@ MISSING = frozenset(
 SMALLEST_TABLE = 3
 """Rows of numbers that a dialect must read before it is believed."""
 _HEAD = 120
+_PROBE = 20
 SEPARATOR_NAMES = {"\t": "tab", "spaces": "spaces"}
 
 
@@ -146,7 +147,7 @@ def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Re
     A thousands mark is believed if a number proves it (``1.234,5`` or ``1,234,567``). Without
     such a number it cannot win, but a draw still makes the table ambiguous.
     """
-    readings = {dialect: _rows(dialect, lines) for dialect in dialects}
+    readings = {dialect: _rows(dialect, lines) for dialect in _promising(dialects, lines)}
     declared = len({(dialect.decimal, dialect.thousands) for dialect in dialects}) == 1
     proven = [dialect for dialect, rows in readings.items() if declared or _proven(dialect, rows)]
     most = max((len(readings[dialect]) for dialect in proven), default=0)
@@ -160,6 +161,16 @@ def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Re
         for dialect, rows in full.items()
         if unread[dialect] == least
     }
+
+
+def _promising(dialects: Sequence[Dialect], lines: Sequence[str]) -> list[Dialect]:
+    """Leave out what reads no row in the middle of the lines, where another one reads most."""
+    middle = len(lines) // 2
+    probe = lines[max(middle - _PROBE // 2, 0) :][:_PROBE]
+    read = {dialect: len(_rows(dialect, probe)) for dialect in dialects}
+    if max(read.values(), default=0) < 0.75 * _PROBE:
+        return list(dialects)
+    return [dialect for dialect in dialects if read[dialect]]
 
 
 def _proven(dialect: Dialect, rows: list[list[str]]) -> bool:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import groupby
+from itertools import pairwise
 from pathlib import Path
+
+import numpy as np
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource, SheetSource, TextSource
@@ -91,13 +93,15 @@ def _runs(source: CellSource) -> list[FoundTable]:
     """Consecutive rows of data; what may interrupt a table is decided here."""
     runs: list[FoundTable] = []
     gap: list[int] = []
-    kinds, widths = source.kinds, source.widths
-    for is_data, group in groupby(range(len(kinds)), lambda row: kinds[row] in DATA):
-        rows = list(group)
-        if not is_data:
+    widths = source.widths
+    is_data = np.array([kind in DATA for kind in source.kinds], dtype=bool)
+    edges = [0, *(np.flatnonzero(np.diff(is_data)) + 1).tolist(), len(is_data)]
+    for start, stop in pairwise(edges):
+        rows = list(range(start, stop))
+        if start == stop or not is_data[start]:
             gap = rows
             continue
-        width = max(widths[row] for row in rows)
+        width = max(widths[start:stop])
         last = runs[-1] if runs else None
         if last is not None and _continues(source, last, gap, widths[rows[0]]):
             _note_gap(source, last, gap)
@@ -146,6 +150,8 @@ def _trim(source: CellSource, block: FoundTable, path: Path) -> None:
         row = block.rows_of_data.pop()
         lengths.pop()
         block.notes.append(f"line {row + 1}, the last, is cut off and was dropped")
+    if len(set(lengths)) <= 1:
+        return
     for index in range(1, len(lengths)):
         if lengths[index] > lengths[index - 1]:
             raise InputError(

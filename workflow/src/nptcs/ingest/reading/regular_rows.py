@@ -1,0 +1,62 @@
+"""Rows of a text that are all numbers, checked many at a time."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from functools import lru_cache
+
+import numpy as np
+
+from nptcs.ingest.reading.dialect import Dialect
+
+CHUNK = 2000
+"""Lines that are checked together; a chunk that is not regular is read line by line."""
+_NEWLINE = 10
+
+
+def regular_width(lines: Sequence[str], dialect: Dialect) -> int:
+    """Number of cells of each line, if every cell of every line is a bare number.
+
+    The same grammar as that of a single number (sign, digits, decimal mark, exponent), but for
+    all lines in a few passes over their bytes.
+
+    Returns
+    -------
+    int
+        0 if the lines are not regular, or the dialect needs quotes or groups digits by blanks.
+    """
+    if len(dialect.delimiter) > 1 or dialect.delimiter in (dialect.decimal, dialect.thousands):
+        return 0
+    text = "\n" + "\n".join(lines) + "\n"
+    allowed, odd = _grammar(dialect.delimiter, dialect.decimal)
+    if not text.isascii() or text.encode().translate(None, allowed) or odd.search(text):
+        return 0
+    data = np.frombuffer(text.encode(), dtype=np.uint8)
+    decimal = ord(dialect.decimal)
+    marks = np.flatnonzero(
+        (data == ord(dialect.delimiter)) | (data == _NEWLINE) | (data == decimal)
+    )
+    is_decimal = data[marks] == decimal
+    if (is_decimal[1:] & is_decimal[:-1]).any():
+        return 0  # two decimal marks in one cell
+    bounds = marks[~is_decimal]
+    lengths = np.diff(bounds) - 1
+    if not (lengths > 0).all():
+        return 0
+    lone = is_decimal[1:-1] & (np.diff(marks)[:-1] == 1) & (np.diff(marks)[1:] == 1)
+    if lone.any():
+        return 0  # a decimal mark without a digit
+    ends = np.flatnonzero(data[bounds] == _NEWLINE)
+    widths = np.diff(ends)
+    return int(widths[0]) if (widths == widths[0]).all() else 0
+
+
+@lru_cache
+def _grammar(delimiter: str, decimal: str) -> tuple[bytes, re.Pattern[str]]:
+    """Bytes that may occur, and what signs and exponents must not look like."""
+    allowed = f"0123456789+-eE{decimal}{delimiter}\n".encode()
+    d, point = re.escape(delimiter), re.escape(decimal)
+    sign = rf"(?<=[+\-])(?:(?<![{d}\neE][+\-])|(?!\d|{point}\d))"
+    exponent = rf"(?<=[eE])(?:(?<!\d[eE])(?<!\d{point}[eE])|(?![+\-]?\d)|(?=[^{d}\n]*[eE{point}]))"
+    return allowed, re.compile(rf"[+\-eE](?:{sign}|{exponent})")
