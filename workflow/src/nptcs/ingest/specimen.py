@@ -31,7 +31,7 @@ from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
-from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.tables.curves import CURVE_COLUMNS, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
 FEWEST_ROWS = 5
@@ -67,8 +67,8 @@ def ingest_specimen(
     Returns
     -------
     Ingested
-        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive, and
-        ``record``.
+        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive (the contract
+        is checked where it is written), and ``record``.
 
     Raises
     ------
@@ -174,7 +174,7 @@ def _require_rows(signals: Signals, specimen: Specimen, table: RawFile) -> None:
 def _curve(signals: Signals) -> pd.DataFrame:
     values = signals.values
     nothing = np.full(len(signals), np.nan)
-    frame = pd.DataFrame(
+    return pd.DataFrame(
         {
             "time_s": values.get("time", nothing),
             "force_n": values["force"],
@@ -182,7 +182,6 @@ def _curve(signals: Signals) -> pd.DataFrame:
             **{name: values[name] for name in CURVE_COLUMNS[3:]},
         }
     )
-    return Curve.validate(frame)
 
 
 def _record(

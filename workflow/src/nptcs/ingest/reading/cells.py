@@ -7,6 +7,7 @@ import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal, Protocol
 
@@ -17,7 +18,7 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.reading.clock import holds_clock
 from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
-from nptcs.ingest.reading.regular_rows import CHUNK, regular_width
+from nptcs.ingest.reading.regular_rows import chunk_edges, regular_width
 from nptcs.ingest.reading.table_columns import FoundTable
 
 NOTHING = "nan"
@@ -116,8 +117,8 @@ class TextSource:
         """Kind of each row."""
         usual = self._full_row.fullmatch if self._marks_apart else re.compile("(?!)").fullmatch
         kinds: list[Kind] = []
-        for start, width in self._regular_chunks:
-            lines = self.lines[start : start + CHUNK]
+        for start, stop, width in self._regular_chunks:
+            lines = self.lines[start:stop]
             if width >= 2:
                 kinds += ["data"] * len(lines)
             else:
@@ -125,12 +126,12 @@ class TextSource:
         return kinds
 
     @cached_property
-    def _regular_chunks(self) -> list[tuple[int, int]]:
-        """First line of each chunk, and the number of its cells if all are numbers, else 0."""
-        starts = range(0, len(self.lines), CHUNK)
-        chunks = (self.lines[start : start + CHUNK] for start in starts)
-        widths = [regular_width(chunk, self.dialect) for chunk in chunks]
-        return list(zip(starts, widths, strict=True))
+    def _regular_chunks(self) -> list[tuple[int, int, int]]:
+        """Lines [first, last) of each chunk, and its number of cells if all are numbers, else 0."""
+        return [
+            (start, stop, regular_width(self.lines[start:stop], self.dialect))
+            for start, stop in pairwise(chunk_edges(len(self.lines)))
+        ]
 
     def _kind(self, line: str) -> Kind:
         if not line.strip():
@@ -153,8 +154,8 @@ class TextSource:
         if delimiter == "spaces":
             return [len(line.split()) for line in self.lines]
         widths: list[int] = []
-        for start, width in self._regular_chunks:
-            lines = self.lines[start : start + CHUNK]
+        for start, stop, width in self._regular_chunks:
+            lines = self.lines[start:stop]
             widths += (
                 [width] * len(lines)
                 if width

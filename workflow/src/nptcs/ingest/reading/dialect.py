@@ -82,7 +82,8 @@ def candidates(profile: FormatProfile, lines: Sequence[str]) -> list[Dialect]:
     )
     if profile.decimal:
         return [Dialect(delimiter, profile.decimal, profile.thousands) for delimiter in delimiters]
-    point, comma = (any(mark in line for line in lines) for mark in ".,")
+    text = "\n".join(lines)
+    point, comma = "." in text, "," in text
     found = [Dialect(delimiter, ".") for delimiter in delimiters]
     if comma:
         found += [Dialect(delimiter, ",") for delimiter in delimiters]
@@ -156,11 +157,10 @@ def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Re
     full = {dialect: rows for dialect, rows in readings.items() if len(rows) == most}
     unread = {dialect: _unread(dialect, rows) for dialect, rows in full.items()}
     least = min(unread[dialect] for dialect in proven if dialect in full)
-    return {
-        dialect: _numbers(dialect, rows)
-        for dialect, rows in full.items()
-        if unread[dialect] == least
-    }
+    best = {dialect: rows for dialect, rows in full.items() if unread[dialect] == least}
+    if len(best) == 1:
+        return dict.fromkeys(best, ())
+    return {dialect: _numbers(dialect, rows) for dialect, rows in best.items()}
 
 
 def _promising(dialects: Sequence[Dialect], lines: Sequence[str]) -> list[Dialect]:

@@ -10,13 +10,21 @@ import numpy as np
 
 from nptcs.ingest.reading.dialect import Dialect
 
-CHUNK = 2000
-"""Lines that are checked together; a chunk that is not regular is read line by line."""
+_HEAD, _CHUNK, _TAIL = 60, 5000, 20
 _NEWLINE = 10
 
 
+def chunk_edges(lines: int) -> list[int]:
+    """Edges of the chunks that are checked together, head and tail apart.
+
+    A chunk that is not regular is read line by line; a header should not make that a long one.
+    """
+    inner = range(min(_HEAD, lines), max(lines - _TAIL, _HEAD), _CHUNK)
+    return sorted({0, *inner, max(lines - _TAIL, 0), lines})
+
+
 def regular_width(lines: Sequence[str], dialect: Dialect) -> int:
-    """Number of cells of each line, if every cell of every line is a bare number.
+    """Return the number of cells of each line, if every cell of every line is a bare number.
 
     The same grammar as that of a single number (sign, digits, decimal mark, exponent), but for
     all lines in a few passes over their bytes.
