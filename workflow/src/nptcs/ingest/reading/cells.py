@@ -193,11 +193,16 @@ class TextSource:
 
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
-        kinds = self.kinds
-        lines = [
-            self.lines[row] if kinds[row] == "data" else self._checked_line(block, row, positions)
-            for row in block.rows_of_data
-        ]
+        rows, kinds = block.rows_of_data, self.kinds
+        if rows[-1] - rows[0] == len(rows) - 1 and "odd data" not in kinds[rows[0] : rows[-1] + 1]:
+            lines = self.lines[rows[0] : rows[-1] + 1]
+        else:
+            lines = [
+                self.lines[row]
+                if kinds[row] == "data"
+                else self._checked_line(block, row, positions)
+                for row in rows
+            ]
         text = "\n".join(lines)
         if self._uses_thousands(text):
             return self._numbers_with_thousands(block, positions)

@@ -7,6 +7,7 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
+import numpy.typing as npt
 
 from nptcs.ingest.reading.dialect import Dialect
 
@@ -38,10 +39,15 @@ def regular_width(lines: Sequence[str], dialect: Dialect) -> int:
         return 0
     text = "\n" + "\n".join(lines) + "\n"
     allowed, odd = _grammar(dialect.delimiter, dialect.decimal)
-    if not text.isascii() or text.encode().translate(None, allowed) or odd.search(text):
+    if not text.isascii() or text.encode().translate(None, allowed):
         return 0
     data = np.frombuffer(text.encode(), dtype=np.uint8)
     decimal = ord(dialect.decimal)
+    if "e" in text or "E" in text:
+        if odd.search(text):
+            return 0
+    elif _odd_sign(data, ord(dialect.delimiter), decimal):
+        return 0
     marks = np.flatnonzero(
         (data == ord(dialect.delimiter)) | (data == _NEWLINE) | (data == decimal)
     )
@@ -58,6 +64,17 @@ def regular_width(lines: Sequence[str], dialect: Dialect) -> int:
     ends = np.flatnonzero(data[bounds] == _NEWLINE)
     widths = np.diff(ends)
     return int(widths[0]) if (widths == widths[0]).all() else 0
+
+
+def _odd_sign(data: npt.NDArray[np.uint8], delimiter: int, decimal: int) -> bool:
+    """Tell whether a sign does not begin a number; there are no exponents."""
+    signs = np.flatnonzero((data == ord("+")) | (data == ord("-")))
+    before, after = data[signs - 1], data[signs + 1]
+    begins = (before == delimiter) | (before == _NEWLINE)
+    digit = (after >= ord("0")) & (after <= ord("9"))
+    second = data[np.minimum(signs + 2, len(data) - 1)]
+    fraction = (after == decimal) & (second >= ord("0")) & (second <= ord("9"))
+    return not (begins & (digit | fraction)).all()
 
 
 @lru_cache
