@@ -66,10 +66,14 @@ def _spikes(readings: Array, share: float) -> Rows:
         return kept[:0]
     values = readings[kept]
     step = np.diff(values)
+    size = np.abs(step)
+    leaves = np.minimum(size[:-1], size[1:])
+    leaves[step[:-1] * step[1:] >= 0] = 0.0
+    usual = 20 * float(np.median(size))
+    if leaves.max() <= usual:
+        return kept[:0]
     low, high = np.percentile(values, [1, 99])
-    limit = max(share * float(high - low), 20 * float(np.median(np.abs(step))))
-    leaves = np.minimum(np.abs(step[:-1]), np.abs(step[1:])) > limit
-    return kept[1:-1][leaves & (np.sign(step[:-1]) != np.sign(step[1:]))]
+    return kept[1:-1][leaves > max(share * float(high - low), usual)]
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:

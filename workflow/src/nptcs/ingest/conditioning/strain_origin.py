@@ -8,7 +8,7 @@ import numpy as np
 
 from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import OriginOfStrain
-from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signals import Signals, line_slope
 from nptcs.ingest.conditioning.steps import STRAINS
 
 _ITERATIONS = 20
@@ -124,7 +124,7 @@ def _loading_begins(
     middle = (rise >= 0.2 * top) & (rise <= 0.5 * top)
     if middle.sum() < 3 or not np.ptp(strain[middle]):
         return 0, 0.0
-    slope = float(np.polyfit(strain[middle], stress[middle], 1)[0])
+    slope = line_slope(strain[middle], stress[middle])
     if slope <= 0:
         return 0, 0.0
     begin = int(np.searchsorted(rise, 0.02 * top))
@@ -147,8 +147,8 @@ def _toe_passed(strain: Array, rise: Array, begin: int, slope: float, step: floa
 
 def _rows_in_window(strain: Array, measured: Rows, low: float, high: float) -> Rows:
     """Find the readings of the first passage through the window."""
-    beyond = np.flatnonzero(strain[measured] > high)
-    first_pass = measured[: int(beyond[0])] if len(beyond) else measured
+    beyond = strain[measured] > high
+    first_pass = measured[: int(np.argmax(beyond))] if beyond.any() else measured
     return first_pass[strain[first_pass] >= low]
 
 
