@@ -93,7 +93,11 @@ def _fit(
     for _ in range(_ITERATIONS):
         rows = _rows_in_window(strain, measured, origin + low, origin + high)
         if len(rows) < fewest:
-            return None, f"{len(rows)} readings between strain {low:.2g} and {high:.2g}"
+            # a slow record: as many readings as needed, up to half of the ultimate strain
+            widest = _rows_in_window(strain, measured, origin + low, origin + 0.5 * ultimate)
+            rows = widest[:fewest]
+        if len(rows) < fewest:
+            return None, f"{len(rows)} readings between strain {low:.2g} and {0.5 * ultimate:.2g}"
         fit = _parabola(strain, stress, rows)
         moved, origin = abs(fit.coefficients[0] - origin), float(fit.coefficients[0])
         if moved < _CONVERGED:
