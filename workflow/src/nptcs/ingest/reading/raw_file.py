@@ -77,6 +77,7 @@ class OpenedFile:
     sha256: str
     lines: list[str] = field(default_factory=list)
     clocks: PlainLines | None = None
+    largest_width: int = FileLimits().columns
     sheets: list[CellSource] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
@@ -288,6 +289,7 @@ def _read(
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     values, units, notes = _values(test, profile, path, role)
     block = test.block
+    _refuse_larger(path, "columns", block.width, opened.largest_width, "columns")
     return RawFile(
         path,
         profile,
