@@ -106,7 +106,8 @@ def _failure(table: RawFile, force_drop: float) -> int | None:
 
 def _extend_to_peak(signals: Signals, position: Array, unit: str) -> None:
     """Extend the strains to the largest force by the line of the last frames, and say so."""
-    peak = int(np.nanargmax(np.abs(signals.values.get("force", signals.values.get("stress")))))
+    load = signals.values["force" if "force" in signals.values else "stress"]
+    peak = int(np.nanargmax(np.abs(load)))
     extended = 0.0
     for name in STRAIN_CHANNELS:
         readings = signals.values.get(name)

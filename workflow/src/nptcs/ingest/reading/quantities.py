@@ -120,7 +120,7 @@ def map_columns(
         for bare in (False, True):
             if known is None:
                 continue
-            wanted = set(known.columns) - set(mapped)
+            wanted = {str(name) for name in known.columns} - set(mapped)
             if known is not profile or bare:
                 wanted &= _lacking(mapped, columns)
             _map_names(mapped, wanted, columns, known, bare, path, block)
