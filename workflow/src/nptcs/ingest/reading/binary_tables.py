@@ -100,7 +100,8 @@ def _tdms(
                     columns[f"{channel.name} [{unit}]" if unit else channel.name] = channel[:]
                 step = same[0].properties.get("wf_increment")
                 if step and not any("time" in name.casefold() for name in columns):
-                    columns = {"time [s]": np.arange(length) * float(step), **columns}
+                    times = np.arange(length, dtype=np.float64) * float(step)
+                    columns = {"time [s]": times, **columns}
                 yield _table(group.name, columns)
 
 
@@ -128,7 +129,7 @@ def _mat(
     for name, value in structures.items():
         fields = value.item() if value.ndim == 0 else None
         if fields is not None:
-            named = zip(value.dtype.names, fields, strict=True)
+            named = zip(value.dtype.names or (), fields, strict=True)
             yield from _vectors(name, {field: np.asarray(one) for field, one in named})
 
 

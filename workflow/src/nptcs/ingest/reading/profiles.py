@@ -29,7 +29,13 @@ Quantity = Literal[
     "strain_xx",
     "strain_yy",
     "stretch",
+    "frame",
+    "trigger",
+    "x",
+    "y",
 ]
+UNITLESS: tuple[Quantity, ...] = ("frame", "trigger", "x", "y")
+"""Numbers of frames, trigger levels and places in a picture: taken as they are."""
 Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
 StrainSource = Literal["extensometer", "dic", "strain_gauge", "crosshead", "unspecified"]
 DELIMITERS = {",": ",", ";": ";", "tab": "\t", "|": "|", "spaces": "spaces"}
@@ -76,6 +82,11 @@ class FormatProfile(Strict):
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")
     loading: Literal["", "tension", "compression", "flexure"] = Field(
         "", description="What such files are, whatever their words say; empty: as they say"
+    )
+    window: dict[Literal["x", "y"], tuple[float, float]] = Field(
+        default_factory=dict,
+        description="Part of a strain field, in its own coordinates, over which the mean is taken; "
+        "empty: all of it",
     )
     labels: dict[Label, tuple[str, ...]] = Field(
         default_factory=dict, description="Header keys of dimensions and specimen id"
