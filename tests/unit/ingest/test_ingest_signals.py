@@ -14,6 +14,7 @@ from nptcs.config.ingest import (
     IngestSettings,
     MissingValues,
     OriginOfStrain,
+    Signs,
 )
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.plausible import check_physics
@@ -21,13 +22,14 @@ from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
-    empty_after_removal,
     empty_spikes,
     mark_dead,
     zero_force,
 )
+from nptcs.ingest.conditioning.sensors import empty_after_removal
+from nptcs.ingest.conditioning.signs import orient
 from nptcs.ingest.conditioning.strain_origin import correct_origin
-from nptcs.ingest.conditioning.strains import orient, resolve_strains
+from nptcs.ingest.conditioning.strains import resolve_strains
 
 PATH = Path("a.csv")
 FORCE = np.linspace(0, 1000, 101)
@@ -103,7 +105,7 @@ def test_compression_is_negative_whatever_the_machine_writes(coupon, force_sign,
     specimen = coupon(test="compression")
     signals, _ = resolve(specimen, strain=strain_sign * 1e-5 * FORCE)
     signals.values["force"] = force_sign * FORCE
-    orient(signals, specimen, PATH)
+    orient(signals, specimen, PATH, Signs())
     assert signals.values["force"][-1] == -1000
     assert signals.values["strain_axial"][-1] == pytest.approx(-0.01)
 
@@ -111,7 +113,7 @@ def test_compression_is_negative_whatever_the_machine_writes(coupon, force_sign,
 def test_tension_specimen_that_shortens_is_refused(coupon):
     signals, _ = resolve(coupon(), strain=-1e-5 * FORCE)
     with pytest.raises(InputError, match="falls while a tension test"):
-        orient(signals, coupon(), PATH)
+        orient(signals, coupon(), PATH, Signs())
 
 
 def conditioned(strain, force=FORCE, transverse=None):

@@ -50,6 +50,13 @@ class ExtensometerRemoval(Strict):
     stuck_force_share: float = Field(
         0.05, gt=0, lt=1, description="Strain stands still while the force grows by this share"
     )
+    largest_return: float = Field(
+        0.05,
+        gt=0,
+        lt=1,
+        description="Strain that goes back by more than this share of what it had reached, while "
+        "the force is higher than ever, is no longer measured on the specimen",
+    )
 
 
 class OriginOfStrain(Strict):
@@ -86,6 +93,24 @@ class ForceZero(Strict):
         False, description="Subtract the force before loading; off: preload is a real force"
     )
     readings: int = Field(10, ge=1, description="Readings before loading whose mean is taken")
+
+
+class Signs(Strict):
+    """Tension positive: which part of a record is the test, where force has both signs."""
+
+    smallest_share: float = Field(
+        0.05,
+        gt=0,
+        lt=1,
+        description="Force of the other sign up to this share of the largest is a disturbance; "
+        "beyond, the part is left out and named",
+    )
+    clear_share: float = Field(
+        0.25,
+        gt=0,
+        lt=1,
+        description="A part below this share of the other one is not the test, whatever its sign",
+    )
 
 
 class MachineCompliance(Strict):
@@ -138,6 +163,7 @@ class IngestSettings(Strict):
     end_of_test: EndOfTest = EndOfTest()
     extensometer: ExtensometerRemoval = ExtensometerRemoval()
     force_zero: ForceZero = ForceZero()
+    signs: Signs = Signs()
     strain_origin: OriginOfStrain = OriginOfStrain()
     compliance: MachineCompliance = MachineCompliance()
     pairing: Pairing = Pairing()

@@ -12,19 +12,21 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
+from nptcs.ingest.conditioning.declared_test import require_declared_test
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
+from nptcs.ingest.conditioning.sensors import empty_after_removal, empty_lost_channels
 from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signs import orient
 from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
-    empty_after_removal,
     empty_spikes,
     mark_dead,
     zero_force,
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
-from nptcs.ingest.conditioning.strains import orient, resolve_strains
+from nptcs.ingest.conditioning.strains import resolve_strains
 from nptcs.ingest.folder import find_file
 from nptcs.ingest.reading.profiles import FormatProfile, choose
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
@@ -75,11 +77,16 @@ def ingest_specimen(
     tables = _read(specimen, Path(folder), profiles)
     load, strain = tables[0], tables[-1]
     signals = _pair(tables, specimen, settings)
+    for table, name in zip(tables, (specimen.force_file, specimen.strain_file), strict=False):
+        require_declared_test(signals, specimen, table, name)
     mark_dead(signals, settings.missing_values)
     empty_spikes(signals, settings.missing_values)
     _flag_time(signals)
     _require_force(signals, specimen, load)
     check_machine_area(signals, specimen, load, settings.plausible)
+    empty_lost_channels(
+        signals, settings.extensometer, specimen.test.is_rubber, specimen.gauge_length_mm
+    )
     source = resolve_strains(
         signals,
         specimen,
@@ -90,7 +97,7 @@ def ingest_specimen(
     )
     drop_empty_rows(signals, settings.missing_values)
     _require_rows(signals, specimen, strain)
-    orient(signals, specimen, strain.path)
+    orient(signals, specimen, strain.path, settings.signs, source)
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.area_mm2
     cut_end(signals, settings.end_of_test)
@@ -134,7 +141,14 @@ def _read(
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
     if len(tables) == 1:
         return Signals(dict(tables[0].values))
-    return pair(tables[0], tables[1], specimen.time_offset_s, settings.pairing, specimen.specimen)
+    return pair(
+        tables[0],
+        tables[1],
+        specimen.time_offset_s,
+        settings.pairing,
+        specimen.specimen,
+        settings.end_of_test.force_drop,
+    )
 
 
 def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:
@@ -222,6 +236,7 @@ def _record(
             thickness_stations=len(specimen.thickness_mm),
         ),
         strain_source=source,
+        failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),
         flags=tuple(dict.fromkeys(signals.flags)),
     )

@@ -97,6 +97,9 @@ class IngestRecord(Strict):
     strain_source: str = Field(
         "", description="extensometer, dic, strain_gauge, crosshead or unspecified"
     )
+    failure_seen: bool = Field(
+        False, description="A break was recorded: force lost, and no unloading"
+    )
     steps: tuple[Step, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
 

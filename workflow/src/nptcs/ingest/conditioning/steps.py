@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array, Rows
-from nptcs.config.ingest import EndOfTest, ExtensometerRemoval, ForceZero, MissingValues
-from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
+from nptcs.config.ingest import EndOfTest, ForceZero, MissingValues
+from nptcs.ingest.conditioning.failure import failure_row
+from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
 
 STRAINS = ("strain_axial", "strain_transverse", "strain_axial_back")
 
@@ -30,8 +31,12 @@ def mark_dead(signals: Signals, settings: MissingValues) -> None:
 
 
 def _is_dead(readings: Array, largest_share: float) -> bool:
-    empty = np.isnan(readings)
-    return bool(empty.mean() > largest_share or np.ptp(readings[~empty]) == 0)
+    """Tell whether a channel is constant, or lacks readings between its first and its last."""
+    measured = np.flatnonzero(~np.isnan(readings))
+    if not len(measured):
+        return True
+    span = readings[measured[0] : measured[-1] + 1]
+    return bool(np.isnan(span).mean() > largest_share or np.ptp(readings[measured]) == 0)
 
 
 def empty_spikes(signals: Signals, settings: MissingValues) -> None:
@@ -106,79 +111,23 @@ def zero_force(signals: Signals, settings: ForceZero) -> None:
 
 
 def cut_end(signals: Signals, settings: EndOfTest) -> None:
-    """Cut what follows failure: the first reading after the peak that has lost the share."""
+    """Cut what follows failure; an unloading is not a failure and stays."""
     if not settings.enabled:
         signals.skipped("end of test")
         return
-    force = np.abs(signals.values["force"])
-    peak = int(np.argmax(force))
-    fallen = np.flatnonzero(force[peak:] < (1 - settings.force_drop) * force[peak])
-    end = peak + int(fallen[0]) if len(fallen) else len(force)
+    force = signals.values["force"]
+    elongation = signals.values.get("displacement", signals.values["strain_axial"])
+    end = failure_row(force, elongation, settings.force_drop)
+    peak = float(np.abs(force[:end]).max())
+    if end is None:
+        text = "no failure recorded, nothing cut"
+        if signals.failure_seen:
+            text = "failure is in the force file; nothing of it is in these rows"
+        signals.note("end of test", text, rows=0, peak_force_n=peak)
+        return
     dropped = len(force) - end
+    signals.failure_seen = True
     signals.take(np.arange(end))
-    text = f"{dropped} rows after failure cut" if dropped else "no failure recorded, nothing cut"
-    signals.note("end of test", text, rows=dropped, peak_force_n=float(force[peak]))
-
-
-def empty_after_removal(
-    signals: Signals, settings: ExtensometerRemoval, rubber: bool, source: str
-) -> None:
-    """Empty the strains from where an extensometer was taken off, slipped or stood still."""
-    if not settings.enabled:
-        signals.skipped("extensometer")
-        return
-    if source == "crosshead":
-        signals.note("extensometer", "strain from the crosshead, nothing to take off")
-        return
-    sign = np.sign(largest(signals.values["force"]))
-    strain = sign * signals.values["strain_axial"]
-    force = sign * signals.values["force"]
-    smallest = settings.smallest_jump_rubber if rubber else settings.smallest_jump
-    jump = _first_jump(strain, force, settings.jump_factor, smallest)
-    stuck = _first_stuck(strain[:jump], force[:jump], settings.stuck_force_share)
-    first = min((row for row in (jump, stuck) if row is not None), default=None)
-    if first is None:
-        signals.note("extensometer", "no removal or slip found")
-        return
-    what = "jumps" if first == jump else "stands still"
-    at = float(signals.values["strain_axial"][first - 1])
-    for name in STRAINS:
-        signals.values[name] = np.where(
-            np.arange(len(strain)) < first, signals.values[name], np.nan
-        )
     signals.note(
-        "extensometer",
-        f"strain {what} at reading {first + 1}: emptied from there",
-        last_strain=at,
-        rows=len(strain) - first,
+        "end of test", f"{dropped} rows after failure cut", rows=dropped, peak_force_n=peak
     )
-    signals.flags.append(f"extensometer removed or slipped at strain {at:.4g}: emptied from there")
-
-
-def _first_jump(strain: Array, force: Array, jump_factor: float, smallest: float) -> int | None:
-    """First reading whose strain leaps while the force does neither fall nor leap."""
-    peak = int(np.argmax(force))
-    step, load = np.diff(strain[: peak + 1]), np.diff(force[: peak + 1])
-    usual = float(np.nanmedian(np.abs(step))) if np.isfinite(step).any() else np.nan
-    usual_load = float(np.median(np.abs(load))) if len(load) else 0.0
-    leaps = np.abs(step) > max(jump_factor * usual, smallest)
-    leaps &= (load > -0.05 * force[peak]) & (np.abs(load) < 0.25 * jump_factor * usual_load)
-    return int(np.argmax(leaps)) + 1 if leaps.any() else None
-
-
-def _first_stuck(strain: Array, force: Array, share: float) -> int | None:
-    """First reading from which the force climbs by `share` of its peak and more, without strain.
-
-    Standing still counts to the end of the climb only: a start that lags is a toe, and a leap
-    is found by `_first_jump`.
-    """
-    rising = np.maximum.accumulate(force)
-    levels = np.arange(share, 1.0, share) * rising[-1]
-    rows = np.unique(np.searchsorted(rising, levels))
-    rows = rows[~np.isnan(strain[rows])]
-    if len(rows) < 6:
-        return None
-    gains = np.diff(strain[rows])
-    moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
-    last = int(moving[-1]) + 1 if len(moving) else 0
-    return int(rows[last]) + 1 if last < len(gains) else None

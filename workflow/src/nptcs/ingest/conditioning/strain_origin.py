@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 
@@ -24,6 +24,7 @@ class StrainOriginFit:
     scatter: float
     r_squared: float
     rows: Rows
+    slack: float = 0.0
 
 
 def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> None:
@@ -50,7 +51,7 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
     window = settings.window_rubber if rubber else settings.window
     stress, strain = signals.values["stress"], signals.values["strain_axial"]
     sign = np.sign(stress[int(np.argmax(np.abs(stress)))])
-    fit, why = _fit(sign * strain, sign * stress, window, settings.smallest_points)
+    fit, why = _fit(sign * strain, sign * stress, window, settings.smallest_points, rubber)
     if fit is None or fit.r_squared < settings.worst_r_squared:
         why = why if fit is None else f"R² {fit.r_squared:.4f} is below the limit"
         signals.note("strain origin", f"not corrected: {why}")
@@ -58,6 +59,8 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
         return
     shifts = _shift(signals, fit, sign)
     toe = _toe_end(sign * strain, sign * stress, fit)
+    if fit.slack:
+        signals.flags.append(f"slack or long toe: strain {fit.slack:.3g} before loading was cut")
     signals.take(np.arange(toe, len(signals)))
     signals.note(
         "strain origin",
@@ -71,12 +74,16 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
 
 
 def _fit(
-    strain: Array, stress: Array, window: tuple[float, float], fewest: int
+    strain: Array, stress: Array, window: tuple[float, float], fewest: int, rubber: bool
 ) -> tuple[StrainOriginFit | None, str]:
     """Fit, with the window counted from the origin that the fit itself finds."""
     measured = np.flatnonzero(~np.isnan(strain[: int(np.argmax(stress)) + 1]))
     if len(measured) < fewest:
         return None, f"{len(measured)} readings with strain before the largest force"
+    first = measured[0]
+    measured = measured[_loading_begins(strain[measured], stress[measured], window[0], rubber) :]
+    if len(measured) < fewest:
+        return None, f"{len(measured)} readings after the slack is taken up"
     start = float(np.median(strain[measured[:3]]))
     low, high = window
     ultimate = float(strain[measured].max()) - start
@@ -91,7 +98,48 @@ def _fit(
         moved, origin = abs(fit.coefficients[0] - origin), float(fit.coefficients[0])
         if moved < _CONVERGED:
             break
-    return fit, ""
+    assert fit is not None
+    slack = float(strain[measured[0]] - strain[first]) if measured[0] > first else 0.0
+    return replace(fit, slack=slack), ""
+
+
+def _loading_begins(strain: Array, stress: Array, smallest: float, rubber: bool) -> int:
+    """Find the first reading of the straight part, after slack and a long toe.
+
+    The slope between 20 and 50 % of the rise is what the straight part should have. Slack is
+    strain that is passed below 2 % of the rise and beyond what that slope explains. A laminate's
+    toe ends where the slope over 5 % of the rise first comes to 90 % of it; a rubber's own curve
+    may steepen as much, so that only its slack is found.
+
+    Returns
+    -------
+    int
+        0 if slack and toe are shorter than `smallest` (a strain).
+    """
+    rise = np.maximum.accumulate(stress) - np.median(stress[:3])
+    top = float(rise[-1])
+    middle = (rise >= 0.2 * top) & (rise <= 0.5 * top)
+    if middle.sum() < 3 or not np.ptp(strain[middle]):
+        return 0
+    slope = float(np.polyfit(strain[middle], stress[middle], 1)[0])
+    if slope <= 0:
+        return 0
+    begin = int(np.searchsorted(rise, 0.02 * top))
+    if not rubber:
+        begin = _toe_passed(strain, rise, begin, slope, 0.05 * top)
+    slack = strain[begin] - np.median(strain[:3]) - rise[begin] / slope
+    return begin if slack > smallest else 0
+
+
+def _toe_passed(strain: Array, rise: Array, begin: int, slope: float, step: float) -> int:
+    """First reading from which the secant over `step` has 90 % of the slope."""
+    half = int(np.searchsorted(rise, 0.5 * rise[-1]))
+    for row in range(begin, half):
+        ahead = int(np.searchsorted(rise, rise[row] + step))
+        gain = strain[ahead] - strain[row]
+        if ahead - row >= 2 and gain > 0 and (rise[ahead] - rise[row]) / gain >= 0.9 * slope:
+            return row
+    return begin
 
 
 def _rows_in_window(strain: Array, measured: Rows, low: float, high: float) -> Rows:

@@ -72,6 +72,9 @@ class FormatProfile(Strict):
     )
     missing: tuple[str, ...] = Field((), description="Further words for 'no value'")
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")
+    loading: Literal["", "tension", "compression", "flexure"] = Field(
+        "", description="What such files are, whatever their words say; empty: as they say"
+    )
     labels: dict[Label, tuple[str, ...]] = Field(
         default_factory=dict, description="Header keys of dimensions and specimen id"
     )

@@ -35,6 +35,8 @@ class RawFile:
         Quantity → readings, all of one length, in s, N, mm, MPa or dimensionless.
     columns, units : dict of str to str
         Quantity → column name and unit as found.
+    head : tuple of str
+        Lines above the names.
     """
 
     path: Path
@@ -51,6 +53,7 @@ class RawFile:
     header_line: int | None = None
     first_line: int | None = None
     labels: dict[str, LabelValue] = field(default_factory=dict)
+    head: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
@@ -244,6 +247,7 @@ def _read(
         header_line=None if block.names_row is None else block.names_row + 1,
         first_line=block.first + 1,
         labels=header_labels(test, profile, dialect),
+        head=_head_lines(test),
         notes=(*reasons, *opened.notes, *block.notes, *notes),
     )
 
@@ -276,6 +280,14 @@ def _values(
 
 def _has_unit(column: Column, profile: FormatProfile) -> bool:
     return bool(column.unit or "force" in profile.units or "force" in profile.wrong_units)
+
+
+def _head_lines(test: Test) -> tuple[str, ...]:
+    """Return the filled lines above the names, at most `HEAD_LINES`, and the name of the sheet."""
+    last = test.block.names_row if test.block.names_row is not None else test.block.first
+    rows = (test.source.cells(row) for row in range(max(0, last - HEAD_LINES), last))
+    lines = (" ".join(cell for cell in cells if cell) for cells in rows)
+    return tuple(line for line in (test.source.part, *lines) if line)
 
 
 def header_labels(
