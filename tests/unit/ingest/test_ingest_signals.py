@@ -18,7 +18,9 @@ from nptcs.config.ingest import (
 )
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.plausible import check_physics
+from nptcs.ingest.conditioning.sensors import empty_after_removal
 from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signs import orient
 from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
@@ -26,8 +28,6 @@ from nptcs.ingest.conditioning.steps import (
     mark_dead,
     zero_force,
 )
-from nptcs.ingest.conditioning.sensors import empty_after_removal
-from nptcs.ingest.conditioning.signs import orient
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import resolve_strains
 

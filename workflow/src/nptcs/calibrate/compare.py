@@ -11,7 +11,7 @@ from nptcs.calibrate.drucker import instabilities
 from nptcs.calibrate.fit import Model, fit_model
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.models import model_named
-from nptcs.calibrate.observations import Observation, observations, observe
+from nptcs.calibrate.observations import Observation, observations, observe, specimens_in_fit
 from nptcs.calibrate.rubber import unit_of
 from nptcs.config.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
@@ -135,8 +135,7 @@ def c10_against_range(
     """
     rubber = settings.rubber
     low, own = rubber.strain_range
-    included = [s for s in specimens if s.material == name and s.include and s.test.is_rubber]
-    chosen = [s for s in included if rubber.only_specimen in (None, s.specimen)]
+    chosen = specimens_in_fit(name, specimens, rubber.only_specimen)
     rows = []
     for high in sorted({own, *(h for h in rubber.range_highs if h > low)}):
         common = {

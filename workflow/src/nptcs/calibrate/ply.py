@@ -12,6 +12,7 @@ from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import COMPOSITE_TESTS
+from nptcs.reduce.counted import counted
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
 from nptcs.tables.specimens import Specimen
@@ -53,8 +54,8 @@ def calibrate_ply(
         If a source has no value, or the constants are thermodynamically impossible.
     """
     material = material or only_ply(specimens)
-    included = {s.specimen: s for s in specimens if s.include and s.material == material}
-    table = properties[properties["specimen"].isin(list(included))]
+    sheet = {s.specimen: s for s in specimens if s.material == material}
+    table = counted(properties[properties["specimen"].isin(list(sheet))], sheet)
     sources: dict[str, ConstantSource] = {name: getattr(settings.ply, name) for name in MEASURED}
     samples = {name: sample(table, source, name, material) for name, source in sources.items()}
     constants = {
@@ -68,7 +69,7 @@ def calibrate_ply(
     nu21 = rows_of(table, across)["value"].dropna()
     return PlyCard(
         name=material,
-        synthetic=any(included[name].origin == "synthetic" for name in used),
+        synthetic=any(s.origin == "synthetic" for s in specimens if s.tested_piece in used),
         constants=constants,
         covariance=covariance_of_means(samples, UNITS),
         checks=(

@@ -87,7 +87,7 @@ def _reversals(course: Array) -> list[tuple[int, int]]:
 
 
 def _noise(course: Array) -> float:
-    """Standard deviation of the readings' noise, from their second differences."""
+    """Return the standard deviation of the readings' noise, from their second differences."""
     if len(course) < 5:
         return 0.0
     # the median of |second difference| of a normal noise s is 0.6745 √6 s

@@ -1,4 +1,4 @@
-"""Evidence of failure: has the specimen failed, or was the test stopped before it did?"""
+"""Evidence of failure: a specimen that failed, or a test that was stopped before it did."""
 
 from __future__ import annotations
 

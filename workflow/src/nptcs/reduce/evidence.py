@@ -16,7 +16,7 @@ class Evidence:
 
     failed: bool
     reason: str = ""
-    remark: str = ""
+    remarks: tuple[str, ...] = ()
 
 
 def evidence_of_failure(turned: pd.DataFrame, specimen: Specimen, failure_seen: bool) -> Evidence:
@@ -32,7 +32,7 @@ def evidence_of_failure(turned: pd.DataFrame, specimen: Specimen, failure_seen: 
         What the ingest found in the raw record, before it cut what follows failure.
     """
     if specimen.failed is True:
-        return Evidence(True, remark="failure as the sheet states it")
+        return Evidence(True, remarks=("failure as the sheet states it",))
     if specimen.failed is False:
         return Evidence(False, "stopped before failure, as the sheet states")
     if failure_seen:

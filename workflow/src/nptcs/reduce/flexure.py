@@ -9,6 +9,7 @@ import pandas as pd
 
 from nptcs.bending import BentBar
 from nptcs.config.reduction import FlexureRules
+from nptcs.reduce.branch import Branch
 from nptcs.reduce.chord import chord_slope
 from nptcs.reduce.evidence import Evidence
 from nptcs.reduce.rows import (
@@ -27,7 +28,7 @@ STRAINS_OF_A_SENSOR = ("strain_gauge", "dic")
 
 
 def reduce_flexure(
-    branch: pd.DataFrame,
+    branch: Branch,
     rules: FlexureRules,
     bar: BentBar,
     strain_source: str,
@@ -41,8 +42,8 @@ def reduce_flexure(
 
     Parameters
     ----------
-    branch : DataFrame
-        Loading branch: stress_mpa, strain_axial.
+    branch : Branch
+        Chosen loading and record: stress_mpa, strain_axial.
     rules : FlexureRules
         Section of the standard in force.
     bar : BentBar
@@ -53,27 +54,28 @@ def reduce_flexure(
         Whether the bar failed.
     """
     low, high = rules.chord_range
-    strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
+    strain, stress = finite_pair(branch.rows, "strain_axial", "stress_mpa")
     chord = chord_slope(strain, stress, low, high, rules.chord_method, rules.end_tolerance)
     rule = f"{chord_rule(rules.title, rules.chord_method)}, {bar.words()}"
     modulus = from_chord("flexural_modulus", chord, "MPa", rule, strain_range(low, high))
     measured = strain_source in STRAINS_OF_A_SENSOR
-    failure = _at_failure(branch, rules, bar, measured, evidence)
+    failure = _at_failure(branch.to_peak, rules, bar, measured, evidence)
     remarks = _remarks(rules, bar)
     return [p.flagged(remarks) for p in (modulus, *failure)]
 
 
 def _at_failure(
-    branch: pd.DataFrame, rules: FlexureRules, bar: BentBar, measured: bool, evidence: Evidence
+    to_peak: pd.DataFrame, rules: FlexureRules, bar: BentBar, measured: bool, evidence: Evidence
 ) -> list[Property]:
     rule = f"{rules.title}, largest force, {bar.words()}"
     rows = (("flexural_strength", "MPa"), ("flexural_strain_at_failure", "1"))
     if not evidence.failed:
         return [missing(name, unit, rule, evidence.reason) for name, unit in rows]
-    stress, strain = (value_at_peak(branch, name) for name in ("stress_mpa", "strain_axial"))
-    strength = Property("flexural_strength", stress, "MPa", rule, points=1)
+    stress, strain = (value_at_peak(to_peak, name) for name in ("stress_mpa", "strain_axial"))
+    flags = evidence.remarks
+    strength = Property("flexural_strength", stress, "MPa", rule, points=1, flags=flags)
     if not np.isfinite(strain):
-        last = branch["strain_axial"].max()
+        last = to_peak["strain_axial"].max()
         lost = missing(*rows[1], rule, f"strain recorded up to {last:.4g} only")
         return [strength.flagged(["large deflection not assessed: no strain there"]), lost]
     at_failure = Property(rows[1][0], strain, "1", rule, points=1)

@@ -189,9 +189,28 @@ class Specimen(Strict):
         return BentBar(width, thickness, self.span_mm, self.loading_span_mm or 0.0)
 
     @property
-    def stress_per_force(self) -> float:
-        """σ/F (1/mm²): 1/area, or that of the outer face of a bent bar."""
-        return 1.0 / self.area_mm2 if self.bar is None else self.bar.stress_per_force
+    def force_per_stress_mm2(self) -> float:
+        """F/σ: the area, or for a bent bar that of the stress of its outer face."""
+        return self.area_mm2 if self.bar is None else 1.0 / self.bar.stress_per_force
+
+    def strain_per_length(self, of_crosshead: bool) -> float:
+        """Strain for each mm of an extension, or of a bar's deflection (1/mm).
+
+        Parameters
+        ----------
+        of_crosshead : bool
+            Travel of the machine: with four points it is that of the loading rollers, not of
+            mid-span.
+        """
+        if self.bar is not None:
+            return (
+                self.bar.strain_per_roller_travel
+                if of_crosshead and self.bar.points == 4
+                else self.bar.strain_per_deflection
+            )
+        if self.gauge_length_mm is None:
+            raise ValueError(f"{self.specimen}: gauge_length_mm is empty")
+        return 1.0 / self.gauge_length_mm
 
     @property
     def tested_piece(self) -> str:
