@@ -22,7 +22,7 @@ from nptcs.config.reduction import AstmD3039, AstmD3518, ReductionSettings
 from nptcs.example import truth
 from nptcs.example.generate import generate
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.reduce import reduce_specimen
+from nptcs.reduce import reduce_record
 from nptcs.tables.material_card import Quantity
 from nptcs.tables.specimens import read_sheet
 
@@ -43,11 +43,7 @@ def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[Quan
     for specimen in specimens:
         done = ingest_specimen(specimen, folder, IngestSettings(), profiles)
         curves[specimen.specimen] = done.curve
-        tables.append(
-            reduce_specimen(
-                done.curve, specimen, settings, done.record.strain_source, done.record.flags
-            )
-        )
+        tables.append(reduce_record(done.curve, specimen, done.record, settings))
     calibration = CalibrationSettings()
     ply = calibrate_ply(pd.concat(tables), specimens, calibration)
     found = {name: (ply.constants[name], value) for name, value in PLY.items()}

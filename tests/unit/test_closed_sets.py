@@ -8,7 +8,7 @@ from typing import get_args
 import pytest
 
 import nptcs
-from nptcs.calibrate import invariants
+from nptcs.calibrate import invariants, ogden
 from nptcs.calibrate.drucker import PATHS
 from nptcs.calibrate.models import model_named
 from nptcs.config.calibration import ModelName, RubberSettings
@@ -102,6 +102,7 @@ def test_each_mode_of_a_rubber_test_is_known_to_the_models() -> None:
     assert set(invariants.MODES) == modes
     assert set(invariants.SECOND_STRETCH) == modes
     assert set(invariants.EXPONENTS) == modes
+    assert set(ogden.RATIO) == modes
     assert set(PATHS.values()) <= modes
 
 

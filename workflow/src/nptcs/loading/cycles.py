@@ -56,7 +56,8 @@ def loadings(force: Array, strain: Array) -> list[Loading]:
         lost = force[first] - force[first : last + 1].min()
         again = force[last:].max() - force[first : last + 1].min()
         floor = SMALLEST_REVERSAL * float(np.ptp(force))
-        if min(lost, again) >= max(REVERSAL * gained, floor):
+        later = starts[-1] < last < len(force) - 1
+        if later and min(lost, again) >= max(REVERSAL * gained, floor) > 0:
             starts.append(int(last))
     stops = [*starts[1:], len(force)]
     return [

@@ -70,9 +70,9 @@ def reduce_specimen(
         asks for.
     """
     branch = loading_branch(curve, specimen)
-    evidence = evidence_of_failure(branch.turned, specimen, failure_seen)
-    rules = settings.rules(specimen.test)
     told = list(flags)
+    evidence = evidence_of_failure(branch.turned, specimen, failure_seen, told)
+    rules = settings.rules(specimen.test)
     found = deviations(branch, specimen, rules, strain_source, evidence)
     # the ingest record says it in its own words
     if any(flag.startswith(CROSSHEAD) for flag in told):

@@ -105,7 +105,9 @@ def _number_notes(
 ) -> list[str]:
     notes = []
     if len(measured) < len(included):
+        lacking = included.loc[included["value"].isna(), "specimen"]
         notes.append(f"assessed: {len(measured)} of {len(included)}")
+        notes.append("not assessed: " + ", ".join(lacking))
     if len(measured) < asked:
         notes.append(f"n = {len(measured)}, {title} asks for {asked}")
     if len(set(measured["range"])) > 1:

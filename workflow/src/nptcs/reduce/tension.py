@@ -48,7 +48,9 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
         poisson_ratio(branch.rows, rules, low, high, nominal),
     ]
     if ultimate.value != ultimate.value and _may_be_low(branch, rules):
-        words = "ultimate strain not known: whether it is below the limit for this range, neither"
+        words = (
+            f"ultimate strain not known, so not whether it is below {rules.low_ultimate_strain:g}"
+        )
         slopes = [row.flagged([words]) for row in slopes]
     return [*slopes, strength(branch.to_peak, rules.title, evidence), ultimate]
 
