@@ -22,9 +22,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Print what is planned, or every fault; exit code 1 if there is one."""
     import yaml
 
+    from nptcs.calibrate.plan import check_materials
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
-    from nptcs.solvers.registry import check_study
+    from nptcs.solvers.registry import check_study, needs_ply
     from nptcs.tables.specimens import read_sheet
 
     path = Path(arguments.config)
@@ -55,6 +56,11 @@ def run(arguments: argparse.Namespace) -> int:
         if not (folder / name).is_file()
     ]
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
-    for fault in [*errors, *missing]:
+    studies = [(study, needs_ply(study, config.solver_options(study))) for study in config.studies]
+    materials, notes = check_materials(studies, specimens, config.calibration)
+    for note in notes:
+        print(note)
+    faults = [*errors, *missing, *materials]
+    for fault in faults:
         print(f"nptcs: {fault}", file=sys.stderr)
-    return 1 if errors or missing else 0
+    return 1 if faults else 0
