@@ -30,7 +30,10 @@ try:
     SHEET = Path(CONFIG.lab_data.specimen_sheet)
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
     faults, _ = check_materials(
-        [(study, needs_ply(study, CONFIG.solver_options(study))) for study in CONFIG.studies],
+        [
+            (study, needs_ply(study, CONFIG.solver_options(study)))
+            for study in CONFIG.studies
+        ],
         SPECIMENS,
         CONFIG.calibration,
     )
