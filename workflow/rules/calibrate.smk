@@ -21,6 +21,7 @@ rule calibrate_ply:
             f"results/2_reduce/{series}.csv"
             for series in series_of_material(wildcards.ply)
         ],
+        records=lambda wildcards: records(specimens_of_material(wildcards.ply)),
     output:
         card="results/3_calibrate/{ply}.json",
     log:

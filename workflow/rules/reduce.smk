@@ -28,6 +28,7 @@ rule reduce:
 rule statistics:
     input:
         properties=expand("results/2_reduce/{series}.csv", series=SERIES),
+        records=records(SPECIMENS),
     output:
         specimens="results/tables/specimens.csv",
         statistics="results/tables/statistics.csv",

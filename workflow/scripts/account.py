@@ -1,17 +1,16 @@
 """Say what became of every file in the laboratory's folder."""
 
 from collections.abc import Sequence
-from pathlib import Path
 
 from nptcs.console import clear_errors
-from nptcs.ingest.folder import account_for_files
+from nptcs.ingest.account import account_for_files
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.files import Files
 from nptcs.tables.io import write_table
 
 
 def account(sheet: str, records: Sequence[str], files: str) -> None:
-    read = [IngestRecord.model_validate_json(Path(file).read_text("utf-8")) for file in records]
+    read = [IngestRecord.read(file) for file in records]
     write_table(files, account_for_files(sheet, read), Files)
 
 

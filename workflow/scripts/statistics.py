@@ -7,15 +7,24 @@ import pandas as pd
 
 from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
+from nptcs.ingest.repeats import counted_once
 from nptcs.reduce.statistics import group_statistics
+from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.statistics import StatisticsTable
 
 
-def summarise(job: dict[str, Any], properties: Sequence[str], joined: str, summary: str) -> None:
-    specimens = [Specimen.model_validate(row) for row in job["specimens"]]
+def summarise(
+    job: dict[str, Any],
+    properties: Sequence[str],
+    records: Sequence[str],
+    joined: str,
+    summary: str,
+) -> None:
+    sheet = [Specimen.model_validate(row) for row in job["specimens"]]
+    specimens = counted_once(sheet, map(IngestRecord.read, records))
     settings = ReductionSettings.model_validate(job["settings"])
     table = pd.concat([read_table(file, PropertiesTable) for file in properties])
     table = table.reset_index(drop=True)
@@ -28,6 +37,7 @@ if __name__ == "__main__":
         summarise(
             snakemake.params.job,
             snakemake.input.properties,
+            snakemake.input.records,
             snakemake.output.specimens,
             snakemake.output.statistics,
         )

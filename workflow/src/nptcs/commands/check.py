@@ -25,6 +25,8 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.calibrate.plan import check_materials
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
+    from nptcs.ingest.reading.profiles import load_profiles
+    from nptcs.ingest.repeats import repeats_in_sheet
     from nptcs.solvers.registry import check_study, needs_ply
     from nptcs.tables.specimens import read_sheet
 
@@ -55,12 +57,15 @@ def run(arguments: argparse.Namespace) -> int:
         for name in specimen.files
         if not (folder / name).is_file()
     ]
+    profiles = load_profiles(config.lab_data.formats)
+    sheet = Path(config.lab_data.specimen_sheet)
+    again = repeats_in_sheet(specimens, folder, profiles, sheet, config.ingest.limits)
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
     studies = [(study, needs_ply(study, config.solver_options(study))) for study in config.studies]
     materials, notes = check_materials(studies, specimens, config.calibration)
     for note in notes:
         print(note)
-    faults = [*errors, *missing, *materials]
+    faults = [*errors, *missing, *again, *materials]
     for fault in faults:
         print(f"nptcs: {fault}", file=sys.stderr)
     return 1 if faults else 0

@@ -138,6 +138,16 @@ class Pairing(Strict):
     )
 
 
+class FileLimits(Strict):
+    """Largest file that is read; a larger one is refused before it takes time and memory."""
+
+    file_mb: float = Field(500.0, gt=0, description="Size of a raw file in MB")
+    unpacked_mb: float = Field(1000.0, gt=0, description="Size of a workbook when unpacked, in MB")
+    rows: int = Field(2_000_000, gt=0, description="Lines of a text or rows of a sheet")
+    columns: int = Field(2_000, gt=0, description="Columns of a table")
+    line_length: int = Field(100_000, gt=0, description="Characters of a line")
+
+
 class Plausible(Strict):
     """What physics allows; outside, a unit or an area must be wrong and the specimen stops."""
 
@@ -159,6 +169,7 @@ class Plausible(Strict):
 class IngestSettings(Strict):
     """How raw files become curves."""
 
+    limits: FileLimits = FileLimits()
     missing_values: MissingValues = MissingValues()
     end_of_test: EndOfTest = EndOfTest()
     extensometer: ExtensometerRemoval = ExtensometerRemoval()

@@ -28,10 +28,11 @@ from nptcs.ingest.conditioning.steps import (
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import resolve_strains
-from nptcs.ingest.folder import find_file
-from nptcs.ingest.reading.profiles import FormatProfile, choose
-from nptcs.ingest.reading.raw_file import RawFile, read_raw
-from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.ingest.read_tables import read_tables
+from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.raw_file import RawFile
+from nptcs.ingest.repeats import data_digest
+from nptcs.tables.curves import CURVE_COLUMNS, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
 FEWEST_ROWS = 5
@@ -67,15 +68,15 @@ def ingest_specimen(
     Returns
     -------
     Ingested
-        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive, and
-        ``record``.
+        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive (the contract
+        is checked where it is written), and ``record``.
 
     Raises
     ------
     InputError
         If a file cannot be read with certainty, or physics contradicts it.
     """
-    tables = _read(specimen, Path(folder), profiles)
+    tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
     factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
@@ -90,11 +91,12 @@ def ingest_specimen(
     empty_lost_channels(
         signals, settings.extensometer, specimen.test.is_rubber, specimen.gauge_length_mm
     )
+    specimen = _with_gauge_length(specimen, tables, signals)
     source = resolve_strains(
         signals,
         specimen,
         strain.columns,
-        strain.profile.strain_source,
+        strain.strain_source,
         settings.compliance.compliance_mm_per_n,
         strain.path,
     )
@@ -113,32 +115,16 @@ def ingest_specimen(
     return Ingested(_curve(signals), _record(specimen, tables, signals, source))
 
 
-def _read(
-    specimen: Specimen, folder: Path, profiles: Mapping[str, FormatProfile]
-) -> tuple[RawFile, ...]:
-    """Read the force file, and the strain file if there is one."""
-    wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
-    if specimen.strain_file:
-        wanted.append(
-            (specimen.strain_file, specimen.strain_format, specimen.strain_part, "strain")
-        )
-    tables = []
-    for name, format_name, part, role in wanted:
-        declared = choose(format_name, profiles, specimen.specimen) if format_name else None
-        try:
-            table = read_raw(
-                find_file(folder, name),
-                profiles,
-                declared=declared,
-                part=part,
-                specimen=specimen.specimen,
-                role=role if len(wanted) > 1 else "force and strain",
-            )
-        except InputError as error:
-            error.specimen = specimen.specimen
-            raise
-        tables.append(table)
-    return tuple(tables)
+def _with_gauge_length(
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals
+) -> Specimen:
+    """Take the gauge length of the file's head where the sheet has none and it is needed."""
+    needed = not {"strain", "strain_xx", "strain_yy", "stretch"} & set(signals.values)
+    found = next((t.labels["gauge_length"] for t in tables if "gauge_length" in t.labels), None)
+    if specimen.gauge_length_mm is not None or not needed or found is None or not found.value:
+        return specimen
+    signals.flags.append(f"gauge length {found.value:g} mm from the file's head, none in the sheet")
+    return specimen.model_copy(update={"gauge_length_mm": found.value})
 
 
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
@@ -191,7 +177,7 @@ def _require_rows(signals: Signals, specimen: Specimen, table: RawFile) -> None:
 def _curve(signals: Signals) -> pd.DataFrame:
     values = signals.values
     nothing = np.full(len(signals), np.nan)
-    frame = pd.DataFrame(
+    return pd.DataFrame(
         {
             "time_s": values.get("time", nothing),
             "force_n": values["force"],
@@ -199,7 +185,6 @@ def _curve(signals: Signals) -> pd.DataFrame:
             **{name: values[name] for name in CURVE_COLUMNS[3:]},
         }
     )
-    return Curve.validate(frame)
 
 
 def _record(
@@ -239,6 +224,7 @@ def _record(
             width_stations=len(specimen.width_mm),
             thickness_stations=len(specimen.thickness_mm),
         ),
+        data_sha256=data_digest(tables),
         strain_source=source,
         failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),

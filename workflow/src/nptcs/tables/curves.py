@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Literal
 
 import pandera.pandas as pa
@@ -98,11 +99,17 @@ class IngestRecord(Strict):
     strain_source: str = Field(
         "", description="extensometer, dic, strain_gauge, crosshead or unspecified"
     )
+    data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
     failure_seen: bool = Field(
         False, description="A break was recorded: force lost, and no unloading"
     )
     steps: tuple[Step, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
+
+    @classmethod
+    def read(cls, file: str | Path) -> IngestRecord:
+        """Read a record that ingest wrote."""
+        return cls.model_validate_json(Path(file).read_text("utf-8"))
 
     @classmethod
     def failed(cls, specimen: str, error: InputError) -> IngestRecord:

@@ -80,8 +80,8 @@ def _fit(
     measured = np.flatnonzero(~np.isnan(strain[: int(np.argmax(stress)) + 1]))
     if len(measured) < fewest:
         return None, f"{len(measured)} readings with strain before the largest force"
-    first = measured[0]
-    measured = measured[_loading_begins(strain[measured], stress[measured], window[0], rubber) :]
+    begin, slack = _loading_begins(strain[measured], stress[measured], window[0], rubber)
+    measured = measured[begin:]
     if len(measured) < fewest:
         return None, f"{len(measured)} readings after the slack is taken up"
     start = float(np.median(strain[measured[:3]]))
@@ -99,11 +99,12 @@ def _fit(
         if moved < _CONVERGED:
             break
     assert fit is not None
-    slack = float(strain[measured[0]] - strain[first]) if measured[0] > first else 0.0
     return replace(fit, slack=slack), ""
 
 
-def _loading_begins(strain: Array, stress: Array, smallest: float, rubber: bool) -> int:
+def _loading_begins(
+    strain: Array, stress: Array, smallest: float, rubber: bool
+) -> tuple[int, float]:
     """Find the first reading of the straight part, after slack and a long toe.
 
     The slope between 20 and 50 % of the rise is what the straight part should have. Slack is
@@ -113,22 +114,24 @@ def _loading_begins(strain: Array, stress: Array, smallest: float, rubber: bool)
 
     Returns
     -------
-    int
+    begin : int
         0 if slack and toe are shorter than `smallest` (a strain).
+    slack : float
+        Strain of slack and toe, beyond what the slope explains.
     """
     rise = np.maximum.accumulate(stress) - np.median(stress[:3])
     top = float(rise[-1])
     middle = (rise >= 0.2 * top) & (rise <= 0.5 * top)
     if middle.sum() < 3 or not np.ptp(strain[middle]):
-        return 0
+        return 0, 0.0
     slope = float(np.polyfit(strain[middle], stress[middle], 1)[0])
     if slope <= 0:
-        return 0
+        return 0, 0.0
     begin = int(np.searchsorted(rise, 0.02 * top))
     if not rubber:
         begin = _toe_passed(strain, rise, begin, slope, 0.05 * top)
-    slack = strain[begin] - np.median(strain[:3]) - rise[begin] / slope
-    return begin if slack > smallest else 0
+    slack = float(strain[begin] - np.median(strain[:3]) - rise[begin] / slope)
+    return (begin, slack) if slack > smallest else (0, 0.0)
 
 
 def _toe_passed(strain: Array, rise: Array, begin: int, slope: float, step: float) -> int:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal, Self
 
@@ -109,13 +111,36 @@ class FormatProfile(Strict):
 
 
 def normalise(name: str) -> str:
-    """Write a column name the one way in which names are compared."""
+    """Write a column name the one way in which names are compared: no case, accents, wide forms."""
+    if not name.isascii():
+        wide = unicodedata.normalize("NFKD", name)
+        name = "".join(mark for mark in wide if not unicodedata.combining(mark))
     return re.sub(r"[\s_]+", " ", name.replace('"', " ")).strip().strip(":").strip().casefold()
+
+
+_PREFIXES = re.compile(
+    r"^(?:(?:c|ch|chan|channel|kanal|canal|voie|ai|ad|analog|analog in|sensor|signal)"
+    r"[ .:-]*\d*[ .:-]+|\d+[ .:-]+|mx\d\w* |(?:primary|universal|main|station|machine|axial|"
+    r"mts|instron|zwick|measured|actual) )+"
+)
+_SUFFIXES = re.compile(
+    r"(?:[ .:-]+(?:filtered|filt|unfiltered|raw|signal|channel|value|wert|istwert|measured|"
+    r"actual|gefiltert|filtre|filtrado|filtrato)|[ ]*\((?:filtered|raw)\))+$"
+)
+
+
+def without_channel(name: str) -> str:
+    """Take a channel's prefix and suffix off a name: ``C_1_Force``, ``Ch Disp.``, ``Load_Raw``."""
+    short = _SUFFIXES.sub("", _PREFIXES.sub("", normalise(name)))
+    return short.strip(" .:-") or normalise(name)
 
 
 def name_matches(name: str, pattern: str) -> bool:
     """Tell whether a column name (without its unit) is what a profile calls it."""
-    return fnmatchcase(normalise(name), normalise(pattern))
+    return fnmatchcase(_normalised(name), _normalised(pattern))
+
+
+_normalised = lru_cache(maxsize=4096)(normalise)
 
 
 def read_profile(path: str | Path) -> FormatProfile:

@@ -10,8 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.arrays import Array
+from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource, TextSource, split_lines
+from nptcs.ingest.reading.clock import PlainLines, clocks_to_seconds, join_grouped_digits
 from nptcs.ingest.reading.decode import decode
 from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.find_tables import find_tables
@@ -46,6 +48,7 @@ class RawFile:
     values: dict[str, Array]
     columns: dict[str, str]
     units: dict[str, str]
+    strain_source: str = "unspecified"
     part: str = ""
     encoding: str = ""
     delimiter: str = ""
@@ -71,6 +74,7 @@ class OpenedFile:
     encoding: str
     sha256: str
     lines: list[str] = field(default_factory=list)
+    clocks: PlainLines | None = None
     sheets: list[CellSource] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
@@ -90,17 +94,27 @@ def vocabulary(profiles: Mapping[str, FormatProfile]) -> set[str]:
 
 
 def open_file(
-    path: Path, profiles: Mapping[str, FormatProfile], profile: FormatProfile
+    path: Path,
+    profiles: Mapping[str, FormatProfile],
+    profile: FormatProfile,
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> OpenedFile:
-    """Read a file's bytes and decode them, by the profile's encoding if it states one."""
+    """Read a file's bytes and decode them, by the profile's encoding if it states one.
+
+    Raises
+    ------
+    InputError
+        If it is missing, empty, binary, or larger than the limits.
+    """
     try:
+        _refuse_larger(path, "file_mb", path.stat().st_size / 1e6, limits.file_mb, "MB")
         raw = path.read_bytes()
     except OSError as error:
         what = "file is missing" if isinstance(error, FileNotFoundError) else "cannot be read"
         raise InputError(what, "check the name in the sheet", path) from error
     digest = hashlib.sha256(raw).hexdigest()
     if is_workbook(raw):
-        sheets, notes = read_workbook(path, raw, frozenset(profile.missing))
+        sheets, notes = read_workbook(path, raw, frozenset(profile.missing), limits)
         head = "\n".join(
             "\n".join(
                 [sheet.part, *("\t".join(map(_text, row)) for row in sheet.rows[:HEAD_LINES])]
@@ -109,10 +123,23 @@ def open_file(
         )
         return OpenedFile(path, head, "", digest, sheets=list(sheets), notes=notes)
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
-    lines = split_lines(decoded.text)
+    plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
+    lines = plain.lines
+    _refuse_larger(path, "rows", len(lines), limits.rows, "lines")
+    longest = max(map(len, lines))
+    _refuse_larger(path, "line_length", longest, limits.line_length, "characters in a line")
     note = f"encoding {decoded.encoding}: {decoded.note}"
     head = "\n".join(lines[:HEAD_LINES])
-    return OpenedFile(path, head, decoded.encoding, digest, lines=lines, notes=(note,))
+    return OpenedFile(path, head, decoded.encoding, digest, plain.lines, plain, notes=(note,))
+
+
+def _refuse_larger(path: Path, limit: str, size: float, allowed: float, what: str) -> None:
+    if size > allowed:
+        raise InputError(
+            f"has {size:.6g} {what}, {allowed:.6g} are allowed",
+            f"export one test per file, or raise ingest.limits.{limit}",
+            path,
+        )
 
 
 def _text(cell: object) -> str:
@@ -142,6 +169,7 @@ def read_raw(
     part: str = "",
     specimen: str = "",
     role: str = "force and strain",
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> RawFile:
     """Read the table of one test from a raw file.
 
@@ -159,24 +187,29 @@ def read_raw(
         Specimen id; chooses the part of that name if no part is given.
     role : str
         ``force``, ``strain`` or ``force and strain``: what the table must hold.
+    limits : FileLimits
+        Largest file that is read.
 
     Raises
     ------
     InputError
         With the line, the column and the choices.
     """
-    opened = open_file(path, profiles, declared or profiles[PLAIN])
+    opened = open_file(path, profiles, declared or profiles[PLAIN], limits)
     if declared is not None:
-        return _read(opened, declared, ("profile named by the sheet",), part, specimen, role)
+        reasons = ("profile named by the sheet",)
+        return _read(opened, declared, profiles[PLAIN], reasons, part, specimen, role)
     fitting, reason = matching(opened, profiles)
     tables: list[RawFile] = []
     errors: list[InputError] = []
-    for profile in fitting:
-        again = open_file(path, profiles, profile) if profile.encoding else opened
-        try:
-            tables.append(_read(again, profile, (reason,), part, specimen, role, detected=True))
-        except InputError as error:
-            errors.append(error)
+    for plain in (None, profiles[PLAIN]):
+        for profile in fitting if not tables else ():
+            again = open_file(path, profiles, profile, limits) if profile.encoding else opened
+            try:
+                table = _read(again, profile, plain, (reason,), part, specimen, role, detected=True)
+                tables.append(table)
+            except InputError as error:
+                errors.append(error)
     if not tables:
         raise errors[0]
     if len({_reading(table) for table in tables}) > 1:
@@ -206,13 +239,34 @@ def sources_of(
         )
     if opened.kind == "workbook":
         return opened.sheets, None
-    dialect = find_dialect(opened.lines, profile, opened.path)
-    return [TextSource(opened.path, opened.lines, dialect, frozenset(profile.missing))], dialect
+    dialect = _dialect(opened, profile)
+    clocks = opened.clocks or PlainLines([])
+    source = TextSource(
+        opened.path,
+        opened.lines,
+        dialect,
+        frozenset(profile.missing),
+        clocks.originals,
+        clocks.counts,
+    )
+    return [source], dialect
+
+
+def _dialect(opened: OpenedFile, profile: FormatProfile) -> Dialect:
+    """Find the dialect; a delimiter of the profile that the file does not keep is looked for."""
+    try:
+        return find_dialect(opened.lines, profile, opened.path)
+    except InputError:
+        if not profile.delimiter:
+            raise
+        free = profile.model_copy(update={"delimiter": "", "thousands": ""})
+        return find_dialect(opened.lines, free, opened.path)
 
 
 def _read(
     opened: OpenedFile,
     profile: FormatProfile,
+    plain: FormatProfile | None,
     reasons: tuple[str, ...],
     part: str,
     specimen: str,
@@ -226,7 +280,7 @@ def _read(
         test
         for source in sources
         for test in tests_in(
-            source, find_tables(source, path, profile.unnamed_columns), profile, path
+            source, find_tables(source, path, profile.unnamed_columns), profile, path, plain
         )
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
@@ -240,6 +294,7 @@ def _read(
         values,
         {quantity: column.name for quantity, column in test.quantities.items()},
         units,
+        strain_source=test.strain_source or profile.strain_source,
         part=test.label if len(tests) > 1 else "",
         encoding=opened.encoding,
         delimiter="" if dialect is None else dialect.delimiter,
@@ -247,7 +302,7 @@ def _read(
         header_line=None if block.names_row is None else block.names_row + 1,
         first_line=block.first + 1,
         labels=header_labels(test, profile, dialect),
-        head=_head_lines(test),
+        head=head_lines(test),
         notes=(*reasons, *opened.notes, *block.notes, *notes),
     )
 
@@ -282,7 +337,7 @@ def _has_unit(column: Column, profile: FormatProfile) -> bool:
     return bool(column.unit or "force" in profile.units or "force" in profile.wrong_units)
 
 
-def _head_lines(test: Test) -> tuple[str, ...]:
+def head_lines(test: Test) -> tuple[str, ...]:
     """Return the filled lines above the names, at most `HEAD_LINES`, and the name of the sheet."""
     last = test.block.names_row if test.block.names_row is not None else test.block.first
     rows = (test.source.cells(row) for row in range(max(0, last - HEAD_LINES), last))
