@@ -23,6 +23,7 @@ from nptcs.example import truth
 from nptcs.example.generate import generate
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.reduce import reduce_record
+from nptcs.reduce.origin import origins_of
 from nptcs.tables.material_card import Quantity
 from nptcs.tables.specimens import read_sheet
 
@@ -39,16 +40,17 @@ def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[Quan
     """Constants of one example folder, each with its true value."""
     specimens, _ = read_sheet(folder / "specimens.csv")
     profiles = load_profiles(ROOT / "config" / "formats")
-    curves, tables = {}, []
+    curves, tables, records = {}, [], []
     for specimen in specimens:
         done = ingest_specimen(specimen, folder, IngestSettings(), profiles)
         curves[specimen.specimen] = done.curve
+        records.append(done.record)
         tables.append(reduce_record(done.curve, specimen, done.record, settings))
-    calibration = CalibrationSettings()
+    calibration, origins = CalibrationSettings(), origins_of(records)
     ply = calibrate_ply(pd.concat(tables), specimens, calibration)
     found = {name: (ply.constants[name], value) for name, value in PLY.items()}
     for rubber, value in truth.C10_MPA.items():
-        card = calibrate_rubber(rubber, curves, specimens, calibration)
+        card = calibrate_rubber(rubber, curves, specimens, calibration, None, origins)
         found[f"c10_mpa {rubber}"] = (card.constants["c10_mpa"], value)
     return found
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import assert_never
 
 import numpy as np
@@ -14,6 +14,7 @@ from nptcs.config.calibration import RubberSettings
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import HYPERELASTIC_FIT
 from nptcs.reduce.branch import loading_branch
+from nptcs.reduce.origin import Origin
 from nptcs.reduce.rows import finite_pair
 from nptcs.reduce.rubber_compression import UNIFORM
 from nptcs.tables.specimens import Specimen
@@ -33,6 +34,8 @@ class Observation:
         λ and nominal stress (MPa).
     weight : ndarray, shape (n,)
         Factor of each squared residual.
+    origin : Origin
+        What was added to the strain before it came here, and the error of the strain's origin.
     """
 
     specimen: str
@@ -40,6 +43,11 @@ class Observation:
     stretch: Array
     stress: Array
     weight: Array
+    origin: Origin = Origin()
+
+    def moved(self, strain: float) -> Observation:
+        """Return the same points with a strain added, positive in tension."""
+        return replace(self, stretch=self.stretch + strain)
 
 
 def undetermined(model: str, constants: int, rank: int, data: Sequence[Observation]) -> InputError:
@@ -58,6 +66,7 @@ def observations(
     specimens: Sequence[Specimen],
     settings: RubberSettings,
     strain_range: tuple[float, float],
+    origins: Mapping[str, Origin] | None = None,
 ) -> tuple[list[Observation], list[str]]:
     """Points of the included specimens of a rubber, and remarks on what is missing.
 
@@ -73,6 +82,8 @@ def observations(
         Weights, and whether one specimen alone is fitted.
     strain_range : (float, float)
         Nominal strain, from and to.
+    origins : mapping of str to Origin, optional
+        Strain origins by specimen id, as the ingest found them.
 
     Raises
     ------
@@ -90,6 +101,8 @@ def observations(
             observation, words = observe(
                 specimen, curves[specimen.specimen], settings, strain_range
             )
+            origin = (origins or {}).get(specimen.specimen, Origin())
+            observation = replace(observation, origin=origin)
             found.append(observation)
             remarks += words
     if not found:

@@ -76,6 +76,7 @@ def calibrate_ply(
             *check_ply(values, material, settings.ply.isotropy_tolerance_percent),
             check_reciprocity(constants, nu21),
             *_few_specimens(samples),
+            *_origin_words(samples, sources, table),
             *_crosshead(samples, sources, table),
         ),
     )
@@ -166,6 +167,23 @@ def _crosshead(
         found = with_crosshead_strain(rows[rows["specimen"].isin(samples[name].index)])
         if found:
             words.append(f"warning: {name} rests on {CROSSHEAD}: {', '.join(found)}")
+    return words
+
+
+def _origin_words(
+    samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
+) -> list[str]:
+    """Say what the correction of the strain origin did to the values behind each constant."""
+    words = []
+    for name, source in sources.items():
+        rows = rows_of(table, source)
+        effect = rows.loc[rows["specimen"].isin(samples[name].index), "origin_effect_percent"]
+        if not effect.isna().all():
+            low, high = effect.min(), effect.max()
+            words.append(
+                f"{name}: the strain origin was corrected in {effect.notna().sum()} of "
+                f"{len(effect)} specimens, which changed the values by {low:+.2g} to {high:+.2g} %"
+            )
     return words
 
 

@@ -36,6 +36,7 @@ class Property:
     standard_error: float = NAN
     range_low: float = NAN
     range_high: float = NAN
+    origin_effect_percent: float = NAN
 
     def flagged(self, flags: Iterable[str]) -> Property:
         """Return the property with further flags."""
@@ -89,6 +90,7 @@ def to_table(properties: Iterable[Property], specimen: Specimen) -> pd.DataFrame
             "origin": specimen.origin,
             "range_low": p.range_low,
             "range_high": p.range_high,
+            "origin_effect_percent": p.origin_effect_percent,
         }
         for p in properties
     ]

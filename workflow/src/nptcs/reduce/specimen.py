@@ -15,6 +15,7 @@ from nptcs.reduce.compression import reduce_compression
 from nptcs.reduce.deviations import CROSSHEAD, deviations, speed_properties
 from nptcs.reduce.evidence import Evidence, evidence_of_failure
 from nptcs.reduce.flexure import reduce_flexure
+from nptcs.reduce.origin import Origin, origin_of, with_origin
 from nptcs.reduce.plausible import only_plausible
 from nptcs.reduce.rows import Property, to_table
 from nptcs.reduce.rubber import reduce_rubber
@@ -34,6 +35,7 @@ def reduce_specimen(
     *,
     failure_seen: bool = False,
     plausible: Plausible | None = None,
+    origin: Origin | None = None,
 ) -> pd.DataFrame:
     """Reduce one curve to properties by the standard in force for its test.
 
@@ -56,6 +58,8 @@ def reduce_specimen(
         strain and energy are not assessed.
     plausible : Plausible, optional
         The limits of the curve; a value outside them is not assessed either.
+    origin : Origin, optional
+        Shift and error of the strain origin; they enter the standard errors.
 
     Returns
     -------
@@ -78,8 +82,15 @@ def reduce_specimen(
     if any(flag.startswith(CROSSHEAD) for flag in told):
         found = tuple(flag for flag in found if not flag.startswith(CROSSHEAD))
     remarks = [*branch.words, *found, *told]
+
+    def reduce(of: Branch) -> list[Property]:
+        return _reduce(of, evidence, specimen, settings, strain_source)
+
+    reduced = reduce(branch)
+    if origin is not None:
+        reduced = with_origin(reduced, origin, branch, specimen.test.load_sign, reduce)
     rows = [
-        *_reduce(branch, evidence, specimen, settings, strain_source),
+        *reduced,
         *speed_properties(branch, rules.title, evidence),
     ]
     limits = plausible or Plausible()
@@ -111,6 +122,7 @@ def reduce_record(
         record.flags,
         failure_seen=record.failure_seen,
         plausible=plausible,
+        origin=origin_of(record),
     )
 
 
