@@ -476,6 +476,7 @@ def test_runs_that_give_the_same_property_count_once(make_specimen: Make) -> Non
                 "origin": "measured",
                 "range_low": np.nan,
                 "range_high": np.nan,
+                "origin_effect_percent": np.nan,
             }
             for name, _, value in rows
         ]

@@ -38,6 +38,7 @@ def properties(
             "origin": "measured",
             "range_low": 0.001,
             "range_high": 0.003,
+            "origin_effect_percent": np.nan,
         }
         | columns
         for i, value in enumerate(values, start=1)
