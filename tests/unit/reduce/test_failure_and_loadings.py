@@ -454,6 +454,27 @@ def test_a_piece_takes_its_modulus_from_one_run_and_its_strength_from_another(
     assert "P-0-rupture: the sheet takes other properties" in table.loc["modulus", "left_out"]
 
 
+def test_the_modulus_run_and_the_rupture_of_one_piece(run: Make) -> None:
+    folder = LABCASES / "modulus_runs_and_rupture"
+    fields = {"width_mm": (30.0,), "piece": "P"}
+    tables, sheet = [], []
+    for name, file, given, length in (
+        ("P-run1", "run1.dat", ("modulus",), None),
+        ("P-rupture", "rupture.dat", ("strength",), 100.0),
+    ):
+        own = {"force_file": file, "properties": given, "gauge_length_mm": length}
+        table, specimen, _ = run(folder, name, **fields, **own)
+        tables.append(table.reset_index())
+        sheet.append(specimen)
+    # the run ends at 0.25 %: the range is another one, and says so
+    row = tables[0].set_index("property").loc["modulus"]
+    assert row["range"] == "strain 0.0005 to 0.0025"
+    assert "strain ends at 0.0025: chord over another range" in row["flags"]
+    table = group_statistics(pd.concat(tables), sheet, SETTINGS).set_index("property")
+    assert table.loc["modulus", ["n", "mean"]].tolist() == pytest.approx([1, 50000], rel=1e-3)
+    assert table.loc["strength", ["n", "mean"]].tolist() == pytest.approx([1, 650], rel=1e-6)
+
+
 def test_runs_that_give_the_same_property_count_once(make_specimen: Make) -> None:
     rows = [("A-1", "A", 10.0), ("A-2", "A", 12.0), ("B-1", "", 20.0)]
     sheet = [make_specimen(name, piece=piece) for name, piece, _ in rows]

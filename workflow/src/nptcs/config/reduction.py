@@ -82,12 +82,20 @@ class TensionRules(ChordRules):
     low_ultimate_fractions: Interval = Field(
         (0.25, 0.5), description="Those fractions of the ultimate strain"
     )
+    short_run_range: Interval | None = Field(
+        None,
+        description="Strain range of the chord, flagged, where the strain ends before chord_range "
+        "does and the ultimate strain is not known; null: not assessed then",
+    )
 
 
 class AstmD3039(TensionRules):
     """ASTM D3039: tensile properties of polymer matrix composites."""
 
     title: ClassVar[str] = "ASTM D3039"
+    short_run_range: Interval | None = Field(
+        (0.0005, 0.0025), description="Chord of a modulus run that ends before chord_range does"
+    )
     low_ultimate_strain: float | None = Field(
         0.006, gt=0, description="Ultimate strain below which fractions of it bound the chord"
     )

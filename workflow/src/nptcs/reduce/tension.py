@@ -43,6 +43,11 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
     """
     ultimate = ultimate_strain(branch.to_peak, rules.title, evidence)
     low, high, nominal = chord_limits(ultimate.value, rules)
+    remarks = []
+    if ultimate.value != ultimate.value and (short := _short_run(branch, rules, high)):
+        last = branch.rows["strain_axial"].max()
+        remarks.append(f"strain ends at {last:.4g}: chord over another range than {nominal}")
+        (low, high), nominal = short, strain_range(*short)
     slopes = [
         modulus(branch.rows, rules, low, high, nominal),
         poisson_ratio(branch.rows, rules, low, high, nominal),
@@ -51,8 +56,18 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
         words = (
             f"ultimate strain not known, so not whether it is below {rules.low_ultimate_strain:g}"
         )
-        slopes = [row.flagged([words]) for row in slopes]
+        remarks.append(words)
+    slopes = [row.flagged(remarks) for row in slopes]
     return [*slopes, strength(branch.to_peak, rules.title, evidence), ultimate]
+
+
+def _short_run(branch: Branch, rules: TensionRules, high: float) -> tuple[float, float] | None:
+    """Range of a run whose strain ends before `high`; None if it does not, or ends before both."""
+    short, last = rules.short_run_range, float(branch.rows["strain_axial"].max())
+    if short is None or last >= high - rules.end_tolerance * (high - rules.chord_range[0]):
+        return None
+    covered = last >= short[1] - rules.end_tolerance * (short[1] - short[0])
+    return short if covered else None
 
 
 def _may_be_low(branch: Branch, rules: TensionRules) -> bool:

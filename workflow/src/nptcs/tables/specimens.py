@@ -55,6 +55,7 @@ def read_sheet(path: str | Path) -> tuple[list[Specimen], list[InputError]]:
         try:
             specimen = _specimen(path, line, header, cells)
             _require_unique(path, line, specimen, first_line)
+            _require_one_material(path, line, specimen, specimens)
         except InputError as error:
             errors.append(error)
         else:
@@ -190,3 +191,19 @@ def _require_unique(path: Path, line: int, specimen: Specimen, seen: dict[str, i
             name,
         )
     seen[name.lower()] = line
+
+
+def _require_one_material(path: Path, line: int, row: Specimen, before: list[Specimen]) -> None:
+    """Refuse runs of one piece that name different materials or fibre angles."""
+    for other in before:
+        same = (other.material, other.orientation_deg) == (row.material, row.orientation_deg)
+        if row.piece and other.piece == row.piece and not same:
+            raise InputError(
+                f"piece {row.piece} is of another material or fibre angle in {other.specimen}",
+                "give the runs of one piece the same material and orientation_deg",
+                path,
+                line,
+                "piece",
+                row.specimen,
+                row.piece,
+            )
