@@ -63,8 +63,8 @@ def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, 
     """
     stated = loading_of(specimen.test)
     for where, texts in (
-        ("columns", list(table.columns.values())),
-        ("head", [line for line in table.head if _ABOUT_THE_TEST.search(line)]),
+        ("columns", table.names),
+        ("head", tuple(line for line in table.head if _ABOUT_THE_TEST.search(line))),
     ):
         named = {table.profile.loading} if table.profile.loading else loadings_named(texts)
         if not named or stated in named:

@@ -53,6 +53,12 @@ class Signals:
         self.steps.append(Step(name=name, on=False, changed="switched off"))
 
 
+def line_slope(x: Array, y: Array) -> float:
+    """Slope of the least-squares line y(x)."""
+    centred = x - x.mean()
+    return float(centred @ y / (centred @ centred))
+
+
 def largest(readings: Array) -> float:
     """Return the reading of largest magnitude, with its sign; NaN does not count."""
     return float(readings[np.nanargmax(np.abs(readings))])

@@ -19,9 +19,12 @@ def mark_dead(signals: Signals, settings: MissingValues) -> None:
         return
     dead, emptied = [], 0
     for name, readings in signals.values.items():
-        bad = np.isin(readings, settings.dead_values)
-        signals.values[name] = np.where(bad, np.nan, readings)
-        emptied += int(bad.sum())
+        bad = np.zeros(len(readings), dtype=bool)
+        for value in settings.dead_values:
+            bad |= readings == value
+        if bad.any():
+            signals.values[name] = np.where(bad, np.nan, readings)
+            emptied += int(bad.sum())
     for name in STRAIN_CHANNELS:
         if name in signals.values and _is_dead(signals.values[name], settings.largest_share):
             del signals.values[name]
@@ -54,7 +57,9 @@ def empty_spikes(signals: Signals, settings: MissingValues) -> None:
             rows = _spikes(signals.values[name], settings.spike_share)
             for row in rows:
                 found[f"{name}_reading_{row + 1}"] = float(signals.values[name][row])
-            signals.values[name][rows] = np.nan
+            if len(rows):
+                signals.values[name] = signals.values[name].copy()
+                signals.values[name][rows] = np.nan
     signals.note("spikes", f"{len(found)} readings emptied", **found)
     if found:
         signals.flags.append(f"{len(found)} wild readings emptied: {', '.join(list(found)[:3])}")
@@ -66,10 +71,14 @@ def _spikes(readings: Array, share: float) -> Rows:
         return kept[:0]
     values = readings[kept]
     step = np.diff(values)
+    size = np.abs(step)
+    leaves = np.minimum(size[:-1], size[1:])
+    leaves[step[:-1] * step[1:] >= 0] = 0.0
+    usual = 20 * float(np.median(size))
+    if leaves.max() <= usual:
+        return kept[:0]
     low, high = np.percentile(values, [1, 99])
-    limit = max(share * float(high - low), 20 * float(np.median(np.abs(step))))
-    leaves = np.minimum(np.abs(step[:-1]), np.abs(step[1:])) > limit
-    return kept[1:-1][leaves & (np.sign(step[:-1]) != np.sign(step[1:]))]
+    return kept[1:-1][leaves > max(share * float(high - low), usual)]
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:

@@ -8,7 +8,7 @@ import numpy as np
 
 from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import OriginOfStrain
-from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signals import Signals, line_slope
 from nptcs.ingest.conditioning.steps import STRAINS
 
 _ITERATIONS = 20
@@ -116,7 +116,11 @@ def _fit(
     for _ in range(_ITERATIONS):
         rows = _rows_in_window(strain, measured, origin + low, origin + high)
         if len(rows) < fewest:
-            return None, f"{len(rows)} readings between strain {low:.2g} and {high:.2g}"
+            # a slow record: as many readings as needed, up to half of the ultimate strain
+            widest = _rows_in_window(strain, measured, origin + low, origin + 0.5 * ultimate)
+            rows = widest[:fewest]
+        if len(rows) < fewest:
+            return None, f"{len(rows)} readings between strain {low:.2g} and {0.5 * ultimate:.2g}"
         fit = _parabola(strain, stress, rows)
         moved, origin = abs(fit.coefficients[0] - origin), float(fit.coefficients[0])
         if moved < _CONVERGED:
@@ -160,7 +164,7 @@ def _loading_begins(
     middle = (rise >= 0.2 * top) & (rise <= 0.5 * top)
     if middle.sum() < 3 or not np.ptp(strain[middle]):
         return 0, 0.0
-    slope = float(np.polyfit(strain[middle], stress[middle], 1)[0])
+    slope = line_slope(strain[middle], stress[middle])
     if slope <= 0:
         return 0, 0.0
     begin = int(np.searchsorted(rise, 0.02 * top))
@@ -183,8 +187,8 @@ def _toe_passed(strain: Array, rise: Array, begin: int, slope: float, step: floa
 
 def _rows_in_window(strain: Array, measured: Rows, low: float, high: float) -> Rows:
     """Find the readings of the first passage through the window."""
-    beyond = np.flatnonzero(strain[measured] > high)
-    first_pass = measured[: int(beyond[0])] if len(beyond) else measured
+    beyond = strain[measured] > high
+    first_pass = measured[: int(np.argmax(beyond))] if beyond.any() else measured
     return first_pass[strain[first_pass] >= low]
 
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signals import Signals, line_slope
 from nptcs.ingest.reading.profiles import normalise
 from nptcs.tables.specimens import Specimen
 
@@ -155,7 +155,7 @@ def slope_over_force(signals: Signals, name: str) -> float:
     rows &= ~np.isnan(signals.values[name]) & ~np.isnan(force)
     if rows.sum() < 2 or np.ptp(force[rows]) == 0:
         return 0.0
-    return float(np.polyfit(force[rows], signals.values[name][rows], 1)[0])
+    return line_slope(force[rows], signals.values[name][rows])
 
 
 def _stated_axis(specimen: Specimen, columns: Mapping[str, str]) -> str | None:

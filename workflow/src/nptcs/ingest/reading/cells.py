@@ -72,7 +72,9 @@ def kind_of(cells: Sequence[str], numbers: int) -> Kind:
 
 def split_lines(text: str) -> list[str]:
     """Lines of a text, ended by LF, CRLF or a bare CR."""
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return text.split("\n")
 
 
 @dataclass

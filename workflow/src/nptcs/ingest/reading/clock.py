@@ -21,7 +21,7 @@ _SAMPLE = 60
 BLANKS = "\u00a0\u202f\u2007\u2009"
 """No-break, narrow no-break, figure and thin space: thousands marks of many locales."""
 _GROUPED = re.compile(
-    rf"(?<![\d.,])(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?![\d{BLANKS}])"
+    rf"(?<![\d.,{BLANKS}])(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?![\d{BLANKS}])"
     rf"|(?<=,)(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?=\.\d)"
 )
 

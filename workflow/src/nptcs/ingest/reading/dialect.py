@@ -235,7 +235,7 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
 
 @lru_cache
 def _full_row(delimiter: str, decimal: str) -> re.Pattern[str]:
-    """A line of bare numbers: the usual row, found fast."""
+    """Match a line of bare numbers: the usual row, found fast."""
     number = _number(decimal, "").pattern
     return re.compile(rf"{number}(?:{re.escape(delimiter)}{number})+", re.ASCII)
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -18,13 +19,13 @@ from nptcs.ingest.reading.decode import decode
 from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.labels import LabelValue, read_labels
-from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
+from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, Quantity
 from nptcs.ingest.reading.quantities import Test, choose_test, tests_in, unit_of
-from nptcs.ingest.reading.table_columns import Column
 from nptcs.ingest.reading.units import FACTORS
 from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
 
 HEAD_LINES = 60
+_WORD = re.compile(r"[^\W\d_]{2}|[|\[(%]")
 
 
 @dataclass
@@ -37,8 +38,8 @@ class RawFile:
         Quantity → readings, all of one length, in s, N, mm, MPa or dimensionless.
     columns, units : dict of str to str
         Quantity → column name and unit as found.
-    head : tuple of str
-        Lines above the names.
+    head, names : tuple of str
+        Lines above the names; all names of the table, also of columns that are not used.
     """
 
     path: Path
@@ -57,6 +58,7 @@ class RawFile:
     first_line: int | None = None
     labels: dict[str, LabelValue] = field(default_factory=dict)
     head: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
@@ -75,6 +77,7 @@ class OpenedFile:
     sha256: str
     lines: list[str] = field(default_factory=list)
     clocks: PlainLines | None = None
+    largest_width: int = FileLimits().columns
     sheets: list[CellSource] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
@@ -129,7 +132,7 @@ def open_file(
     longest = max(map(len, lines))
     _refuse_larger(path, "line_length", longest, limits.line_length, "characters in a line")
     note = f"encoding {decoded.encoding}: {decoded.note}"
-    head = "\n".join(lines[:HEAD_LINES])
+    head = "\n".join(line for line in lines[:HEAD_LINES] if _WORD.search(line))
     return OpenedFile(path, head, decoded.encoding, digest, plain.lines, plain, notes=(note,))
 
 
@@ -286,6 +289,7 @@ def _read(
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     values, units, notes = _values(test, profile, path, role)
     block = test.block
+    _refuse_larger(path, "columns", block.width, opened.largest_width, "columns")
     return RawFile(
         path,
         profile,
@@ -303,6 +307,7 @@ def _read(
         first_line=block.first + 1,
         labels=header_labels(test, profile, dialect),
         head=head_lines(test),
+        names=tuple(column.name for column in block.columns if column.name),
         notes=(*reasons, *opened.notes, *block.notes, *notes),
     )
 
@@ -315,8 +320,11 @@ def _values(
     line = (test.block.names_row if test.block.names_row is not None else test.block.first) + 1
     stated = any(column.unit for column in test.block.columns)
     units, scales, notes = {}, [], []
+    if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
+        quantities = {name: column for name, column in quantities.items() if name != "time"}
+        notes.append("time: no unit, left out; nothing of one file rests on it")
     for quantity, column in quantities.items():
-        if quantity == "force" and role == "strain" and not _has_unit(column, profile):
+        if quantity == "force" and role == "strain" and not _has_unit("force", test, profile):
             units[quantity] = ""
             scales.append(1.0)
             notes.append("force: no unit, to be told from the force file's peak")
@@ -333,8 +341,9 @@ def _values(
     return dict(zip(quantities, numbers[filled].T, strict=True)), units, notes
 
 
-def _has_unit(column: Column, profile: FormatProfile) -> bool:
-    return bool(column.unit or "force" in profile.units or "force" in profile.wrong_units)
+def _has_unit(quantity: Quantity, test: Test, profile: FormatProfile) -> bool:
+    stated = test.quantities[quantity].unit
+    return bool(stated or quantity in profile.units or quantity in profile.wrong_units)
 
 
 def head_lines(test: Test) -> tuple[str, ...]:

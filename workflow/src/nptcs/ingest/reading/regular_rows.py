@@ -39,9 +39,10 @@ def regular_width(lines: Sequence[str], dialect: Dialect) -> int:
         return 0
     text = "\n" + "\n".join(lines) + "\n"
     allowed, odd = _grammar(dialect.delimiter, dialect.decimal)
-    if not text.isascii() or text.encode().translate(None, allowed):
+    raw = text.encode()
+    if len(raw) != len(text) or raw.translate(None, allowed):
         return 0
-    data = np.frombuffer(text.encode(), dtype=np.uint8)
+    data = np.frombuffer(raw, dtype=np.uint8)
     decimal = ord(dialect.decimal)
     if "e" in text or "E" in text:
         if odd.search(text):
