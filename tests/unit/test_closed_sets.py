@@ -44,7 +44,8 @@ WORDS = {
 def comparisons(tree: ast.AST) -> Iterator[ast.Compare]:
     """Comparisons with one member of a closed set: ``x == "least_squares"``, ``x is Test.A``."""
     for node in ast.walk(tree):
-        if not isinstance(node, ast.Compare):
+        # `in` asks for several members, or whether a word is one: no half of a chain
+        if not isinstance(node, ast.Compare) or isinstance(node.ops[0], ast.In | ast.NotIn):
             continue
         for side in (node.left, *node.comparators):
             word = isinstance(side, ast.Constant) and side.value in WORDS
