@@ -50,7 +50,8 @@ def judge_failure(force: Array, strain: Array) -> Failure:
     largest, rest = float(force[peak]), force[peak:]
     drop = 1 - float(rest.min()) / largest
     if drop < SMALLEST_DROP:
-        return Failure(seen=False, words="the record ends at its largest force")
+        share = f"{100 * SMALLEST_DROP:g} %"
+        return Failure(seen=False, words=f"the force never falls by {share} of its largest value")
     low = peak + int(np.argmax(rest <= (1 - SMALLEST_DROP) * largest))
     # the last reading near the maximum before the fall
     near = peak + int(np.flatnonzero(force[peak:low] >= (1 - SMALLEST_DROP / 2) * largest)[-1])
@@ -58,8 +59,9 @@ def judge_failure(force: Array, strain: Array) -> Failure:
     ratio = float(force[near] - force[low]) / (low - near) / rise
     change, rows = _strain_after(force, strain, near, largest)
     back = change < -0.02 and rows >= UNLOADING_ROWS
+    along = unloads_along(force, strain, near, start)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
-    if ratio >= SNAP or (ratio >= ABRUPT and not back):
+    if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
     if change > 0.01:
         return Failure(seen=True, words=f"{fell} while the strain grows")
@@ -68,6 +70,38 @@ def judge_failure(force: Array, strain: Array) -> Failure:
     if np.isfinite(change):
         return Failure(seen=False, words="the force relaxes at a held strain")
     return Failure(seen=False, words=f"{fell}, slowly, and no strain tells whether by unloading")
+
+
+def unloads_along(force: Array, strain: Array, begin: int, start: int = 0) -> bool:
+    """Whether force and strain go back along the way they came: an unloading, however fast.
+
+    Asks for three readings between 85 and 15 % of the force whose strain is within 15 % of the
+    strain at which the loading had that force; a broken specimen has none such.
+
+    Parameters
+    ----------
+    force, strain : ndarray, shape (n,)
+        Positive in the direction of the test; the strain may hold NaN.
+    begin : int
+        Last reading before the fall.
+    start : int
+        First reading of the loading.
+    """
+    way = slice(start, begin + 1)
+    up = np.isfinite(strain[way])
+    if up.sum() < 3:
+        return False
+    rising = np.maximum.accumulate(force[way][up])
+    known = strain[way][up]
+    below = np.flatnonzero(force[begin:] < 0.15 * force[begin])
+    end = begin + int(below[0]) if len(below) else len(force)
+    rows = np.arange(begin + 1, end)
+    inner = (force[rows] < 0.85 * force[begin]) & np.isfinite(strain[rows])
+    rows = rows[inner]
+    if len(rows) < 3:
+        return False
+    expected = np.interp(force[rows], rising, known)
+    return bool((np.abs(strain[rows] - expected) <= 0.15 * abs(known[-1] - known[0])).all())
 
 
 def _onset(force: Array, start: int, peak: int) -> int:

@@ -17,6 +17,9 @@ from nptcs.reduce.sample import describe
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.statistics import StatisticsTable
 
+NOT_CORRECTED = "preload and toe not corrected"
+"""Flag of the ingest where too few readings or a poor fit left the origin as it was."""
+
 
 def group_statistics(
     properties: pd.DataFrame, specimens: Sequence[Specimen], settings: ReductionSettings
@@ -112,6 +115,9 @@ def _number_notes(
         notes.append(f"n = {len(measured)}, {title} asks for {asked}")
     if len(set(measured["range"])) > 1:
         notes.append("ranges differ between specimens")
+    raw = measured.loc[measured["flags"].str.contains(NOT_CORRECTED, regex=False), "specimen"]
+    if 0 < len(raw) < len(measured):
+        notes.append(f"preload and toe corrected in the others, not in {', '.join(raw)}")
     crosshead = with_crosshead_strain(measured)
     if crosshead:
         notes.append(f"{CROSSHEAD}: {', '.join(crosshead)}")
