@@ -5,6 +5,7 @@ def reduce_job(wildcards):
     return {
         "specimens": [plain(s) for s in specimens_of_series(wildcards.series)],
         "settings": plain(CONFIG.reduction),
+        "plausible": plain(CONFIG.ingest.plausible),
         "code": code_of("reduce"),
     }
 

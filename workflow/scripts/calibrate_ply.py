@@ -1,4 +1,4 @@
-"""Take the nine constants of the ply from the properties of its specimens."""
+"""Take the nine constants of one ply from the properties of its specimens."""
 
 from collections.abc import Sequence
 from typing import Any
@@ -23,7 +23,7 @@ def calibrate(
     specimens = counted_once(sheet, map(IngestRecord.read, records))
     settings = CalibrationSettings.model_validate(job["settings"])
     table = pd.concat([read_table(file, PropertiesTable) for file in properties])
-    card = calibrate_ply(table, specimens, settings)
+    card = calibrate_ply(table, specimens, settings, job["ply"])
     write_text(card_file, card.model_dump_json(indent=1))
 
 

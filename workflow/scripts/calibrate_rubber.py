@@ -8,6 +8,7 @@ from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
 from nptcs.files import write_text
 from nptcs.ingest.repeats import counted_once
+from nptcs.reduce.origin import origins_of
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import read_table, write_table
@@ -28,9 +29,11 @@ def calibrate(
     usable = {name: curve for name, curve in read.items() if len(curve)}
     data = (job["rubber"], usable, specimens, settings)
     sources = {record.specimen: record.strain_source for record in outcomes}
-    write_text(output["card"], calibrate_rubber(*data, sources).model_dump_json(indent=1))
-    write_table(output["models"], compare_models(*data), ModelComparison)
-    write_table(output["ranges"], c10_against_range(*data), RangeTable)
+    origins = origins_of(outcomes)
+    card = calibrate_rubber(*data, sources, origins)
+    write_text(output["card"], card.model_dump_json(indent=1))
+    write_table(output["models"], compare_models(*data, origins), ModelComparison)
+    write_table(output["ranges"], c10_against_range(*data, origins), RangeTable)
 
 
 if __name__ == "__main__":

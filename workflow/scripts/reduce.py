@@ -6,10 +6,11 @@ from typing import Any
 
 import pandas as pd
 
+from nptcs.config.ingest import Plausible
 from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.errors import InputError
-from nptcs.reduce import reduce_specimen
+from nptcs.reduce import reduce_record
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.io import empty_table, read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
@@ -21,6 +22,7 @@ def reduce(
     job: dict[str, Any], curves: Sequence[str], records: Sequence[str], properties: str, faults: str
 ) -> None:
     settings = ReductionSettings.model_validate(job["settings"])
+    plausible = Plausible.model_validate(job["plausible"])
     tables, problems = [], []
     for row, curve_file, record_file in zip(job["specimens"], curves, records, strict=True):
         specimen = Specimen.model_validate(row)
@@ -29,8 +31,7 @@ def reduce(
             continue  # listed as a problem of the stage `ingest`
         try:
             curve = read_table(curve_file, Curve)
-            source, flags = record.strain_source, record.flags
-            tables.append(reduce_specimen(curve, specimen, settings, source, flags))
+            tables.append(reduce_record(curve, specimen, record, settings, plausible))
         except InputError as error:
             problems.append(("reduce", specimen.specimen, "", "error", str(error)))
     table = pd.concat(tables) if tables else empty_table(PropertiesTable)

@@ -20,11 +20,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what is planned, or every fault; exit code 1 if there is one."""
+    from nptcs.calibrate.plan import check_materials
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
     from nptcs.ingest.reading.profiles import load_profiles
     from nptcs.ingest.repeats import repeats_in_sheet
-    from nptcs.solvers.registry import check_study
+    from nptcs.solvers.registry import check_study, needs_ply
     from nptcs.tables.specimens import read_sheet
     from nptcs.yaml_files import read_yaml
 
@@ -58,7 +59,11 @@ def run(arguments: argparse.Namespace) -> int:
     sheet = Path(config.lab_data.specimen_sheet)
     again = repeats_in_sheet(specimens, folder, profiles, sheet, config.ingest.limits)
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
-    faults = [*errors, *missing, *again]
+    studies = [(study, needs_ply(study, config.solver_options(study))) for study in config.studies]
+    materials, notes = check_materials(studies, specimens, config.calibration)
+    for note in notes:
+        print(note)
+    faults = [*errors, *missing, *again, *materials]
     for fault in faults:
         print(f"nptcs: {fault}", file=sys.stderr)
     return 1 if faults else 0

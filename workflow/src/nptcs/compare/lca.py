@@ -8,7 +8,6 @@ error only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -32,15 +31,14 @@ _OURS_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
 
 
 def _solve_cases(
-    cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: str
+    cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: SectionKind
 ) -> pd.DataFrame:
     """Solve rows of shear_band_c10_mpa, spoke_c10_mpa and load_n; returns the model's columns."""
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
-    kind: Literal["sandwich", "printed"] = "sandwich" if section == "sandwich" else "printed"
     designs = pd.DataFrame(
         [
             design_row(
-                RingSection.from_tyre(tyre, band, kind), spokes.spokes(spoke, tyre.spoke_count)
+                RingSection.from_tyre(tyre, band, section), spokes.spokes(spoke, tyre.spoke_count)
             )
             for band, spoke in zip(cases["shear_band_c10_mpa"], cases["spoke_c10_mpa"], strict=True)
         ]
@@ -63,7 +61,7 @@ def lca_validation(
     table_11: pd.DataFrame,
     load_errors: pd.DataFrame,
     tyre: TyreGeometry,
-    sections: Sequence[str] = SECTION_KINDS,
+    sections: Sequence[SectionKind] = SECTION_KINDS,
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
 ) -> pd.DataFrame:
     """Return the rows of ``lca_validation.csv`` (`nptcs.tables.lca_validation.LcaValidation`).
@@ -79,7 +77,7 @@ def lca_validation(
         Figure 15: load_n, largest_relative_error_percent of the paper's model.
     tyre : TyreGeometry
         The tyre.
-    sections : sequence of str
+    sections : sequence of {"sandwich", "printed"}
         Sections to solve with.
     shear_band_c10_mpa : float
         C10 of the band in table 11 and figure 15 (MPa).
@@ -129,7 +127,7 @@ def lca_against_fem(
     spoke_table: pd.DataFrame,
     table_7: pd.DataFrame,
     tyre: TyreGeometry,
-    sections: Sequence[str] = SECTION_KINDS,
+    sections: Sequence[SectionKind] = SECTION_KINDS,
     load_n: float = 5000.0,
 ) -> pd.DataFrame:
     """Return the model beside the FE stiffness of table 7 (`LcaAgainstFem`).
@@ -142,7 +140,7 @@ def lca_against_fem(
         Table 7: case, shear_band_c10_mpa, spoke_c10_mpa, stiffness_n_per_mm.
     tyre : TyreGeometry
         The tyre.
-    sections : sequence of str
+    sections : sequence of {"sandwich", "printed"}
         Sections to solve with.
     load_n : float
         Load of the FE results (N).

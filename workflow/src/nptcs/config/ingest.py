@@ -74,6 +74,9 @@ class OriginOfStrain(Strict):
         (0.01, 0.10), description="Strain window of the fit, rubber tests"
     )
     smallest_points: int = Field(8, ge=4, description="Fewer points: not corrected, flagged")
+    significance: float = Field(
+        3.0, ge=0, description="A shift within so many of its standard errors is not applied"
+    )
     worst_r_squared: float = Field(
         0.98, gt=0, lt=1, description="Poorer fit: not corrected, flagged"
     )

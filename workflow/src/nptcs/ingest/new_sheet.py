@@ -26,7 +26,8 @@ from nptcs.ingest.reading.labels import LabelValue
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.quantities import LOADS, STRAINS, Test
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
-from nptcs.tables.specimens import COLUMNS, TestType
+from nptcs.mechanical_tests import TestType
+from nptcs.tables.specimens import COLUMNS
 
 __all__ = ["Proposal", "propose_sheet", "specimen_id"]
 
@@ -69,6 +70,9 @@ class _Found:
     copies: dict[str, str] = field(default_factory=dict)
     strains: list[str] = field(default_factory=list)
     dimensions: list[Dimensions] = field(default_factory=list)
+
+
+_ANGLES = {TestType.SHEAR.value: "45"}  # no other test has one of its own
 
 
 def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Proposal:
@@ -196,7 +200,7 @@ def _row(name: str, test: Test, inspection: Inspection, several: bool) -> dict[s
 
 
 def _angle_of(test: str) -> str:
-    return "45" if test == TestType.SHEAR else ""
+    return _ANGLES.get(test, "")
 
 
 def _obstacle(test: Test, inspection: Inspection, labels: Mapping[str, LabelValue]) -> str:

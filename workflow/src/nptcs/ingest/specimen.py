@@ -13,6 +13,7 @@ import pandas as pd
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.declared_test import require_declared_test
+from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
 from nptcs.ingest.conditioning.sensors import empty_after_removal, empty_lost_channels
@@ -77,7 +78,10 @@ def ingest_specimen(
     """
     tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
+    digest = data_digest(tables)
+    factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
+    signals.flags += factors
     for table, name in zip(tables, (specimen.force_file, specimen.strain_file), strict=False):
         require_declared_test(signals, specimen, table, name)
     mark_dead(signals, settings.missing_values)
@@ -101,7 +105,7 @@ def ingest_specimen(
     _require_rows(signals, specimen, strain)
     orient(signals, specimen, strain.path, settings.signs, source)
     zero_force(signals, settings.force_zero)
-    signals.values["stress"] = signals.values["force"] / specimen.area_mm2
+    signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)
     _require_rows(signals, specimen, strain)
     empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
@@ -109,7 +113,7 @@ def ingest_specimen(
     check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
-    return Ingested(_curve(signals), _record(specimen, tables, signals, source))
+    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest))
 
 
 def _with_gauge_length(
@@ -140,7 +144,7 @@ def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSetti
 def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:
     """Make sure of a force: the file's own, or its stress times the sheet's area."""
     if "force" not in signals.values:
-        signals.values["force"] = signals.values["stress"] * specimen.area_mm2
+        signals.values["force"] = signals.values["stress"] * specimen.force_per_stress_mm2
         signals.flags.append("stress as the file gives it; its area could not be checked")
     force = signals.values["force"]
     if np.isnan(force).all() or not np.nanmax(np.abs(force)):
@@ -185,7 +189,7 @@ def _curve(signals: Signals) -> pd.DataFrame:
 
 
 def _record(
-    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str, digest: str
 ) -> IngestRecord:
     roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
         ("force", "strain") if len(tables) > 1 else ("force and strain",)
@@ -217,10 +221,11 @@ def _record(
             mean_width_mm=specimen.mean_width_mm,
             mean_thickness_mm=specimen.mean_thickness_mm,
             area_mm2=specimen.area_mm2,
+            area_rule=specimen.area_rule,
             width_stations=len(specimen.width_mm),
             thickness_stations=len(specimen.thickness_mm),
         ),
-        data_sha256=data_digest(tables),
+        data_sha256=digest,
         strain_source=source,
         failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,7 +44,7 @@ RESULT_COLUMNS = (
     "lowest_pressure_mpa",
     "balance_residual",
 )
-_TARGETS: dict[str, Target] = {
+TARGETS: dict[str, Target] = {
     "load_n": "force",
     "displacement_mm": "sinking",
     "theta_c_deg": "contact_angle",
@@ -184,16 +185,23 @@ def scaled(table: Mapping[str, Floating]) -> Ring:
 
 def _scaled_target(table: dict[str, Floating], target: str) -> Floating:
     """Return F/GA, δ/R or θc in radians."""
-    if target == "theta_c_deg":
-        return np.radians(table["target"])
-    return table["target"] / table["shear_stiffness_n" if target == "load_n" else "radius_mm"]
+    kind = TARGETS[target]
+    match kind:
+        case "force":
+            return table["target"] / table["shear_stiffness_n"]
+        case "sinking":
+            return table["target"] / table["radius_mm"]
+        case "contact_angle":
+            return np.radians(table["target"])
+        case _:
+            assert_never(kind)
 
 
 def _by_hardness(table: dict[str, Floating], target: str, rows: Rows) -> Rows:
     """Put rows in the order of their contact regions' difficulty, the easy ones first."""
     part = {column: values[rows] for column, values in table.items()}
     ring = scaled(part)
-    angle = start_angle(ring, _TARGETS[target], _scaled_target(part, target))
+    angle = start_angle(ring, TARGETS[target], _scaled_target(part, target))
     return rows[np.argsort(hardness(ring.kappa2, angle), kind="stable")]
 
 
@@ -232,7 +240,7 @@ def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
     name : str
         What the target is: ``load_n``, ``displacement_mm`` or ``theta_c_deg``.
     """
-    ring, target = scaled(table), _TARGETS[name]
+    ring, target = scaled(table), TARGETS[name]
     arcs, value = Arcs.of(ring), _scaled_target(table, name)
     angles = newton(ring, arcs, target, value, start_angle(ring, target, value))
     quick, rest = np.flatnonzero(angles.found), np.flatnonzero(~angles.found)

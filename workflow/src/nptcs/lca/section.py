@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import Any, Literal, get_args
+from typing import Any, Literal, assert_never, get_args
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.checks import require_positive
 
 SectionKind = Literal["sandwich", "printed"]
-SECTION_KINDS: tuple[str, ...] = get_args(SectionKind)
+SECTION_KINDS: tuple[SectionKind, ...] = get_args(SectionKind)
 
 
 @dataclass(frozen=True)
@@ -96,9 +96,13 @@ def section_stiffness(
     wires = d["wire_layers"] * width / d["wire_pitch_mm"] * pi / 4 * d["wire_diameter_mm"] ** 2
     steel = d["wire_modulus_mpa"] * wires
     distance = (d["outer_wire_diameter_mm"] - d["inner_wire_diameter_mm"]) / 2
-    if kind == "sandwich":
-        area = width * d["shear_band_thickness_mm"]
-        return steel + 6 * c10_mpa * area, 2 * c10_mpa * area, steel * (distance / 2) ** 2
-    area = width * distance
-    axial = steel + 6 * c10_mpa * area
-    return axial, 2 * c10_mpa * area, axial / area * distance * width**3 / 12
+    match kind:
+        case "sandwich":
+            area = width * d["shear_band_thickness_mm"]
+            return steel + 6 * c10_mpa * area, 2 * c10_mpa * area, steel * (distance / 2) ** 2
+        case "printed":
+            area = width * distance
+            axial = steel + 6 * c10_mpa * area
+            return axial, 2 * c10_mpa * area, axial / area * distance * width**3 / 12
+        case _:
+            assert_never(kind)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import assert_never
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,7 @@ from scipy.optimize import brentq
 
 from nptcs.arrays import Floating
 from nptcs.errors import InputError
-from nptcs.lca.batch import only_target
+from nptcs.lca.batch import TARGETS, only_target
 from nptcs.lca.checks import require_positive
 from nptcs.lca.diagnosis import LARGEST_RESIDUAL
 from nptcs.lca.newton import LARGEST_CONTACT
@@ -224,11 +225,16 @@ def solve_law(
         )
     wheel = Wheel(section, law, contact, _spoke_angles(law.count, hub_angle_deg))
     search = _Search(wheel)
-    if name == "theta_c_deg":
-        pressed = search.symmetric(float(np.radians(target)))
-    else:
-        scaled = target / (section.shear_stiffness_n if name == "load_n" else section.radius_mm)
-        pressed = _reach(search, "force" if name == "load_n" else "sinking", scaled)
+    kind = TARGETS[name]
+    match kind:
+        case "contact_angle":
+            pressed = search.symmetric(float(np.radians(target)))
+        case "force":
+            pressed = _reach(search, kind, target / section.shear_stiffness_n)
+        case "sinking":
+            pressed = _reach(search, kind, target / section.radius_mm)
+        case _:
+            assert_never(kind)
     state = _state(wheel, hub_angle_deg, pressed)
     _refuse(state)
     return state

@@ -4,6 +4,6 @@
 `nptcs.reduce.statistics.group_statistics` needs scipy and is therefore not imported here.
 """
 
-from nptcs.reduce.specimen import reduce_specimen
+from nptcs.reduce.specimen import reduce_record, reduce_specimen
 
-__all__ = ["reduce_specimen"]
+__all__ = ["reduce_record", "reduce_specimen"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import assert_never
+
 import numpy as np
 import pandas as pd
 
@@ -41,11 +43,16 @@ def impact(surface: Surface, design: pd.DataFrame, rule: AveragingRule) -> pd.Da
     factors = surface.polynomial.factors
     gradients = []
     for factor in factors:
-        if rule == "design_mean_absolute":
-            gradient = surface.gradient(design[list(factors)].to_numpy(float), factor)
-        else:
-            gradient = _gradient_over_domain(surface, factor)
-        gradients.append(float(np.mean(gradient if rule.endswith("signed") else abs(gradient))))
+        match rule:
+            case "design_mean_absolute":
+                gradient = abs(surface.gradient(design[list(factors)].to_numpy(float), factor))
+            case "domain_mean_absolute":
+                gradient = abs(_gradient_over_domain(surface, factor))
+            case "domain_mean_signed":
+                gradient = _gradient_over_domain(surface, factor)
+            case _:
+                assert_never(rule)
+        gradients.append(float(np.mean(gradient)))
     ranges = surface.upper - surface.lower
     return pd.DataFrame(
         {

@@ -74,6 +74,7 @@ class Geometry(Strict):
     mean_width_mm: float | None
     mean_thickness_mm: float | None
     area_mm2: float
+    area_rule: str = Field("", description="How the area came about")
     width_stations: int
     thickness_stations: int
 

@@ -5,7 +5,16 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-STATUSES = ("used", "left out", "repeated", "not understood", "not named", "note", "missing", "sheet")
+STATUSES = (
+    "used",
+    "left out",
+    "repeated",
+    "not understood",
+    "not named",
+    "note",
+    "missing",
+    "sheet",
+)
 
 
 class Files(pa.DataFrameModel):

@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array
+from nptcs.loading.failure import unloads_along
 
 _SUDDEN_SHARE = 0.01
 _FEWEST_SUDDEN = 3
@@ -47,9 +48,13 @@ def failure_row(force: Array, elongation: Array | None, drop: float) -> int | No
             return None
         end = peak + int(fallen[0])
         begin = peak + int(np.flatnonzero(load[peak:end] >= 0.95 * load[peak])[-1])
-        if _is_failure(stretch, begin, end, peak):
+        back = stretch is not None and unloads_along(load, np.abs(stretch), begin, start)
+        if not back and _is_failure(stretch, begin, end, peak):
             return int(rows[end])
+        # to the end of the unloading: what is left of it is no fall of its own
         start = end
+        while start + 1 < len(load) and load[start + 1] <= load[start]:
+            start += 1
     return None
 
 

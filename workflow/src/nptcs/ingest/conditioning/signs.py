@@ -10,7 +10,7 @@ from nptcs.config.ingest import Signs
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest
 from nptcs.ingest.conditioning.strains import slope_over_force
-from nptcs.tables.specimens import Specimen, TestType
+from nptcs.tables.specimens import Specimen
 
 BOTH = ("strain_axial", "strain_axial_back")
 
@@ -44,12 +44,13 @@ def orient(
     InputError
         If the signs contradict the test.
     """
-    if specimen.test is TestType.COMPRESSION:
-        turned = _turn_compression(signals, settings)
+    wanted = float(specimen.test.load_sign)
+    if specimen.test.is_bending or wanted < 0:
+        turned = _turn_pressing(signals, wanted, settings)
     else:
         turned = _turn_tension(signals, specimen, path, settings, source)
     signals.note("sign", f"turned: {', '.join(turned)}" if turned else "as recorded")
-    _keep_one_sign(signals, -1.0 if specimen.test is TestType.COMPRESSION else 1.0, settings)
+    _keep_one_sign(signals, wanted, settings)
 
 
 def _parts(signals: Signals) -> tuple[float, float]:
@@ -73,8 +74,8 @@ def _turn_tension(
         raise InputError(
             f"force is negative (down to {-compressive:.5g} N): a {specimen.test} test that the "
             "file records as compression",
-            "correct test in the sheet; if the machine writes tension as negative, export it "
-            "positive or state a scale factor of -1",
+            "correct test in the sheet; if the machine writes tension as negative, state "
+            "force_factor -1 in the sheet",
             path,
             specimen=specimen.specimen,
         )
@@ -99,17 +100,20 @@ def _turn_tension(
     )
 
 
-def _turn_compression(signals: Signals, settings: Signs) -> list[str]:
-    """Turn what the machine writes positive; recorded signs count if both sides are large."""
+def _turn_pressing(signals: Signals, wanted: float, settings: Signs) -> list[str]:
+    """Turn what a machine that presses writes with the other sign (compression, bending).
+
+    Recorded signs count if both sides are large.
+    """
     positive, negative = _parts(signals)
     clear = min(positive, negative) < settings.clear_share * max(positive, negative)
-    force = np.sign(largest(signals.values["force"])) if clear else -1.0
+    force = np.sign(largest(signals.values["force"])) if clear else wanted
     strain = force * np.sign(slope_over_force(signals, "strain_axial"))
     turned = []
-    if force > 0:
+    if force * wanted < 0:
         _turn(signals, ("force",))
         turned.append("force")
-    if strain > 0:
+    if strain * wanted < 0:
         _turn(signals, BOTH)
         turned.append("axial strain")
     return turned

@@ -13,6 +13,7 @@ from nptcs.ingest.conditioning.steps import STRAINS
 
 _ITERATIONS = 20
 _CONVERGED = 1e-7
+_FEWEST_FOR_CUBIC = 12
 
 
 @dataclass(frozen=True)
@@ -25,6 +26,12 @@ class StrainOriginFit:
     r_squared: float
     rows: Rows
     slack: float = 0.0
+    model_error: float = 0.0
+
+    @property
+    def error(self) -> float:
+        """Scatter and model together."""
+        return float(np.hypot(self.standard_error, self.model_error))
 
 
 def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> None:
@@ -35,6 +42,9 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
     the line where the material is linear and does not bias it where it is not (±45° and
     rubber). All strains are shifted by their c0. A preload is thereby a true force, whose
     strain was lost when the strain was set to zero.
+
+    A shift that is not clear of its error (`OriginOfStrain.significance`) is not applied: it
+    would add the scatter of the readings to every value. Its error goes with the record.
 
     Parameters
     ----------
@@ -57,6 +67,18 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
         signals.note("strain origin", f"not corrected: {why}")
         signals.flags.append(f"preload and toe not corrected: {why}")
         return
+    errors = {"standard_error": fit.standard_error, "model_error": fit.model_error}
+    found = float(fit.coefficients[0])
+    if not fit.slack and abs(found) <= settings.significance * fit.error:
+        signals.note(
+            "strain origin",
+            f"nothing shifted: {-sign * found:+.2e} ± {fit.error:.1e} is not significant",
+            **errors,
+            found=-sign * found,
+            r_squared=fit.r_squared,
+            points=len(fit.rows),
+        )
+        return
     shifts = _shift(signals, fit, sign)
     toe = _toe_end(sign * strain, sign * stress, fit)
     if fit.slack:
@@ -64,8 +86,9 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
     signals.take(np.arange(toe, len(signals)))
     signals.note(
         "strain origin",
-        f"strain shifted by {-sign * shifts['strain_axial']:+.3e}, {toe} toe rows cut",
-        standard_error=fit.standard_error,
+        f"strain shifted by {-sign * shifts['strain_axial']:+.3e} ± {fit.error:.1e}, "
+        f"{toe} toe rows cut",
+        **errors,
         r_squared=fit.r_squared,
         points=len(fit.rows),
         toe_rows=toe,
@@ -103,7 +126,20 @@ def _fit(
         if moved < _CONVERGED:
             break
     assert fit is not None
-    return replace(fit, slack=slack), ""
+    return replace(fit, slack=slack, model_error=_model_error(strain, stress, fit)), ""
+
+
+def _model_error(strain: Array, stress: Array, fit: StrainOriginFit) -> float:
+    """How far the origin of a cubic lies from the parabola's, where noise does not explain it.
+
+    The estimates are nested: the variance of their difference is that of their variances.
+    """
+    if len(fit.rows) < _FEWEST_FOR_CUBIC:
+        return 0.0
+    cubic = _polynomial(strain, stress, fit.rows, 3)
+    apart = float(abs(cubic.coefficients[0] - fit.coefficients[0]))
+    noise = max(cubic.standard_error**2 - fit.standard_error**2, 0.0) ** 0.5
+    return apart if apart > 3 * noise else 0.0
 
 
 def _loading_begins(
@@ -157,15 +193,19 @@ def _rows_in_window(strain: Array, measured: Rows, low: float, high: float) -> R
 
 
 def _parabola(strain: Array, stress: Array, rows: Rows) -> StrainOriginFit:
+    return _polynomial(strain, stress, rows, 2)
+
+
+def _polynomial(strain: Array, stress: Array, rows: Rows, degree: int) -> StrainOriginFit:
     scale = float(np.abs(stress[rows]).max()) or 1.0
-    design = np.vander(stress[rows] / scale, 3, increasing=True)
+    design = np.vander(stress[rows] / scale, degree + 1, increasing=True)
     scaled, *_ = np.linalg.lstsq(design, strain[rows])
     residuals = strain[rows] - design @ scaled
-    variance = float(residuals @ residuals) / max(len(rows) - 3, 1)
+    variance = float(residuals @ residuals) / max(len(rows) - degree - 1, 1)
     error = float(np.sqrt(variance * np.linalg.pinv(design.T @ design)[0, 0]))
     total = float(((strain[rows] - strain[rows].mean()) ** 2).sum())
     r_squared = 1 - float(residuals @ residuals) / total if total else 0.0
-    coefficients = scaled / scale ** np.arange(3)
+    coefficients = scaled / scale ** np.arange(degree + 1)
     return StrainOriginFit(coefficients, error, variance**0.5, r_squared, rows)
 
 

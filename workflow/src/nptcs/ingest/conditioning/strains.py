@@ -85,7 +85,7 @@ def _single(
         raise InputError(
             "no strain", "name a strain_file in the sheet", path, specimen=specimen.specimen
         )
-    if specimen.gauge_length_mm is None:
+    if specimen.gauge_length_mm is None and specimen.bar is None:
         raise InputError(
             f"gauge_length_mm is empty: {name} cannot become strain",
             "give the gauge length (grip distance for crosshead travel) in the sheet",
@@ -100,7 +100,7 @@ def _single(
         source = "extensometer" if source in ("unspecified", "crosshead") else source
     else:
         source = "crosshead"
-    return name, length / specimen.gauge_length_mm, source
+    return name, length * specimen.strain_per_length(source == "crosshead"), source
 
 
 def _follows(strain: Array, travel: Array | None) -> bool:
