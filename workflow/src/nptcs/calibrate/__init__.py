@@ -8,5 +8,12 @@ that compare models and ranges go out: `calibrate_ply`, `calibrate_rubber`, `com
 from nptcs.calibrate.compare import c10_against_range, compare_models
 from nptcs.calibrate.ply import calibrate_ply
 from nptcs.calibrate.rubber import calibrate_rubber
+from nptcs.calibrate.rubber_tables import calibrate_rubber_tables
 
-__all__ = ["c10_against_range", "calibrate_ply", "calibrate_rubber", "compare_models"]
+__all__ = [
+    "c10_against_range",
+    "calibrate_ply",
+    "calibrate_rubber",
+    "calibrate_rubber_tables",
+    "compare_models",
+]

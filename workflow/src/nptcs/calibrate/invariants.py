@@ -7,6 +7,8 @@ Elasticity, chapter 10):
     uniaxial      P = 2 (λ - λ⁻²) (W1 + W2/λ)
     equibiaxial   P = 2 (λ - λ⁻⁵) (W1 + λ² W2)
     pure shear    P = 2 (λ - λ⁻³) (W1 + W2)
+
+Compression of a lubricated disc is uniaxial with λ < 1 and P < 0.
 """
 
 from __future__ import annotations
@@ -20,14 +22,20 @@ from nptcs.arrays import Array
 from nptcs.calibrate.linear import solve_linear
 from nptcs.calibrate.observations import Observation, undetermined
 
-MODES = ("rubber_tension", "rubber_equibiaxial", "rubber_pure_shear")
+MODES = ("rubber_tension", "rubber_equibiaxial", "rubber_pure_shear", "rubber_compression")
 # λ2 = λ^a in each mode, and λ3 = 1/(λ λ2)
-SECOND_STRETCH = {"rubber_tension": -0.5, "rubber_equibiaxial": 1.0, "rubber_pure_shear": 0.0}
+SECOND_STRETCH = {
+    "rubber_tension": -0.5,
+    "rubber_equibiaxial": 1.0,
+    "rubber_pure_shear": 0.0,
+    "rubber_compression": -0.5,
+}
 # P = 2 (λ - λ^b)(W1 + λ^c W2)
 EXPONENTS = {
     "rubber_tension": (-2.0, -1.0),
     "rubber_equibiaxial": (-5.0, 2.0),
     "rubber_pure_shear": (-3.0, 0.0),
+    "rubber_compression": (-2.0, -1.0),
 }
 
 

@@ -34,7 +34,9 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError("this sheet exists already", "move or rename it first", sheet)
     proposal = propose_sheet(folder, load_profiles(arguments.formats))
     write_text(sheet, proposal.text())
-    print(f"{sheet}: {len(proposal.rows)} specimens proposed; fill in what the remarks name")
+    print(f"{sheet}: {len(proposal.rows)} specimens proposed")
+    wanted = ", ".join(f"{name} ({rows} rows)" for name, rows in proposal.open_cells().items())
+    print(f"  to be filled in: {wanted}" if wanted else "  nothing left to fill in; check the rest")
     for name, reason in proposal.left.items():
         print(f"  not in the sheet: {name}: {reason}")
     return 0

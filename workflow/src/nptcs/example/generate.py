@@ -110,7 +110,12 @@ def _files(
             if series.orientation_deg == 0:
                 return _tension_0(series, specimen, number, random)
             return _tension_90(series, specimen, random)
-        case TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
             raise not_simulated(series.test)
         case _:
             assert_never(series.test)

@@ -81,7 +81,12 @@ def _mean_modulus(series: Series) -> float:
             return truth.C10_MPA[series.material]
         case TestType.TENSION | TestType.COMPRESSION:
             return truth.E1_MPA if series.orientation_deg == 0 else truth.E2_MPA
-        case TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
             raise not_simulated(series.test)
         case _:
             assert_never(series.test)
@@ -95,7 +100,12 @@ def _mean_poisson(series: Series) -> float:
             return 0.5
         case TestType.TENSION | TestType.COMPRESSION:
             return truth.NU12 if series.orientation_deg == 0 else truth.NU21
-        case TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
             raise not_simulated(series.test)
         case _:
             assert_never(series.test)
@@ -128,7 +138,12 @@ def _largest_strain(series: Series) -> float:
             return 0.09
         case TestType.TENSION | TestType.COMPRESSION:
             return 0.03
-        case TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
             raise not_simulated(series.test)
         case _:
             assert_never(series.test)
@@ -145,7 +160,12 @@ def _response(series: Series, specimen: Draw, strain: Array) -> tuple[Array, Arr
             return yeoh_stress(strain, yeoh_c10(specimen.modulus)), strain, contraction
         case TestType.TENSION | TestType.COMPRESSION:
             return specimen.modulus * strain, strain, specimen.poisson * strain
-        case TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
             raise not_simulated(series.test)
         case _:
             assert_never(series.test)

@@ -5,6 +5,6 @@ them become statistics in `statistics.group_statistics`, which needs scipy and i
 imported here. No file is read here, and no constant of a material card is fitted.
 """
 
-from nptcs.reduce.specimen import reduce_specimen
+from nptcs.reduce.specimen import reduce_record, reduce_specimen
 
-__all__ = ["reduce_specimen"]
+__all__ = ["reduce_record", "reduce_specimen"]

@@ -126,4 +126,16 @@ def _b_basis(
         p = float(stats.shapiro(values).pvalue)
         if p < NOT_NORMAL:
             notes.append(f"not normally distributed (Shapiro-Wilk p = {p:.2g}): B-basis doubtful")
-    return {"k_b": k_b, "b_basis": mean - k_b * deviation}, notes
+    basis, words = positive_basis(mean - k_b * deviation, n)
+    return {"k_b": k_b, "b_basis": basis}, [*notes, *words]
+
+
+def positive_basis(basis: float, n: int) -> tuple[float, list[str]]:
+    """Return a basis value, or none with the reason where it would not be positive.
+
+    A modulus, strength or strain has no negative lower bound: it says that the sample is too
+    small for its scatter, not what the material can do.
+    """
+    if basis > 0 or basis != basis:
+        return basis, []
+    return NAN, [f"no B-basis: not above zero, n = {n} is too few for this scatter"]

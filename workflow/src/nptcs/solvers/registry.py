@@ -96,6 +96,19 @@ def model_choices(options: SolverOptions) -> dict[str, str]:
     }
 
 
+def needs_ply(study: Study, options: Mapping[str, Mapping[str, Any]]) -> bool:
+    """Whether one of a study's solvers takes the constants of a ply.
+
+    Parameters
+    ----------
+    study : Study
+        With the names of its solvers.
+    options : mapping
+        Options of each of these solvers.
+    """
+    return any(load(module_of(name, options[name])).needs_ply for name in study.solvers)
+
+
 def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
     """Refuse a study that one of its solvers cannot answer.
 
