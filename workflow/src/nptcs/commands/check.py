@@ -20,8 +20,6 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what is planned, or every fault; exit code 1 if there is one."""
-    import yaml
-
     from nptcs.calibrate.plan import check_materials
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
@@ -29,14 +27,14 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.ingest.repeats import repeats_in_sheet
     from nptcs.solvers.registry import check_study, needs_ply
     from nptcs.tables.specimens import read_sheet
+    from nptcs.yaml_files import read_yaml
 
     path = Path(arguments.config)
     if not path.is_file():
         raise InputError("this file does not exist", file=path, remedy="name a configuration file")
-    try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
-    except yaml.YAMLError as error:
-        raise InputError(f"not YAML: {error}", file=path, remedy="correct the syntax") from None
+    values = read_yaml(path) or {}
+    if not isinstance(values, dict):
+        raise InputError("is not a configuration", "write 'key: value' lines", path)
     config = read_config(values, str(path))
     for study in config.studies:
         check_study(study, config.solver_options(study))

@@ -60,7 +60,7 @@ def find_file(folder: Path, name: str) -> Path:
     InputError
         If it is missing; with the most similar name.
     """
-    if (folder / name).is_file():
+    if (folder / name).exists():
         return folder / name
     wanted = unicodedata.normalize("NFC", name)
     present = raw_files(folder)

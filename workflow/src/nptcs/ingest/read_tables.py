@@ -10,6 +10,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.folder import find_file
 from nptcs.ingest.reading.profiles import FormatProfile, choose
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
+from nptcs.ingest.strain_fields import read_strain_fields
 from nptcs.tables.specimens import Specimen
 
 
@@ -35,6 +36,9 @@ def read_tables(
     for name, format_name, part, role in wanted:
         declared = choose(format_name, profiles, specimen.specimen) if format_name else None
         try:
+            if role == "strain" and (folder / name).is_dir():
+                tables.append(read_strain_fields(folder / name, profiles, declared, limits))
+                continue
             table = read_raw(
                 find_file(folder, name),
                 profiles,

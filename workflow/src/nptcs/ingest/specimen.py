@@ -78,6 +78,7 @@ def ingest_specimen(
     """
     tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
+    digest = data_digest(tables)
     factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
     signals.flags += factors
@@ -112,7 +113,7 @@ def ingest_specimen(
     check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
-    return Ingested(_curve(signals), _record(specimen, tables, signals, source))
+    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest))
 
 
 def _with_gauge_length(
@@ -188,7 +189,7 @@ def _curve(signals: Signals) -> pd.DataFrame:
 
 
 def _record(
-    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str, digest: str
 ) -> IngestRecord:
     roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
         ("force", "strain") if len(tables) > 1 else ("force and strain",)
@@ -224,7 +225,7 @@ def _record(
             width_stations=len(specimen.width_mm),
             thickness_stations=len(specimen.thickness_mm),
         ),
-        data_sha256=data_digest(tables),
+        data_sha256=digest,
         strain_source=source,
         failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),

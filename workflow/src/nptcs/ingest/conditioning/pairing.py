@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.arrays import Array
+from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import EndOfTest, Pairing
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.common_force import (
@@ -14,6 +14,7 @@ from nptcs.ingest.conditioning.common_force import (
     settle_force_unit,
 )
 from nptcs.ingest.conditioning.failure import failure_row
+from nptcs.ingest.conditioning.frames import rows_by_number, rows_by_trigger
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
 from nptcs.ingest.reading.raw_file import RawFile
 
@@ -62,12 +63,21 @@ def pair(
         settle_force_unit(force, strain, settings, specimen)
     if shared:
         require_equal_force(force, strain, settings, specimen)
-    if "time" in force.values and "time" in strain.values:
+    timed = "time" in force.values and "time" in strain.values
+    edges = None if timed and shared else rows_by_trigger(force, strain)
+    if edges is not None:
+        how = "by the edges of the trigger channel"
+        return _by_frames(force, strain, edges, np.arange(strain.rows), how, force_drop)
+    numbered = None if timed else rows_by_number(force, strain)
+    if numbered is not None:
+        return _by_frames(force, strain, *numbered, "by the number of the frame", force_drop)
+    if timed:
         return _by_time(force, strain, offset_s, shared, settings, specimen, force_drop)
     if shared:
         return _by_force(force, strain, force_drop)
     raise InputError(
-        "strain and force cannot be paired: the files share neither time nor force",
+        "strain and force cannot be paired: the files share neither time nor force, and no "
+        "trigger or frame number that fits",
         "export the time in both, or the force as analog channel in the strain file",
         strain.path,
         specimen=specimen,
@@ -95,6 +105,30 @@ def _by_force(force: RawFile, strain: RawFile, force_drop: float) -> Signals:
     return signals
 
 
+def _by_frames(
+    force: RawFile, strain: RawFile, rows: Rows, frames: Rows, how: str, force_drop: float
+) -> Signals:
+    """Take the machine's readings in the rows of the frames, and in the row of its peak."""
+    end = _failure(force, force_drop)
+    load = "force" if "force" in force.values else "stress"
+    before = rows < (end if end is not None else force.rows)
+    rows, frames = rows[before], frames[before]
+    peak = int(np.nanargmax(np.abs(force.values[load][:end])))
+    every = np.union1d(rows, [peak])
+    kept = [name for name in ("time", "force", "stress") if name in force.values]
+    values: dict[str, Array] = {name: force.values[name][every] for name in kept}
+    places = np.searchsorted(every, rows)
+    for name in STRAIN_CHANNELS:
+        if name in strain.values:
+            values[name] = np.full(len(every), np.nan)
+            values[name][places] = strain.values[name][frames]
+    signals = Signals(values)
+    signals.failure_seen = end is not None
+    _extend_to_peak(signals, every.astype(float), "rows")
+    signals.note("pairing", how, rows=len(every), frames=len(frames))
+    return signals
+
+
 def _failure(table: RawFile, force_drop: float) -> int | None:
     """First row after failure of a file with a force or stress."""
     load = table.values.get("force", table.values.get("stress"))
@@ -106,7 +140,8 @@ def _failure(table: RawFile, force_drop: float) -> int | None:
 
 def _extend_to_peak(signals: Signals, position: Array, unit: str) -> None:
     """Extend the strains to the largest force by the line of the last frames, and say so."""
-    peak = int(np.nanargmax(np.abs(signals.values.get("force", signals.values.get("stress")))))
+    load = signals.values["force" if "force" in signals.values else "stress"]
+    peak = int(np.nanargmax(np.abs(load)))
     extended = 0.0
     for name in STRAIN_CHANNELS:
         readings = signals.values.get(name)

@@ -74,8 +74,8 @@ def _turn_tension(
         raise InputError(
             f"force is negative (down to {-compressive:.5g} N): a {specimen.test} test that the "
             "file records as compression",
-            "correct test in the sheet; if the machine writes tension as negative, export it "
-            "positive or state a scale factor of -1",
+            "correct test in the sheet; if the machine writes tension as negative, state "
+            "force_factor -1 in the sheet",
             path,
             specimen=specimen.specimen,
         )

@@ -10,12 +10,12 @@ from functools import lru_cache
 from pathlib import Path
 from typing import Literal, Self
 
-import yaml
 from pydantic import Field, ValidationError, model_validator
 
 from nptcs.config.base import Strict
 from nptcs.errors import InputError
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
+from nptcs.yaml_files import read_yaml
 
 Quantity = Literal[
     "time",
@@ -29,7 +29,13 @@ Quantity = Literal[
     "strain_xx",
     "strain_yy",
     "stretch",
+    "frame",
+    "trigger",
+    "x",
+    "y",
 ]
+UNITLESS: tuple[Quantity, ...] = ("frame", "trigger", "x", "y")
+"""Numbers of frames, trigger levels and places in a picture: taken as they are."""
 Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
 StrainSource = Literal["extensometer", "dic", "strain_gauge", "crosshead", "unspecified"]
 DELIMITERS = {",": ",", ";": ";", "tab": "\t", "|": "|", "spaces": "spaces"}
@@ -76,6 +82,11 @@ class FormatProfile(Strict):
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")
     loading: Literal["", "tension", "compression", "flexure"] = Field(
         "", description="What such files are, whatever their words say; empty: as they say"
+    )
+    window: dict[Literal["x", "y"], tuple[float, float]] = Field(
+        default_factory=dict,
+        description="Part of a strain field, in its own coordinates, over which the mean is taken; "
+        "empty: all of it",
     )
     labels: dict[Label, tuple[str, ...]] = Field(
         default_factory=dict, description="Header keys of dimensions and specimen id"
@@ -146,16 +157,7 @@ _normalised = lru_cache(maxsize=4096)(normalise)
 def read_profile(path: str | Path) -> FormatProfile:
     """Read one profile; raise InputError with the key at fault."""
     path = Path(path)
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", "check the path", path) from error
-    except UnicodeDecodeError as error:
-        raise InputError("is not UTF-8", "save it as UTF-8", path) from error
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line = None if mark is None else mark.line + 1
-        raise InputError("is not YAML", "quote texts with special marks", path, line) from error
+    content = read_yaml(path)
     if not isinstance(content, dict):
         raise InputError("is not a profile", "write 'key: value' lines", path)
     try:

@@ -10,6 +10,7 @@ from pathlib import Path
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource
 from nptcs.ingest.reading.profiles import (
+    UNITLESS,
     FormatProfile,
     name_matches,
     normalise,
@@ -120,7 +121,7 @@ def map_columns(
         for bare in (False, True):
             if known is None:
                 continue
-            wanted = set(known.columns) - set(mapped)
+            wanted = {str(name) for name in known.columns} - set(mapped)
             if known is not profile or bare:
                 wanted &= _lacking(mapped, columns)
             _map_names(mapped, wanted, columns, known, bare, path, block)
@@ -132,6 +133,7 @@ def _lacking(mapped: dict[str, Column], columns: Sequence[Column]) -> set[str]:
     """Quantities of which none of their kind is mapped yet; a time must state its unit."""
     kinds = (LOADS, (*STRAINS, "displacement"))
     lacking = {name for kind in kinds if not set(kind) & set(mapped) for name in kind}
+    lacking |= set(UNITLESS) - set(mapped)
     return lacking | ({"time"} - set(mapped) if any(c.unit for c in columns) else set())
 
 
@@ -301,6 +303,8 @@ def unit_of(
     InputError
         If no unit is stated nor declared, or it is not one of the quantity.
     """
+    if quantity in UNITLESS:
+        return column.unit or "", 1.0, ""
     choices = ", ".join(FACTORS[DIMENSION[quantity]])
     note = ""
     wrong = profile.wrong_units.get(quantity)  # type: ignore[call-overload]

@@ -13,6 +13,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
+from nptcs.ingest.reading.binary_tables import is_binary_table, read_binary_table
 from nptcs.ingest.reading.cells import CellSource, TextSource, split_lines
 from nptcs.ingest.reading.clock import PlainLines, clocks_to_seconds, join_grouped_digits
 from nptcs.ingest.reading.decode import decode
@@ -125,6 +126,10 @@ def open_file(
             for sheet in sheets
         )
         return OpenedFile(path, head, "", digest, sheets=list(sheets), notes=notes)
+    if is_binary_table(raw):
+        tables = read_binary_table(path, raw, frozenset(profile.missing), limits)
+        head = "\n".join("\t".join(map(_text, row)) for one in tables for row in one.rows[:1])
+        return OpenedFile(path, head, "", digest, sheets=list(tables))
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
     plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
     lines = plain.lines
@@ -133,7 +138,16 @@ def open_file(
     _refuse_larger(path, "line_length", longest, limits.line_length, "characters in a line")
     note = f"encoding {decoded.encoding}: {decoded.note}"
     head = "\n".join(line for line in lines[:HEAD_LINES] if _WORD.search(line))
-    return OpenedFile(path, head, decoded.encoding, digest, plain.lines, plain, notes=(note,))
+    return OpenedFile(
+        path,
+        head,
+        decoded.encoding,
+        digest,
+        lines=plain.lines,
+        clocks=plain,
+        largest_width=limits.columns,
+        notes=(note,),
+    )
 
 
 def _refuse_larger(path: Path, limit: str, size: float, allowed: float, what: str) -> None:

@@ -130,6 +130,7 @@ FACTORS: dict[str, dict[str, float]] = {
         "µd": 1e-6,
     },
     "stretch": {"1": 1, "-": 1, "mm/mm": 1, "m/m": 1},
+    "count": {"1": 1, "-": 1},
     "area": {
         "mm²": 1,
         "mm2": 1,
@@ -187,6 +188,10 @@ DIMENSION = {
     "strain_xx": "strain",
     "strain_yy": "strain",
     "stretch": "stretch",
+    "frame": "count",
+    "trigger": "count",
+    "x": "count",
+    "y": "count",
     "width": "length",
     "thickness": "length",
     "gauge_length": "length",
