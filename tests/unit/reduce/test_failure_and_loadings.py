@@ -231,6 +231,18 @@ def test_a_gauge_taken_off_for_the_way_to_failure(
     assert_not_assessed(table, ["ultimate_strain"], "strain recorded up to")
 
 
+@pytest.mark.parametrize("stuck_at", [0.00252, 0.00299, 0.00305])
+def test_a_gauge_that_stands_still_near_the_end_of_the_chord(
+    run: Make, tmp_path: Path, stuck_at: float
+) -> None:
+    strain = np.linspace(0, 0.0045, 700)
+    random = np.random.default_rng(2)
+    seen = np.minimum(strain, stuck_at) + 1e-7 * random.standard_normal(700)
+    name = export(tmp_path, np.arange(700) * 0.2, laminate(strain), seen)
+    table, _, _ = run(tmp_path, force_file=name)
+    assert table.loc["modulus", "value"] == pytest.approx(125000, rel=2e-3)
+
+
 def test_no_strain_is_interpolated_across_a_break(run: Make) -> None:
     table, _, _ = run(
         LABCASES / "break_between_frames",
