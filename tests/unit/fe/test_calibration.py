@@ -1,6 +1,7 @@
 import numpy as np
 import pytest
 
+from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe import calibration
 from nptcs.fe.calibration import (
@@ -17,9 +18,9 @@ from nptcs.tables.material_card import PUBLISHED_PLY
 
 VALUES = {"thickness_mm": 1.8}
 # inside the limits of all dimensions
-INSIDE = START.model_copy(
+INSIDE = FeModel().model_copy(
     update={
-        "geometry": START.geometry.model_copy(
+        "geometry": START.model_copy(
             update={
                 "leg_thickness_mm": 3.0,
                 "foot_thickness_mm": 13.5,
