@@ -223,9 +223,7 @@ class GroundContact(Strict):
     """Contact of the tread with the rigid plane: a smoothed penalty and Coulomb friction."""
 
     friction: float = Field(0.3, ge=0, lt=2, description="Coefficient of friction, section 3.2")
-    penalty_mpa_per_mm: float = Field(
-        500.0, gt=0, description="Pressure per mm of penetration"
-    )
+    penalty_mpa_per_mm: float = Field(500.0, gt=0, description="Pressure per mm of penetration")
     smoothing_mm: float = Field(
         0.002,
         gt=0,

@@ -16,12 +16,13 @@ from nptcs.fe.spoke.energy_table import SpokeEnergyTable, TableRangeError
 from nptcs.fe.tyre.contact import Ground
 from nptcs.fe.tyre.element_groups import ring_rubbers, wire_groups
 from nptcs.fe.tyre.feet import foot_operators
-from nptcs.fe.tyre.mesh import RingMesh, build_ring
+from nptcs.fe.tyre.mesh import build_ring
 
 MAX_ITERATIONS = 40
+QUICK_ITERATIONS = 14
 # from this iteration on, steps that do not shrink are shortened
 CALM_ITERATIONS = 6
-# the ground is soft until steps are this small
+# a soft ground hardens when the steps are this small
 SETTLED_MM = 0.05
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
@@ -168,10 +169,29 @@ class TyreModel:
     def _solve(
         self, displacement: Array, rise: float, load: float | None, path: LoadPath
     ) -> tuple[Array, float]:
-        """Newton's method at a given load, or at a given rise if `load` is None."""
+        """Find the equilibrium at a given load, or at a given rise if `load` is None.
+
+        Tried at once, and if that fails by way of a soft ground, on which the contact is found
+        more safely.
+        """
+        pressures = [block.pressure.copy() for block in self.rubbers]
+        try:
+            return self._newton(displacement, rise, load, path, QUICK_ITERATIONS)
+        except (FloatingPointError, TableRangeError):
+            for block, pressure in zip(self.rubbers, pressures, strict=True):
+                block.pressure = pressure
         self.ground.soften()
+        try:
+            return self._newton(displacement, rise, load, path, MAX_ITERATIONS)
+        finally:
+            self.ground.harden()
+
+    def _newton(
+        self, displacement: Array, rise: float, load: float | None, path: LoadPath, most: int
+    ) -> tuple[Array, float]:
+        """Newton's method; a soft ground hardens as soon as the steps are small."""
         before, part, calm = np.inf, 1.0, CALM_ITERATIONS
-        for count in range(MAX_ITERATIONS):
+        for count in range(most):
             path.iterations += 1
             trial = self._trial(displacement, rise)
             solved = self._linear(trial)
@@ -200,7 +220,7 @@ class TyreModel:
                     before, part, calm = np.inf, 1.0, count + CALM_ITERATIONS
             elif largest < 1e-6 and abs(change) < 1e-6:
                 return displacement, rise
-        raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
+        raise FloatingPointError(f"no equilibrium in {most} iterations")
 
     def load(self, loads_n: Sequence[float]) -> TyreState:
         """Press the tyre on the ground through a rising sequence of loads.

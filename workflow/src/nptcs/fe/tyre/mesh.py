@@ -208,7 +208,8 @@ def _elements(rows: int, columns: int, starts: Sequence[int], orders: Orders) ->
         for part in np.meshgrid(np.arange(0, columns, orders[1]), starts, indexing="ij")
     )
     i, j = (
-        part.ravel() for part in np.meshgrid(range(orders[0] + 1), range(orders[1] + 1), indexing="ij")
+        part.ravel()
+        for part in np.meshgrid(range(orders[0] + 1), range(orders[1] + 1), indexing="ij")
     )
     nodes: Index = ((first_column[:, None] + j) % columns) * rows + first_row[:, None] + i
     return nodes

@@ -273,13 +273,13 @@ class DirectTyre(TyreModel):
         self.spokes = [self.spoke.at_rest(self.foot)] * len(self.mesh.feet)
         return super().load(loads_n)
 
-    def _solve(
-        self, displacement: Array, rise: float, load: float | None, path: LoadPath
+    def _newton(
+        self, displacement: Array, rise: float, load: float | None, path: LoadPath, most: int
     ) -> tuple[Array, float]:
         """Solve as the reduced tyre does; where it fails, spokes return to where they were."""
         before = self.spokes
         try:
-            return super()._solve(displacement, rise, load, path)
+            return super()._newton(displacement, rise, load, path, most)
         except (FloatingPointError, np.linalg.LinAlgError) as error:
             self.spokes = before
             raise FloatingPointError(str(error)) from error
