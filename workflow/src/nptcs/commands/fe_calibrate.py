@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, get_args
+
+from nptcs.config.fe import RingKind
 
 if TYPE_CHECKING:
     import pandas
@@ -30,7 +33,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="fit the finite element spoke's section to published stiffness",
         description="Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
         "and 5) and to at most five named cases of table 5. Prints what each round gives against "
-        "its targets, and the section as JSON for solvers.fe_tyre.geometry.",
+        "its targets, and ring and section as JSON for the options of fe_tyre and fe_spoke.",
     )
     parser.add_argument(
         "table10", metavar="TABLE10.csv", help="the paper's table 10: stiffness of single spokes"
@@ -59,6 +62,16 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         default=1.04,
         help="C10 of the spokes in table 5, which does not state it (MPa; default: %(default)s)",
     )
+    parser.add_argument(
+        "--ring",
+        choices=get_args(RingKind),
+        default="converged",
+        help="ring of the tyres; the section makes up for it and belongs to it (default: "
+        "%(default)s)",
+    )
+    parser.add_argument(
+        "--spoke-cache", type=Path, help="folder in which runs share the tables of equal spokes"
+    )
     parser.set_defaults(run=run)
 
 
@@ -70,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
     model = calibrate(
         problem, arguments.rounds, arguments.workers, lambda state: _report(problem, state)
     )
-    print(model.geometry.model_dump_json(indent=2))
+    print(model.model_dump_json(include={"ring", "geometry"}, indent=2))
     return 0
 
 
@@ -82,6 +95,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     InputError
         If a table lacks a column or a case, or more than five cases are named.
     """
+    from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.errors import InputError
     from nptcs.fe.calibration import START, Problem, SpokeTarget, TyreTarget
@@ -111,8 +125,9 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
     k_t, k_c = (spokes[name].astype(float).to_dict() for name in COLUMNS["table10"][1:])
     rubbers = {"shear_band_c10_mpa": arguments.band_c10, "spoke_c10_mpa": arguments.spoke_c10}
+    start = START.model_copy(update={"calibrated_with": arguments.ring})
     return Problem(
-        START,
+        FeModel(ring=arguments.ring).model_copy(update={"geometry": start}),
         TyreGeometry(),
         PUBLISHED_PLY,
         tuple(
@@ -131,6 +146,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
             for case in arguments.cases
         ),
         5000.0,
+        arguments.spoke_cache,
     )
 
 
