@@ -31,7 +31,7 @@ class RingOptions(Strict):
     mesh: RingMesh = Field(default_factory=RingMesh, description="Elements of the ring")
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     wire_row_depth_mm: float = Field(
-        0.2,
+        0.05,
         ge=0,
         description="Depth of rubber around each layer of wires that turns with them and does not "
         "shear",

@@ -24,6 +24,8 @@ from nptcs.ring.compiled import compilable
 Value = Any
 
 UNKNOWNS = 5
+# strains that stretch the rubber along the ring
+ALONG = 4
 VARIABLES = 10
 # constants of a ring that the functions below read, by place
 HALF, SURFACE, FOOT, OUTER, AREA_PER_LENGTH = 0, 1, 2, 3, 4
@@ -45,25 +47,57 @@ def band_strains(angle: Value, m: Value, d: Value) -> Value:
 
 
 @compilable
-def band_energy(c: Value, angle: Value, length: Value, m: Value, d: Value) -> Value:
-    """Energy of an element, ½ L vᵀ C v."""
+def band_energy(c: Value, h: Value, angle: Value, length: Value, m: Value, d: Value) -> Value:
+    """Energy of an element, L (½ C_ij v_i v_j + ⅙ D_ijk v_i v_j v_k)."""
     e, q, shear, _, _ = band_strains(angle, m, d)
     v = (e, d[2], d[3], d[4])
     total = c[4, 4] * q * q + c[5, 5] * shear * shear + c[6, 6] * m[4] * m[4]
-    for i in range(4):
-        for j in range(4):
-            total = total + c[i, j] * v[i] * v[j]
+    for i in range(ALONG):
+        for j in range(ALONG):
+            stiff = c[i, j] + 0.0 * e
+            for k in range(ALONG):
+                stiff = stiff + h[i, j, k] * v[k] / 3.0
+            total = total + stiff * v[i] * v[j]
     return 0.5 * length * total
 
 
 @compilable
-def band(
-    c: Value, angle: Value, length: Value, m: Value, d: Value, force: Value, tangent: Value
+def along_tangent(
+    c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: Value
 ) -> None:
-    """Add residual and tangent of an element of band, wires and tread."""
+    """Set the derivatives (4) and (4, 4) of the energy by (e, κs, κf, s'), per length."""
+    for i in range(ALONG):
+        stress[i] = 0.0
+        for j in range(ALONG):
+            by_stretch = h[i, j, 0] * e
+            for k in range(1, ALONG):
+                by_stretch = by_stretch + h[i, j, k] * d[k + 1]
+            stiff[i, j] = c[i, j] + by_stretch
+            strain = e if j == 0 else d[j + 1]
+            stress[i] += (c[i, j] + 0.5 * by_stretch) * strain
+
+
+@compilable
+def band(
+    c: Value,
+    h: Value,
+    angle: Value,
+    length: Value,
+    m: Value,
+    d: Value,
+    force: Value,
+    tangent: Value,
+    stress: Value,
+    stiff: Value,
+) -> None:
+    """Add residual and tangent of an element of band, wires and tread.
+
+    `stress` (4) and `stiff` (4, 4) are room to work in.
+    """
     e, q, shear, tx, ty = band_strains(angle, m, d)
     nx, ny = ty, -tx
-    stretch = length * (c[0, 0] * e + c[0, 1] * d[2] + c[0, 2] * d[3] + c[0, 3] * d[4])
+    along_tangent(c, h, e, d, stress, stiff)
+    stretch = length * stress[0]
     across = length * c[4, 4] * q
     core = length * c[5, 5] * shear
     force[2] += -core
@@ -72,10 +106,8 @@ def band(
     force[5] += stretch * tx + across * nx
     force[6] += stretch * ty + across * ny
     for i in range(3):
-        force[7 + i] += length * (
-            c[i + 1, 0] * e + c[i + 1, 1] * d[2] + c[i + 1, 2] * d[3] + c[i + 1, 3] * d[4]
-        )
-    along, hold = length * c[0, 0], length * c[4, 4]
+        force[7 + i] += length * stress[i + 1]
+    along, hold = length * stiff[0, 0], length * c[4, 4]
     tangent[2, 2] += length * c[5, 5]
     tangent[2, 3] += -length * c[5, 5]
     tangent[3, 2] += -length * c[5, 5]
@@ -98,7 +130,7 @@ def band(
     tangent[3, 6] += turn_y
     tangent[6, 3] += turn_y
     for i in range(3):
-        link = length * c[0, i + 1]
+        link = length * stiff[0, i + 1]
         tangent[3, 7 + i] += link * q
         tangent[7 + i, 3] += link * q
         tangent[5, 7 + i] += link * tx
@@ -106,25 +138,31 @@ def band(
         tangent[6, 7 + i] += link * ty
         tangent[7 + i, 6] += link * ty
         for j in range(3):
-            tangent[7 + i, 7 + j] += length * c[i + 1, j + 1]
+            tangent[7 + i, 7 + j] += length * stiff[i + 1, j + 1]
 
 
 @compilable
 def surface_point(
     w: Value, angle: Value, length: Value, m: Value, d: Value
-) -> tuple[Value, Value, Value]:
-    """Place (x, y) of the tread's surface over an element's middle, and its distance from the wires.
+) -> tuple[Value, Value, Value, Value]:
+    """Place (x, y) of the tread's surface over an element's middle: r + reach n(ψ) + shift t(ψ).
 
-    The thickness grows as the rubber's strains along the ring shrink, less the rise of the arc
-    over the chord.
+    The core's shear γ carries its upper face by c γ along and keeps its thickness, as simple shear
+    does. The tread grows as its strains along the ring shrink; the arc rises over its chord.
+
+    Returns
+    -------
+    tuple
+        x, y, reach and shift, mm.
     """
-    a, b = angle - m[2], angle - m[3]
+    b = angle - m[3]
     face = w[GROW_FACE] - length * length / 8.0
-    reach = w[SURFACE] + w[GROW_SECTION] * d[2] + face * d[3] + w[GROW_SHEAR] * d[4]
     radius = w[OUTER] - w[HALF] - w[SURFACE]
-    x = radius * np.sin(angle) + m[0] + w[HALF] * np.sin(a) + reach * np.sin(b) + m[4] * np.cos(b)
-    y = -radius * np.cos(angle) + m[1] - w[HALF] * np.cos(a) - reach * np.cos(b) + m[4] * np.sin(b)
-    return x, y, reach
+    reach = w[OUTER] - radius + w[GROW_SECTION] * d[2] + face * d[3] + w[GROW_SHEAR] * d[4]
+    shift = w[HALF] * (m[3] - m[2]) + m[4]
+    x = radius * np.sin(angle) + m[0] + reach * np.sin(b) + shift * np.cos(b)
+    y = -radius * np.cos(angle) + m[1] - reach * np.cos(b) + shift * np.sin(b)
+    return x, y, reach, shift
 
 
 @compilable
@@ -169,12 +207,14 @@ def ground(
     d: Value,
     rise: Value,
     anchor: Value,
-    force: Value,
+    by_x: Value,
+    by_y: Value,
     tangent: Value,
-    slope: Value,
-    row: Value,
-) -> tuple[Value, Value]:
-    """Add the ground's part of an element that touches it.
+) -> tuple[Value, Value, Value, Value, Value]:
+    """Add the curvature of the surface's place to the tangent of an element on the ground.
+
+    Its residual is ``drag by_x - push by_y``; to the tangent the caller adds
+    ``slide by_x by_xᵀ - cross by_x by_yᵀ + steep by_y by_yᵀ``.
 
     Parameters
     ----------
@@ -184,61 +224,40 @@ def ground(
         Of the ground, mm, from where it touches the unloaded tyre.
     anchor : number or array
         Place x at which the surface came to rest.
-    force, tangent
+    by_x, by_y
+        Set to the derivatives of the surface's place by the ten variables.
+    tangent
         Added to.
-    slope, row
-        Set to the derivatives of the residual by the rise and of the reaction by the variables.
 
     Returns
     -------
     tuple
-        Reaction (N) and its derivative by the rise (N/mm).
+        push and drag (N), steep, slide and cross (N/mm).
     """
-    x, y, reach = surface_point(w, angle, length, m, d)
+    x, y, reach, shift = surface_point(w, angle, length, m, d)
     pressure, steep, shear, slide, cross = traction(w, rise - w[OUTER] - y, x - anchor)
     area = w[AREA_PER_LENGTH] * length
     push, drag = area * pressure, area * shear
-    steep, slide, cross = area * steep, area * slide, area * cross
-    a, b = angle - m[2], angle - m[3]
-    tx, ty = np.cos(b), np.sin(b)
+    tx, ty = np.cos(angle - m[3]), np.sin(angle - m[3])
     half = w[HALF]
-    face = w[GROW_FACE] - length * length / 8.0
-    zero, one = 0.0 * x, 1.0 + 0.0 * x
-    # ψ: d/dψ of reach n + s t is -reach t + s n
-    by_x = (
-        one,
-        zero,
-        -half * np.cos(a),
-        -reach * tx + m[4] * ty,
-        tx,
-        zero,
-        zero,
-        w[GROW_SECTION] * ty,
-        face * ty,
-        w[GROW_SHEAR] * ty,
-    )
-    by_y = (
-        zero,
-        one,
-        -half * np.sin(a),
-        -reach * ty - m[4] * tx,
-        ty,
-        zero,
-        zero,
-        -w[GROW_SECTION] * tx,
-        -face * tx,
-        -w[GROW_SHEAR] * tx,
-    )
+    grow_face = w[GROW_FACE] - length * length / 8.0
     for i in range(VARIABLES):
-        force[i] += drag * by_x[i] - push * by_y[i]
-        row[i] = -steep * by_y[i]
-        slope[i] = row[i] + cross * by_x[i]
-        for j in range(VARIABLES):
-            tangent[i, j] += (
-                slide * by_x[i] * by_x[j] - cross * by_x[i] * by_y[j] + steep * by_y[i] * by_y[j]
-            )
-    tangent[2, 2] += half * (-drag * np.sin(a) - push * np.cos(a))
-    tangent[3, 3] += drag * (-reach * ty - m[4] * tx) - push * (reach * tx - m[4] * ty)
+        by_x[i] = 0.0
+        by_y[i] = 0.0
+    by_x[0] = 1.0
+    by_y[1] = 1.0
+    # n = (ty, -tx); the derivatives by ψ are t' = n and n' = -t
+    by_x[2], by_y[2] = -half * tx, -half * ty
+    by_x[3], by_y[3] = (half - reach) * tx + shift * ty, (half - reach) * ty - shift * tx
+    by_x[4], by_y[4] = tx, ty
+    by_x[7], by_y[7] = w[GROW_SECTION] * ty, -w[GROW_SECTION] * tx
+    by_x[8], by_y[8] = grow_face * ty, -grow_face * tx
+    by_x[9], by_y[9] = w[GROW_SHEAR] * ty, -w[GROW_SHEAR] * tx
+    tangent[3, 3] += drag * ((2.0 * half - reach) * ty - shift * tx)
+    tangent[3, 3] += -push * ((reach - 2.0 * half) * tx - shift * ty)
+    turn_section = -half * (drag * ty + push * tx)
+    tangent[2, 3] += turn_section
+    tangent[3, 2] += turn_section
     # s carries n, the thickness -t
     turn_s = drag * ty + push * tx
     turn_reach = -drag * tx + push * ty
@@ -246,53 +265,57 @@ def ground(
     tangent[4, 3] += turn_s
     tangent[3, 7] += turn_reach * w[GROW_SECTION]
     tangent[7, 3] += turn_reach * w[GROW_SECTION]
-    tangent[3, 8] += turn_reach * face
-    tangent[8, 3] += turn_reach * face
+    tangent[3, 8] += turn_reach * grow_face
+    tangent[8, 3] += turn_reach * grow_face
     tangent[3, 9] += turn_reach * w[GROW_SHEAR]
     tangent[9, 3] += turn_reach * w[GROW_SHEAR]
-    return push, steep
+    return push, drag, area * steep, area * slide, area * cross
 
 
 @compilable
 def foot_motion(w: Value, angle: Value, u: Value) -> tuple[Value, Value, Value]:
     """Motion (u_r, u_θ, φ) of the spoke's foot under a node with unknowns u.
 
-    The foot is at r - c n(θ) - foot n(ψ); φ is the slope of the band's inner face.
+    The foot is at r - (c + foot) n(ψ) - c γ t(ψ); φ is the slope of the band's inner face.
     """
     cos, sin = np.cos(angle), np.sin(angle)
-    outward = u[0] * sin - u[1] * cos
-    along = u[0] * cos + u[1] * sin
-    outward = outward + w[HALF] * (1.0 - np.cos(u[2])) + w[FOOT] * (1.0 - np.cos(u[3]))
-    along = along + w[HALF] * np.sin(u[2]) + w[FOOT] * np.sin(u[3])
-    return outward, along, np.sin(u[3])
+    cos_face, sin_face = np.cos(u[3]), np.sin(u[3])
+    whole, shift = w[HALF] + w[FOOT], w[HALF] * (u[3] - u[2])
+    outward = u[0] * sin - u[1] * cos + whole * (1.0 - cos_face) - shift * sin_face
+    along = u[0] * cos + u[1] * sin + whole * sin_face - shift * cos_face
+    return outward, along, sin_face
 
 
 @compilable
-def foot(
-    w: Value, angle: Value, u: Value, push: Value, stiff: Value, force: Value, tangent: Value
-) -> None:
-    """Add a spoke's forces `push` (3) and tangent `stiff` (3, 3) on (u_r, u_θ, φ) to its node."""
+def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Value) -> None:
+    """Add the curvature of a foot's motion to its node's tangent.
+
+    Parameters
+    ----------
+    w, angle, u
+        As in `foot_motion`.
+    push : (3,)
+        The spoke's forces on (u_r, u_θ, φ).
+    by : (3, 5)
+        Set to the derivatives of (u_r, u_θ, φ) by u; it must be zero before.
+    tangent : (5, 5)
+        Added to.
+    """
     cos, sin = np.cos(angle), np.sin(angle)
     half, deep = w[HALF], w[FOOT]
-    # derivatives of the motion by u_x, u_y, θ, ψ
-    outward = (sin, -cos, half * np.sin(u[2]), deep * np.sin(u[3]))
-    along = (cos, sin, half * np.cos(u[2]), deep * np.cos(u[3]))
-    turn = np.cos(u[3])
-    for i in range(4):
-        force[i] += push[0] * outward[i] + push[1] * along[i]
-        for j in range(4):
-            tangent[i, j] += (
-                outward[i] * (stiff[0, 0] * outward[j] + stiff[0, 1] * along[j])
-                + along[i] * (stiff[1, 0] * outward[j] + stiff[1, 1] * along[j])
-            )
-        link = (stiff[0, 2] * outward[i] + stiff[1, 2] * along[i]) * turn
-        tangent[i, 3] += link
-        tangent[3, i] += link
-    force[3] += push[2] * turn
-    tangent[3, 3] += stiff[2, 2] * turn * turn
-    tangent[2, 2] += half * (push[0] * np.cos(u[2]) - push[1] * np.sin(u[2]))
-    tangent[3, 3] += deep * (push[0] * np.cos(u[3]) - push[1] * np.sin(u[3]))
-    tangent[3, 3] += -push[2] * np.sin(u[3])
+    cos_face, sin_face = np.cos(u[3]), np.sin(u[3])
+    shift = half * (u[3] - u[2])
+    by[0, 0], by[0, 1], by[0, 2] = sin, -cos, half * sin_face
+    by[1, 0], by[1, 1], by[1, 2] = cos, sin, half * cos_face
+    by[0, 3] = deep * sin_face - shift * cos_face
+    by[1, 3] = deep * cos_face + shift * sin_face
+    by[2, 3] = cos_face
+    turn_section = half * (push[0] * cos_face - push[1] * sin_face)
+    tangent[2, 3] += turn_section
+    tangent[3, 2] += turn_section
+    tangent[3, 3] += push[0] * ((deep - half) * cos_face + shift * sin_face)
+    tangent[3, 3] += push[1] * ((half - deep) * sin_face + shift * cos_face)
+    tangent[3, 3] += -push[2] * sin_face
 
 
 @compilable

@@ -12,7 +12,7 @@ from nptcs.arrays import Array
 from nptcs.provenance import code_hash
 from nptcs.ring import elementwise
 from nptcs.ring.cyclic_elimination import eliminate
-from nptcs.ring.elementwise import OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
 from nptcs.ring.system import Ring, System, empty_system
 
 OPTIONS = {"cache": True, "nogil": True, "error_model": "numpy"}
@@ -26,13 +26,15 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     """
 
     @njit(**OPTIONS)
-    def elements(stiffness, w, middle, length, u, rise, anchor, out):  # type: ignore[no-untyped-def]
+    def elements(stiffness, hardening, w, middle, length, u, rise, anchor, out):  # type: ignore[no-untyped-def]
         """Add all elements, and the ground where they touch it."""
         assert formulas != ""
         diagonal, upper, lower, force_out, slope_out, row_out = out
         count = len(u)
         m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
+        by_x, by_y = np.empty(VARIABLES), np.empty(VARIABLES)
         slope, row = np.empty(VARIABLES), np.empty(VARIABLES)
+        stress, stiff = np.empty(ALONG), np.empty((ALONG, ALONG))
         reaction, reaction_slope = 0.0, 0.0
         for i in range(count):
             after = i + 1 if i + 1 < count else 0
@@ -42,14 +44,24 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                 d[a] = (u[after, a] - u[i, a]) * by
             force = np.zeros(VARIABLES)
             tangent = np.zeros((VARIABLES, VARIABLES))
-            elementwise.band(stiffness, middle[i], length[i], m, d, force, tangent)
+            elementwise.band(
+                stiffness, hardening, middle[i], length[i], m, d, force, tangent, stress, stiff
+            )
             y = elementwise.surface_point(w, middle[i], length[i], m, d)[1]
             if rise - w[OUTER] - y > 0.0:
-                push, steep = elementwise.ground(
-                    w, middle[i], length[i], m, d, rise, anchor[i], force, tangent, slope, row
+                push, drag, steep, slide, cross = elementwise.ground(
+                    w, middle[i], length[i], m, d, rise, anchor[i], by_x, by_y, tangent
                 )
                 reaction += push
                 reaction_slope += steep
+                for a in range(VARIABLES):
+                    force[a] += drag * by_x[a] - push * by_y[a]
+                    row[a] = -steep * by_y[a]
+                    slope[a] = row[a] + cross * by_x[a]
+                    for b in range(VARIABLES):
+                        tangent[a, b] += (
+                            slide * by_x[a] * by_x[b] - cross * by_x[a] * by_y[b]
+                        ) - row[a] * by_y[b]
                 for a in range(UNKNOWNS):
                     b = a + UNKNOWNS
                     slope_out[i, a] += 0.5 * slope[a] - slope[b] * by
@@ -79,7 +91,8 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         chains = np.zeros((3, 3, max(count, sides.max() + 1)))
         first, push = np.empty(3), np.empty(3)
         second, stiff = np.empty((3, 3)), np.empty((3, 3))
-        point = np.empty(3)
+        point, radial = np.empty(3), np.empty((3, terms))
+        by = np.zeros((3, UNKNOWNS))
         for k in range(len(feet)):
             node = feet[k]
             motion = elementwise.foot_motion(w, theta[node], u[node])
@@ -89,22 +102,23 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             for axis in range(3):
                 scale = 2.0 / (high[axis] - low[axis])
                 x = (point[axis] - low[axis]) * scale - 1.0
-                value, by, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
+                value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
                 value[0], value[1] = 1.0, x
-                by[0], by[1] = 0.0, scale
+                once[0], once[1] = 0.0, scale
                 twice[0], twice[1] = 0.0, 0.0
                 for i in range(2, count if axis == 0 else sides[:, axis - 1].max() + 1):
                     value[i] = 2.0 * x * value[i - 1] - value[i - 2]
-                    by[i] = 2.0 * scale * value[i - 1] + 2.0 * x * by[i - 1] - by[i - 2]
-                    twice[i] = 4.0 * scale * by[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
+                    once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
+                    twice[i] = 4.0 * scale * once[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
             first[:] = 0.0
             second[:] = 0.0
+            radial[:] = 0.0
+            for i in range(count):
+                for order in range(3):
+                    for term in range(terms):
+                        radial[order, term] += coefficients[i, term] * chains[0, order, i]
             for term in range(terms):
-                r0, r1, r2 = 0.0, 0.0, 0.0
-                for i in range(count):
-                    r0 += coefficients[i, term] * chains[0, 0, i]
-                    r1 += coefficients[i, term] * chains[0, 1, i]
-                    r2 += coefficients[i, term] * chains[0, 2, i]
+                r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
                 j, n = sides[term]
                 b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
                 p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
@@ -119,7 +133,13 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                 second[0, 2] += r1 * b0 * p1
             second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
             elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
-            elementwise.foot(w, theta[node], u[node], push, stiff, force[node], diagonal[node])
+            elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
+            for a in range(UNKNOWNS):
+                for i in range(3):
+                    force[node, a] += push[i] * by[i, a]
+                    for j in range(3):
+                        for b in range(UNKNOWNS):
+                            diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
 
     return elements, spokes
 
@@ -140,7 +160,15 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
         system.row,
     )
     system.reaction_n, system.reaction_slope = _elements(
-        ring.stiffness, ring.dimensions, ring.middle, ring.length_mm, u, rise, anchor, out
+        ring.stiffness,
+        ring.hardening,
+        ring.dimensions,
+        ring.middle,
+        ring.length_mm,
+        u,
+        rise,
+        anchor,
+        out,
     )
     if len(ring.feet):
         spokes = (
@@ -158,15 +186,16 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
 
 
 def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
-    """Solve the cyclic system for right-hand sides (nodes, 5, n).
+    """Solve the cyclic system for one or two right-hand sides (nodes, 5, n).
 
     Raises
     ------
     FloatingPointError
         If the matrix is singular.
     """
-    found = np.array(rhs)
+    found = np.zeros((len(rhs), UNKNOWNS, 2))
+    found[:, :, : rhs.shape[2]] = rhs
     _eliminate(diagonal.copy(), upper, lower, found)
     if not np.isfinite(found).all():
         raise FloatingPointError("the tangent is singular")
-    return found
+    return found[:, :, : rhs.shape[2]]

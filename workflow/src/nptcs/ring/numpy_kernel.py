@@ -8,7 +8,7 @@ from scipy.linalg.lapack import dgbsv
 from nptcs.arrays import Array, Index
 from nptcs.fe.matrices.cyclic import folded_order
 from nptcs.ring import elementwise
-from nptcs.ring.elementwise import OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
 from nptcs.ring.spokes import SpokePolynomial
 from nptcs.ring.system import Ring, System, empty_system
 
@@ -24,7 +24,16 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     force = np.zeros((VARIABLES, count))
     tangent = np.zeros((VARIABLES, VARIABLES, count))
     elementwise.band(
-        ring.stiffness, ring.middle, ring.length_mm, mean, difference, force, tangent
+        ring.stiffness,
+        ring.hardening,
+        ring.middle,
+        ring.length_mm,
+        mean,
+        difference,
+        force,
+        tangent,
+        np.empty((ALONG, count)),
+        np.empty((ALONG, ALONG, count)),
     )
     _add_ground(ring, mean, difference, rise, anchor, force, tangent, system)
     _scatter(ring, force, tangent, system)
@@ -53,9 +62,9 @@ def _add_ground(
     near = np.flatnonzero(rise - w[OUTER] - y > 0.0)
     if not len(near):
         return
-    own_force, own_tangent = force[:, near], tangent[:, :, near]
-    slope, row = np.zeros_like(own_force), np.zeros_like(own_force)
-    push, steep = elementwise.ground(
+    own = tangent[:, :, near]
+    by_x, by_y = np.zeros((2, VARIABLES, len(near)))
+    push, drag, steep, slide, cross = elementwise.ground(
         w,
         ring.middle[near],
         ring.length_mm[near],
@@ -63,12 +72,15 @@ def _add_ground(
         difference[:, near],
         rise,
         anchor[near],
-        own_force,
-        own_tangent,
-        slope,
-        row,
+        by_x,
+        by_y,
+        own,
     )
-    force[:, near], tangent[:, :, near] = own_force, own_tangent
+    force[:, near] += drag * by_x - push * by_y
+    own += (slide * by_x)[:, None] * by_x - (cross * by_x)[:, None] * by_y
+    tangent[:, :, near] = own + (steep * by_y)[:, None] * by_y
+    row = -steep * by_y
+    slope = row + cross * by_x
     system.reaction_n, system.reaction_slope = float(np.sum(push)), float(np.sum(steep))
     after = (near + 1) % len(ring.theta)
     for target, part in ((system.slope, slope), (system.row, row)):
@@ -124,11 +136,14 @@ def _add_spokes(ring: Ring, u: Array, system: System) -> None:
     )
     push, stiff = np.zeros((3, len(s))), np.zeros((3, 3, len(s)))
     elementwise.carry_to_motion(length, cos, sin, values[1:4], second, push, stiff)
-    force = np.zeros((UNKNOWNS, len(s)))
+    by = np.zeros((3, UNKNOWNS, len(s)))
     tangent = np.zeros((UNKNOWNS, UNKNOWNS, len(s)))
-    elementwise.foot(ring.dimensions, angle, own, push, stiff, force, tangent)
-    system.force[ring.feet] += force.T
-    system.diagonal[ring.feet] += np.moveaxis(tangent, 2, 0)
+    elementwise.foot(ring.dimensions, angle, own, push, by, tangent)
+    lever = np.moveaxis(by, 2, 0)
+    lift = lever.swapaxes(1, 2)
+    system.force[ring.feet] += (lift @ push.T[:, :, None])[:, :, 0]
+    curvature = np.moveaxis(tangent, 2, 0)
+    system.diagonal[ring.feet] += curvature + lift @ np.moveaxis(stiff, 2, 0) @ lever
 
 
 _PLACES: dict[int, tuple[Index, Index]] = {}

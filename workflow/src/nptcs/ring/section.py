@@ -6,12 +6,16 @@ The generalised strains of the ring are, in this order,
 
 stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
 κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ - θ of the core and shift s
-of the tread's surface. The energy per unit of the middle's length is ½ vᵀ C v.
+of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
+v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is harder pressed than pulled, and
+under the contact the tread is pressed by three per cent.
 """
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 
 import numpy as np
 
@@ -19,6 +23,8 @@ from nptcs.arrays import Array
 from nptcs.config.tyre import TyreGeometry
 
 STRAINS = 7
+# those that stretch the rubber along the ring
+ALONG = 4
 POINTS = 8
 # of a circular section (Cowper 1966, Poisson's ratio 0.3)
 SHEAR_CORRECTION = 0.886
@@ -42,6 +48,8 @@ class RingSection:
         Axial width.
     stiffness : array (7, 7)
         C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products ask.
+    hardening : array (4, 4, 4)
+        D for the strains (e, κs, κf, s').
     thickening : array (3,)
         Growth of the tread's thickness by κs and κf (mm²) and by s' (mm).
     compliance_mm_per_mpa : float
@@ -54,6 +62,7 @@ class RingSection:
     foot_mm: float
     width_mm: float
     stiffness: Array
+    hardening: Array
     thickening: Array
     compliance_mm_per_mpa: float
 
@@ -138,60 +147,77 @@ def ring_section(
             f"the tread's surface, {surface:g} mm outside the wires, lies inside the band's cover "
             f"of {cover:g} mm"
         )
-    width = tyre.tread_width_mm
-    stiffness = np.zeros((STRAINS, STRAINS))
+    stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
     for sign in (-1.0, 1.0):
         _add_wires(stiffness, tyre, radius, sign * half)
-    along, shear = width * band.along_mpa, width * band.shear_mpa
-    for sign in (-1.0, 1.0):
-        face = sign * half
-        row_limits = (-row, row) if sign > 0 else (-cover, row)
-        _add_rubber(stiffness, along, radius, face, row_limits, lambda z, face=face: _face(face, z))
-    inside = half - row
-    _add_rubber(
-        stiffness, along, radius, 0.0, (-inside, inside), lambda z: _core(half, row, inside, z)
-    )
-    stiffness[5, 5] += shear * 2.0 * half**2 / inside
+    inside, width = half - row, tyre.tread_width_mm
+    layers = [
+        _Layer(band, -half, (-cover, row), partial(_face, -half)),
+        _Layer(band, 0.0, (-inside, inside), partial(_core, half, row)),
+        _Layer(band, half, (-row, row), partial(_face, half)),
+        _Layer(band, half, (row, cover), partial(_tread, half, row, surface)),
+        _Layer(tread, half, (cover, surface), partial(_tread, half, row, surface)),
+    ]
+    for layer in layers:
+        layer.add(stiffness, hardening, radius, width)
+    stiffness[5, 5] += width * band.shear_mpa * 2.0 * half**2 / inside
     thickening = np.zeros(3)
-    depth = surface - row
-    for rubber, limits in ((band, (row, cover)), (tread, (cover, surface))):
-        z, weight = _rule(limits)
-        level = 1.0 - (z - row) / depth
-        shape, slope = 1.0 - level**2, 2.0 * level / depth
+    for layer in layers[3:]:
+        z, weight = layer.rule()
         grow = 1.0 + (half + z) / radius
-        strain = np.zeros((len(z), STRAINS))
-        strain[:, :4] = np.stack([np.ones_like(z), -half + 0.0 * z, -z, shape], axis=1)
-        scaled = width * rubber.along_mpa * weight / grow
-        stiffness += np.einsum("z,zi,zj->ij", scaled, strain, strain)
-        stiffness[6, 6] += width * rubber.shear_mpa * float(np.sum(weight * grow * slope**2))
-        thickening -= rubber.contraction * np.einsum("z,zi->i", weight / grow, strain[:, 1:4])
+        slope = 2.0 * (surface - z) / (surface - row) ** 2
+        shear = width * layer.rubber.shear_mpa
+        stiffness[6, 6] += shear * float(np.sum(weight * grow * slope**2))
+        thickening -= layer.rubber.contraction * (weight / grow) @ layer.strain(z)[:, 1:]
     squeezed = band.through_compliance_per_mpa * (cover + 0.75 * half)
     squeezed += tread.through_compliance_per_mpa * (surface - cover)
-    return RingSection(radius, half, surface, cover, width, stiffness, thickening, squeezed)
+    return RingSection(
+        radius, half, surface, cover, width, stiffness, hardening, thickening, squeezed
+    )
 
 
-def _rule(limits: tuple[float, float]) -> tuple[Array, Array]:
-    points, weights = np.polynomial.legendre.leggauss(POINTS)
-    low, high = limits
-    return 0.5 * (low + high) + 0.5 * (high - low) * points, 0.5 * (high - low) * weights
+@dataclass(frozen=True)
+class _Layer:
+    """A layer of rubber: z from `centre` between limits, J ε by the strains (e, κs, κf, s')."""
+
+    rubber: Rubber
+    centre: float
+    limits: tuple[float, float]
+    strain: Callable[[Array], Array]
+
+    def rule(self) -> tuple[Array, Array]:
+        """Points z and weights across the layer."""
+        points, weights = np.polynomial.legendre.leggauss(POINTS)
+        low, high = self.limits
+        return 0.5 * (low + high) + 0.5 * (high - low) * points, 0.5 * (high - low) * weights
+
+    def add(self, stiffness: Array, hardening: Array, radius: float, width: float) -> None:
+        """Add ½ E b ∫ (ε² - ε³) J dz."""
+        z, weight = self.rule()
+        strain = self.strain(z)
+        grow = 1.0 + (self.centre + z) / radius
+        scaled = width * self.rubber.along_mpa * weight / grow
+        stiffness[:ALONG, :ALONG] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
+        hardening += np.einsum("z,zi,zj,zk->ijk", -3.0 * scaled / grow, strain, strain, strain)
 
 
 def _face(face: float, z: Array) -> Array:
     """J ε of the wires and rows at ±c, z from the wires' axis: e - (±c) κs - z κf."""
-    return np.stack([np.ones_like(z), -face + 0.0 * z, -z], axis=1)
+    one = np.ones_like(z)
+    return np.stack([one, -face * one, -z, 0.0 * z], axis=1)
 
 
-def _core(half: float, row: float, inside: float, z: Array) -> Array:
+def _core(half: float, row: float, z: Array) -> Array:
     """J ε of the core, z from its middle: e - z (c κs - (t_r/2) κf)/(c - t_r/2)."""
-    return np.stack([np.ones_like(z), -z * half / inside, z * row / inside], axis=1)
+    inside = half - row
+    return np.stack([np.ones_like(z), -z * half / inside, z * row / inside, 0.0 * z], axis=1)
 
 
-def _add_rubber(stiffness, modulus_n_per_mm, radius, centre, limits, strain_of):
-    """Add ∫ E b (J ε)²/J dz of a layer of rubber."""
-    z, weight = _rule(limits)
-    strain = strain_of(z)
-    scaled = modulus_n_per_mm * weight / (1.0 + (centre + z) / radius)
-    stiffness[:3, :3] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
+def _tread(half: float, row: float, surface: float, z: Array) -> Array:
+    """J ε of cover and tread, z from the wires' axis: e - c κs - z κf + f s'."""
+    level = (surface - z) / (surface - row)
+    one = np.ones_like(z)
+    return np.stack([one, -half * one, -z, 1.0 - level**2], axis=1)
 
 
 def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float) -> None:
@@ -204,6 +230,6 @@ def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float)
     z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm
     strain = _face(face, z)
     scaled = 0.5 * area * tyre.wire_modulus_mpa / (1.0 + (face + z) / radius)
-    stiffness[:3, :3] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
+    stiffness[:ALONG, :ALONG] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
     shear = SHEAR_CORRECTION * tyre.wire_modulus_mpa / 2.0 / (1.0 + tyre.wire_poisson_ratio)
     stiffness[4, 4] += shear * area

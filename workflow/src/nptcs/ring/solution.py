@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.ring.elementwise import UNKNOWNS
+from nptcs.ring.numpy_kernel import spoke_coordinates
 from nptcs.ring.system import System
 from nptcs.ring.tyre import RingTyre
 
@@ -135,18 +136,23 @@ def _next(tyre: RingTyre, states: list[RingState], target: float) -> RingState:
     step = target - last.force_n
     while True:
         goal = target if step >= target - last.force_n else last.force_n + step
-        u, rise = last.u, last.rise_mm
-        if len(states) > 1:
-            before = states[-2]
-            # no further than the last step: the path bends
-            part = min((goal - last.force_n) / (last.force_n - before.force_n), 1.0)
-            u, rise = u + part * (u - before.u), rise + part * (rise - before.rise_mm)
         try:
-            return _equilibrium(tyre, last, u, rise, goal)
+            return _equilibrium(tyre, last, *_predicted(states, goal), goal)
         except _NoEquilibrium:
             step /= 2.0
             if step < SMALLEST_STEP_N:
                 raise
+
+
+def _predicted(states: list[RingState], goal: float) -> tuple[Array, float]:
+    """Start (u, rise) for a load: the line through the last two states."""
+    last = states[-1]
+    if len(states) < 2:
+        return last.u, last.rise_mm
+    before = states[-2]
+    # no further than the last step: the path bends
+    part = min((goal - last.force_n) / (last.force_n - before.force_n), 1.0)
+    return last.u + part * (last.u - before.u), (1.0 + part) * last.rise_mm - part * before.rise_mm
 
 
 def _equilibrium(
@@ -156,12 +162,11 @@ def _equilibrium(
     count = 0
     for count, (step, change) in enumerate(_iterates(tyre, last, u, rise, load_n), start=1):
         u, rise = step, change
-    system = tyre.kernel.assemble(tyre.ring, u, rise, last.anchor)
-    if outside := tyre.spokes.outside(system.coordinates):
+    if outside := tyre.spokes.outside(spoke_coordinates(tyre.ring, u)):
         raise _NoEquilibrium(outside, outside=True)
     x, pressure, shear = tyre.traction(u, rise, last.anchor)
     rest = np.where(pressure > 0.0, shear / tyre.contact.tangential_mpa_per_mm, 0.0)
-    force = system.reaction_n if load_n is None else load_n
+    force = float(np.sum(pressure * tyre.areas_mm2())) if load_n is None else load_n
     return RingState(u, rise, force, x - rest, last.anchor, count)
 
 

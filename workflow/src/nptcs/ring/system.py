@@ -18,6 +18,8 @@ class Ring:
     ----------
     stiffness : array (7, 7)
         C of the section.
+    hardening : array (4, 4, 4)
+        D of the section.
     dimensions : array (13,)
         Constants of the section and the ground, places as in `elementwise`.
     theta, middle, length_mm : arrays (nodes,)
@@ -31,6 +33,7 @@ class Ring:
     """
 
     stiffness: Array
+    hardening: Array
     dimensions: Array
     theta: Array
     middle: Array

@@ -54,10 +54,15 @@ class RingTyre:
     def surface(self, u: Array) -> tuple[Array, Array]:
         """Place (x, y) of the tread's surface over each element's middle, mm."""
         mean, difference = numpy_kernel.element_variables(self.ring, u)
-        x, y, _ = elementwise.surface_point(
+        x, y, _, _ = elementwise.surface_point(
             self.ring.dimensions, self.nodes.middle, self.nodes.length_mm, mean, difference
         )
         return x, y
+
+    def areas_mm2(self) -> Array:
+        """Area of the tread's surface over each element."""
+        areas: Array = self.ring.dimensions[elementwise.AREA_PER_LENGTH] * self.nodes.length_mm
+        return areas
 
     def traction(self, u: Array, rise_mm: float, anchor: Array) -> tuple[Array, Array, Array]:
         """Place x (mm), pressure and shear (MPa) of the ground under each element."""
@@ -76,7 +81,12 @@ class RingTyre:
         """Energy of band (with wires and tread) and spokes, N mm."""
         mean, difference = numpy_kernel.element_variables(self.ring, u)
         band = elementwise.band_energy(
-            self.ring.stiffness, self.nodes.middle, self.nodes.length_mm, mean, difference
+            self.ring.stiffness,
+            self.ring.hardening,
+            self.nodes.middle,
+            self.nodes.length_mm,
+            mean,
+            difference,
         )
         coordinates = numpy_kernel.spoke_coordinates(self.ring, u)
         return {
@@ -161,6 +171,7 @@ def _arrays(
     w[elementwise.COMPLIANCE] = section.compliance_mm_per_mpa
     return Ring(
         stiffness=section.stiffness,
+        hardening=section.hardening,
         dimensions=w,
         theta=nodes.theta,
         middle=nodes.middle,
