@@ -51,3 +51,8 @@ class RingModel(FeSpokeModel, RingOptions):
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
     )
     load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")
+
+    @classmethod
+    def spoke_parts(cls) -> tuple[str, ...]:
+        """Name the options on which the spokes' tables depend, as in the solver `fe_tyre`."""
+        return (*FeSpokeModel.model_fields, "table")

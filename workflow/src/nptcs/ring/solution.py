@@ -18,7 +18,7 @@ MAX_ITERATIONS = 30
 CALM_ITERATIONS = 6
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
-FIRST_RISE_MM = 0.2
+FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
 # the iteration that ends below it has left an error of about its square
 TOLERANCE_MM = 1e-5
 BACKTRACKS = 6
@@ -124,9 +124,13 @@ def _first_touch(tyre: RingTyre, first_load_n: float) -> RingState:
     rest = RingState(np.zeros((count, UNKNOWNS)), 0.0, 0.0, x, x, 0)
     rise = FIRST_RISE_MM
     while True:
-        state = _equilibrium(tyre, rest, rest.u, rise, None)
-        if state.force_n <= 0.9 * first_load_n:
-            return state
+        try:
+            state = _equilibrium(tyre, rest, rest.u, rise, None)
+            if state.force_n <= 0.9 * first_load_n:
+                return state
+        except _NoEquilibrium:
+            if rise < SMALLEST_RISE_MM:
+                raise
         rise /= 2.0
 
 
@@ -164,10 +168,11 @@ def _equilibrium(
         u, rise = step, change
     if outside := tyre.spokes.outside(spoke_coordinates(tyre.ring, u)):
         raise _NoEquilibrium(outside, outside=True)
-    x, pressure, shear = tyre.traction(u, rise, last.anchor)
-    rest = np.where(pressure > 0.0, shear / tyre.contact.tangential_mpa_per_mm, 0.0)
-    force = float(np.sum(pressure * tyre.areas_mm2())) if load_n is None else load_n
-    return RingState(u, rise, force, x - rest, last.anchor, count)
+    force = load_n
+    if force is None:
+        pressure = tyre.traction(u, rise, last.anchor)[1]
+        force = float(np.sum(pressure * tyre.areas_mm2()))
+    return RingState(u, rise, force, tyre.anchors(u, rise, last.anchor), last.anchor, count)
 
 
 def _iterates(

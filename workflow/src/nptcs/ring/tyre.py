@@ -71,6 +71,16 @@ class RingTyre:
         pressure, _, shear, _, _ = elementwise.traction(self.ring.dimensions, depth, x - anchor)
         return x, pressure, shear
 
+    def anchors(self, u: Array, rise_mm: float, anchor: Array) -> Array:
+        """Place (nodes,) at which each element's surface rests after a converged state.
+
+        Off the ground it forgets: there it rests where it is.
+        """
+        x, pressure, shear = self.traction(u, rise_mm, anchor)
+        rest = np.where(pressure > 0.0, shear / self.contact.tangential_mpa_per_mm, 0.0)
+        placed: Array = x - rest
+        return placed
+
     def spoke_motion(self, u: Array) -> Array:
         """(u_r, u_θ, φ) of each spoke's foot, array (spokes, 3)."""
         feet = self.ring.feet

@@ -23,6 +23,7 @@ MODULES = {
     "fe_tyre": "nptcs.solvers.fe_tyre",
     "lca": "nptcs.solvers.lca",
     "published": "nptcs.solvers.published",
+    "ring": "nptcs.solvers.ring",
 }
 """Solvers of this package: a name and the module that defines ``SOLVER``."""
 
