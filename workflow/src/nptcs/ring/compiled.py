@@ -4,7 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib.util import find_spec
-from typing import TypeVar
+from typing import Literal, TypeVar
+
+Kernel = Literal["numpy", "numba"]
+"""What computes an iterate; both give the same numbers up to rounding."""
 
 Function = TypeVar("Function", bound=Callable[..., object])
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from types import ModuleType
-from typing import Literal
 
 import numpy as np
 
@@ -14,13 +13,13 @@ from nptcs.config.ring import RingOptions
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring import elementwise, numpy_kernel
-from nptcs.ring.compiled import HAS_NUMBA
+from nptcs.ring.compiled import HAS_NUMBA, Kernel
 from nptcs.ring.nodes import RingNodes, ring_nodes
 from nptcs.ring.section import RingSection, Rubber, ring_section
 from nptcs.ring.spokes import SpokePolynomial
 from nptcs.ring.system import Ring
 
-Kernel = Literal["numpy", "numba"]
+HEIGHT_TOLERANCE = 0.005
 
 
 @dataclass(frozen=True)
@@ -134,13 +133,15 @@ def ring_tyre(
     Raises
     ------
     ValueError
-        If the dimensions contradict each other (see `ring_section`).
+        If the dimensions contradict each other (see `ring_section`), or the table's spokes do not
+        fit between rim and band.
     """
     ratio = options.bulk_to_shear_ratio
     tread = band_c10_mpa if tread_c10_mpa is None else tread_c10_mpa
     section = ring_section(
         tyre, Rubber(band_c10_mpa, ratio), Rubber(tread, ratio), options.wire_row_depth_mm
     )
+    _check_spokes(tyre, section, table)
     nodes = ring_nodes(options.mesh, section, tyre.spoke_count)
     spokes = SpokePolynomial.of_table(table, spoke_factor)
     return RingTyre(
@@ -151,6 +152,17 @@ def ring_tyre(
         _arrays(section, nodes, spokes, options.contact),
         _kernel(kernel),
     )
+
+
+def _check_spokes(tyre: TyreGeometry, section: RingSection, table: SpokeEnergyTable) -> None:
+    """Refuse spokes that do not reach from the rim to the band."""
+    inner = section.radius_mm - section.half_distance_mm - section.foot_mm
+    room = inner - tyre.rim_diameter_mm / 2.0
+    if abs(room - table.height_mm) > HEIGHT_TOLERANCE * table.height_mm:
+        raise ValueError(
+            f"the spokes of this table are {table.height_mm:g} mm high, the room between rim and "
+            f"band is {room:g} mm"
+        )
 
 
 def _kernel(name: Kernel | None) -> ModuleType:
