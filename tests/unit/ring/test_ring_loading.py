@@ -156,7 +156,7 @@ def test_the_adjoint_is_the_derivative_of_the_whole_path(table):
     start = np.array([5.0, 1.0, 646.8, 4.0, 626.5])
     found = stiffness_gradient(build, start, LOADS)
     assert found.stiffness_n_per_mm == pytest.approx(LOADS[-1] / found.displacement_mm)
-    for place, step in enumerate((1e-3, 1e-3, 1e-2, 1e-3, 1e-2)):
+    for place, step in enumerate((1e-3, 1e-3, 1e-3, 1e-3, 1e-3)):
         ends = []
         for sign in (1, -1):
             moved = start.copy()

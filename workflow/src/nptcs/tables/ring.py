@@ -11,10 +11,8 @@ which, and the numbers are empty. ``diverged``: no equilibrium was found."""
 
 
 class RingResults(pa.DataFrameModel):
-    """Results of designs on the sandwich ring, one row per design; other columns are kept."""
+    """Results of designs on the sandwich ring, one row per design next to the design's own columns."""
 
-    shear_band_c10_mpa: Series[float] = pa.Field(nullable=True)
-    load_n: Series[float] = pa.Field(nullable=True)
     displacement_mm: Series[float] = pa.Field(gt=0, nullable=True)
     displacement_standard_error_mm: Series[float] = pa.Field(
         ge=0, nullable=True, description="From the surrogate of the spoke; 0 for a computed table"
