@@ -2,11 +2,13 @@ import importlib.util
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.decks.abaqus.deck import tyre_deck
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 CASE = {
@@ -77,3 +79,24 @@ def small_deck(reader):
         return reader.read_deck(tyre_deck(model, tyre, PUBLISHED_PLY, values, load_n, "small"))
 
     return make
+
+
+@pytest.fixture(scope="session")
+def springs():
+    """Springs in place of a spoke."""
+    return spring_table
+
+
+def spring_table(k_r=20.0, k_theta=1.0, k_phi=3000.0, low=-40.0, height=84.1):
+    """Springs as a table: E = k_r s²/2 + k_θ (H β)²/2 + k_φ φ²/2, in Chebyshev terms."""
+    limits = np.array([[low, -low], [-0.3, 0.3], [-0.3, 0.3]])
+    exponents, coefficients = [(0, 0, 0)], [0.0]
+    for axis, k in enumerate((k_r, height**2 * k_theta, k_phi)):
+        # x² = (T2 + 1)/2
+        scale = 0.5 * k * limits[axis, 1] ** 2 / 2.0
+        exponents.append(tuple(2 * int(i == axis) for i in range(3)))
+        coefficients.append(scale)
+        coefficients[0] += scale
+    return SpokeEnergyTable(
+        height, limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 1.0, 0.0
+    )

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, get_args
+
+from nptcs.config.fe import RingKind
 
 if TYPE_CHECKING:
     import pandas
@@ -30,7 +33,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="fit the finite element spoke's section to published stiffness",
         description="Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
         "and 5) and to at most five named cases of table 5. Prints what each round gives against "
-        "what was asked for, and the section as JSON for solvers.fe_tyre.geometry.",
+        "what was asked for, and ring and section as JSON for the options of fe_tyre and fe_spoke.",
     )
     parser.add_argument("table10", metavar="TABLE10.csv", help="spoke stiffness")
     parser.add_argument("table5", metavar="TABLE5.csv", help="tyre stiffness by plate")
@@ -47,6 +50,16 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--spoke-c10", type=float, default=1.04, help="spokes' C10 in table 5, which does not say"
     )
+    parser.add_argument(
+        "--ring",
+        choices=get_args(RingKind),
+        default="converged",
+        help="ring of the tyres; the section makes up for it and belongs to it (default: "
+        "%(default)s)",
+    )
+    parser.add_argument(
+        "--spoke-cache", type=Path, help="folder in which runs share the tables of equal spokes"
+    )
     parser.set_defaults(run=run)
 
 
@@ -58,7 +71,7 @@ def run(arguments: argparse.Namespace) -> int:
     model = calibrate(
         problem, arguments.rounds, arguments.workers, lambda state: _report(problem, state)
     )
-    print(model.geometry.model_dump_json(indent=2))
+    print(model.model_dump_json(include={"ring", "geometry"}, indent=2))
     return 0
 
 
@@ -70,6 +83,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     InputError
         If a table lacks a column or a case, or more than five cases are named.
     """
+    from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.errors import InputError
     from nptcs.fe.calibration import START, Problem, SpokeTarget, TyreTarget
@@ -99,8 +113,9 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
     k_t, k_c = (spokes[name].astype(float).to_dict() for name in COLUMNS["table10"][1:])
     rubbers = {"shear_band_c10_mpa": arguments.band_c10, "spoke_c10_mpa": arguments.spoke_c10}
+    start = START.model_copy(update={"calibrated_with": arguments.ring})
     return Problem(
-        START,
+        FeModel(ring=arguments.ring).model_copy(update={"geometry": start}),
         TyreGeometry(),
         PUBLISHED_PLY,
         tuple(
@@ -119,6 +134,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
             for case in arguments.cases
         ),
         5000.0,
+        arguments.spoke_cache,
     )
 
 

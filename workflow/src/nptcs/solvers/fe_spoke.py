@@ -50,7 +50,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
 
 SOLVER = Solver(
     name="fe_spoke",
-    version="1",
+    version="2",
     solve=solve,
     factors=SPOKE_FACTORS,
     required=SPOKE_FACTORS,

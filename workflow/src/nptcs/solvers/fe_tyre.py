@@ -97,7 +97,7 @@ def _summary(tyre: TyreModel, state: TyreState) -> dict[str, float]:
 
 SOLVER = Solver(
     name="fe_tyre",
-    version="2",
+    version="3",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,

@@ -21,6 +21,7 @@ MODULES = {
     "calculix": "nptcs.solvers.calculix",
     "fe_spoke": "nptcs.solvers.fe_spoke",
     "fe_tyre": "nptcs.solvers.fe_tyre",
+    "fe_tyre_paper": "nptcs.solvers.fe_tyre_paper",
     "lca": "nptcs.solvers.lca",
     "published": "nptcs.solvers.published",
     "ring": "nptcs.solvers.ring",
