@@ -12,7 +12,8 @@ from nptcs.ring.cyclic_elimination import eliminate
 from nptcs.ring.tyre import ring_tyre
 
 COARSE = RingOptions(
-    mesh=RingMesh(elements_per_pitch=1, refined_deg=7, refinement=2), bulk_to_shear_ratio=10
+    mesh=RingMesh(elements_per_pitch=1, refined_deg=7, refinement=2),
+    contact=GroundContact(penalty_mpa_per_mm=50.0, smoothing_mm=0.1),
 )
 RISE = 4.0
 

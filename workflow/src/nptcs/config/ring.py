@@ -3,11 +3,18 @@
 from __future__ import annotations
 
 from math import inf
+from typing import Literal, assert_never
 
 from pydantic import Field
 
 from nptcs.config.base import Strict
-from nptcs.config.fe import EnergyTableOptions, FeSpokeModel, GroundContact
+from nptcs.config.fe import (
+    AXIAL_BULK_TO_SHEAR,
+    AxialFreedom,
+    EnergyTableOptions,
+    FeSpokeModel,
+    GroundContact,
+)
 
 
 class RingMesh(Strict):
@@ -30,23 +37,35 @@ class RingOptions(Strict):
 
     mesh: RingMesh = Field(default_factory=RingMesh, description="Elements of the ring")
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
-    wire_row_depth_mm: float = Field(
+    axial: AxialFreedom = Field(
+        "free_edges",
+        description="Freedom of band and tread along the axis, as in `fe_tyre`. free_edges: of a "
+        "tyre as wide as the paper's; plane_strain: none, incompressible",
+    )
+    wire_row_mm: float = Field(
         0.05,
         ge=0,
         description="Depth of rubber around each layer of wires that turns with them and does not "
-        "shear",
+        "shear, as in the mesh of `fe_tyre`",
     )
-    bulk_to_shear_ratio: float = Field(
-        inf,
-        ge=3,
-        description="κ/2C10 of band and tread in plane strain; .inf is incompressible. 10 does "
-        "what the free edges of a band 215 mm wide do",
-    )
+
+    def band_bulk_to_shear(self) -> float:
+        """Return κ/2C10 of band and tread."""
+        match self.axial:
+            case "free_edges":
+                return AXIAL_BULK_TO_SHEAR
+            case "plane_strain":
+                return inf
+            case _:
+                assert_never(self.axial)
 
 
 class RingModel(FeSpokeModel, RingOptions):
     """Everything of the ring and of the finite element spokes under it that no case varies."""
 
+    ring: Literal["converged"] = Field(
+        "converged", description="Section of the spoke: the one calibrated with the converged ring"
+    )
     table: EnergyTableOptions = Field(
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
     )

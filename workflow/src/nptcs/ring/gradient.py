@@ -21,7 +21,8 @@ from nptcs.ring.solution import RingState, load
 from nptcs.ring.system import System
 from nptcs.ring.tyre import RingTyre
 
-RELATIVE_STEP = 1e-4
+# short against the depth over which the pressure of the ground sets in, long against rounding
+RELATIVE_STEP = 2e-7
 
 
 @dataclass(frozen=True)

@@ -136,10 +136,10 @@ def ring_tyre(
         If the dimensions contradict each other (see `ring_section`), or the table's spokes do not
         fit between rim and band.
     """
-    ratio = options.bulk_to_shear_ratio
+    ratio = options.band_bulk_to_shear()
     tread = band_c10_mpa if tread_c10_mpa is None else tread_c10_mpa
     section = ring_section(
-        tyre, Rubber(band_c10_mpa, ratio), Rubber(tread, ratio), options.wire_row_depth_mm
+        tyre, Rubber(band_c10_mpa, ratio), Rubber(tread, ratio), options.wire_row_mm
     )
     _check_spokes(tyre, section, table)
     nodes = ring_nodes(options.mesh, section, tyre.spoke_count)
