@@ -216,7 +216,7 @@ def _slopes(problem: Problem, free: Array, mapper: Mapper) -> Array:
     _, high = _limits()
     steps = np.where(free + STEP > high, -STEP, STEP)
     points = [free, *(free + np.diag(steps))]
-    targets = [*problem.spokes, *problem.tyres]
+    targets: list[SpokeTarget | TyreTarget] = [*problem.spokes, *problem.tyres]
     jobs = [(point, target.values) for target in targets for point in points]
     found = np.array(list(mapper(partial(_spoke_job, problem), jobs)))
     found = found.reshape(len(targets), len(points), 2)

@@ -156,7 +156,7 @@ def _paper_ring(tyre: TyreGeometry, mesh: PaperMesh, foot_width_mm: float) -> Ri
     inner, outer = band_radii(tyre)
     outside, columns = tyre.outer_diameter_mm / 2.0, mesh.around
     radii = np.array([inner, (inner + outer) / 2.0, outer, (outer + outside) / 2.0, outside])
-    theta = 2.0 * np.pi / columns * np.arange(columns)
+    theta: Array = 2.0 * np.pi / columns * np.arange(columns, dtype=float)
     rows = len(radii)
     spoke_angle = np.radians(mesh.first_spoke_deg)
     spoke_angle = spoke_angle + 2.0 * np.pi / tyre.spoke_count * np.arange(tyre.spoke_count)
