@@ -39,8 +39,8 @@ DIMENSIONS = (
     "wire_modulus_mpa",
     "wire_poisson_ratio",
 )
-"""Fields of `TyreGeometry` that a design may vary. The width is not among them, since a spoke's table
-is of a spoke as wide as its tyre."""
+"""Fields of `TyreGeometry` that a design may vary. The width is not among them: a spoke's table is of
+a spoke as wide as its tyre."""
 NUMBERS = (
     "displacement_mm",
     "displacement_standard_error_mm",
@@ -184,7 +184,7 @@ def _solve_rows(
 def _solve_row(
     row: Row, spokes: SpokeSource, tyre: TyreGeometry, options: RingOptions, kernel: Kernel | None
 ) -> dict[str, Any]:
-    """Result of one design; what fails is a status and a message."""
+    """Give the result of one design; what fails is a status and a message."""
     try:
         numbers = _numbers(row)
         load_n = numbers["load_n"]

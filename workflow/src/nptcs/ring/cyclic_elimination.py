@@ -5,7 +5,6 @@ Node after node is eliminated; the last one, which closes the circle, meets all 
 
 from __future__ import annotations
 
-
 import numpy as np
 
 from nptcs.arrays import Array

@@ -62,9 +62,7 @@ def band_energy(c: Value, h: Value, angle: Value, length: Value, m: Value, d: Va
 
 
 @compilable
-def along_tangent(
-    c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: Value
-) -> None:
+def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: Value) -> None:
     """Set the derivatives (4) and (4, 4) of the energy by (e, κs, κf, s'), per length."""
     for i in range(ALONG):
         stress[i] = 0.0
@@ -319,7 +317,9 @@ def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Valu
 
 
 @compilable
-def line_coordinates(height: Value, motion: Value) -> tuple[Value, Value, Value, Value, Value, Value]:
+def line_coordinates(
+    height: Value, motion: Value
+) -> tuple[Value, Value, Value, Value, Value, Value]:
     """Give (s, β, φ) of `fe.spoke.coordinates`, and the line's length, cosine and sine."""
     radial, along = height + motion[0], motion[1]
     length = np.sqrt(radial * radial + along * along)

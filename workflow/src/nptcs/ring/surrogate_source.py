@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring.gradient import displacement_slopes
 from nptcs.ring.solution import RingState
 from nptcs.ring.spokes import SpokePolynomial
 from nptcs.ring.surrogate import DESIGN, PredictedTable, SpokeSurrogate
 from nptcs.ring.tyre import RingTyre
-from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 
 
 class PredictedSpokes:

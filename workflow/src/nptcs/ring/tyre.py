@@ -182,9 +182,7 @@ def _arrays(
     w[elementwise.FOOT] = section.foot_mm
     w[elementwise.OUTER] = section.outer_radius_mm
     # an element's surface is longer than its chord by the ratio of the radii
-    w[elementwise.AREA_PER_LENGTH] = (
-        section.width_mm * section.outer_radius_mm / section.radius_mm
-    )
+    w[elementwise.AREA_PER_LENGTH] = section.width_mm * section.outer_radius_mm / section.radius_mm
     w[elementwise.GROW_SECTION : elementwise.GROW_SHEAR + 1] = section.thickening
     w[elementwise.STIFF] = contact.penalty_mpa_per_mm
     w[elementwise.SMOOTH] = contact.smoothing_mm

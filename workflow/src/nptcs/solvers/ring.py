@@ -71,9 +71,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
     try:
         states = load(tyre, loads.tolist())
     except RingError as error:
-        return SolverResult(
-            status=Status.DIVERGED, message=str(error), curve=_curve(error.states)
-        )
+        return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
     return SolverResult(
         status=Status.OK,
