@@ -20,7 +20,7 @@ from nptcs.arrays import Array
 from nptcs.config.fe import FeModel, SpokeGeometry
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
-from nptcs.fe.spoke.cache import shared_table
+from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.fe.tyre.equilibrium import TyreError

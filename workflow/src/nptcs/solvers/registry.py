@@ -24,6 +24,7 @@ MODULES = {
     "fe_tyre_paper": "nptcs.solvers.fe_tyre_paper",
     "lca": "nptcs.solvers.lca",
     "published": "nptcs.solvers.published",
+    "ring": "nptcs.solvers.ring",
 }
 """Solvers of this package: a name and the module that defines ``SOLVER``."""
 
