@@ -19,12 +19,12 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from nptcs.fe.spoke.cache import shared_table
 
 from nptcs.config.fe import FeModel, TyreMesh
 from nptcs.config.ring import RingOptions
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design, tyre_model
+from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.tyre.equilibrium import TyreError
 from nptcs.ring.responses import contact_length_mm, responses

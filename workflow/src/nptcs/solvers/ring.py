@@ -12,7 +12,7 @@ from nptcs.config.fe import FeModel
 from nptcs.config.ring import RingModel
 from nptcs.errors import InputError
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke.cache import shared_table
+from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeError
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
@@ -107,4 +107,5 @@ SOLVER = Solver(
     required=TYRE_FACTORS,
     options=RingSolverOptions,
     needs_ply=True,
+    about="the tyre as a sandwich ring on the energies of finite element spokes",
 )
