@@ -9,7 +9,8 @@ from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMes
 from nptcs.fe.spoke.cache import read_table, shared_table, table_key
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 OPTIONS = EnergyTableOptions(

@@ -9,8 +9,10 @@ from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel, FeSpokeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.spoke.energy_table import SpokeEnergyTable, fit, sample
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable, fit
+from nptcs.fe.spoke.equilibrium import SpokeFields, SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.fe.spoke.sampling import Corrections, Place, no_correction, sampled_states, samples_of
 from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
 
 
@@ -43,10 +45,34 @@ def spoke_design(
     )
 
 
-@threadpool_limits.wrap(limits=1)
 def energy_table(model: FeModel, design: SpokeDesign) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
-    return fit(sample(SpokeModel(design), model.table), model.table, design.geometry.height_mm)
+    return table_with_corrections(model, design, no_correction)[0]
+
+
+@threadpool_limits.wrap(limits=1)
+def table_with_corrections(
+    model: FeModel, design: SpokeDesign, corrections: Corrections
+) -> tuple[SpokeEnergyTable, dict[Place, SpokeFields]]:
+    """Compute the energy table of one spoke, and what may help to compute that of another.
+
+    Parameters
+    ----------
+    model : FeModel
+    design : SpokeDesign
+    corrections : callable
+        Of the place of a state in the table's grid, see `sampled_states`.
+
+    Returns
+    -------
+    table : SpokeEnergyTable
+    corrections : dict of place to SpokeFields
+        This spoke's own.
+    """
+    height_mm = design.geometry.height_mm
+    spoke = SpokeModel(design, model.table.accepted_work)
+    sampled = sampled_states(spoke, model.table, corrections)
+    return fit(samples_of(sampled.states, height_mm), model.table, height_mm), sampled.corrections
 
 
 def tyre_model(
