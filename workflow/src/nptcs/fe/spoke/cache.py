@@ -8,12 +8,13 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import EnergyTableOptions, FeModel
-from nptcs.fe.case import energy_table, table_with_corrections
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.neighbours import CorrectionsFolder
 from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.fe.spoke.sampling import computed_table
 from nptcs.fe.spoke.stored import read_arrays, write_arrays
 from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash
@@ -24,7 +25,7 @@ KIND = "energy table of a spoke 2"
 def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
     """SHA-256 over everything that a spoke's table depends on."""
     content: dict[str, Any] = {
-        "code": code_hash("nptcs.fe.case"),
+        "code": code_hash("nptcs.fe.spoke.sampling"),
         "design": {
             **asdict(design),
             "geometry": design.geometry.model_dump(),
@@ -35,6 +36,7 @@ def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
     return sha256_of_text(json.dumps(content, sort_keys=True))
 
 
+@threadpool_limits.wrap(limits=1)
 def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeEnergyTable:
     """Read a spoke's table from the folder, or compute it and leave it there.
 
@@ -51,14 +53,14 @@ def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> Sp
         None computes without keeping.
     """
     if folder is None:
-        return energy_table(model, design)
+        return computed_table(design, model.table)[0]
     key = table_key(design, model.table)
     path = folder / f"{key}.npz"
     known = read_table(path, key)
     if known is not None:
         return known
     kept = CorrectionsFolder(folder, design, model.table)
-    table, corrections = table_with_corrections(model, design, kept.neighbours().correction)
+    table, corrections = computed_table(design, model.table, kept.neighbours().correction)
     write_table(path, key, table)
     kept.keep(corrections)
     return table

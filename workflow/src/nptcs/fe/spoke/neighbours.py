@@ -124,7 +124,7 @@ def site_of(design: SpokeDesign) -> Array:
 
 
 class CorrectionsFolder:
-    """Folder with the corrections of spokes of one kind: same section, mesh, ply and grid of states.
+    """Corrections of the spokes of one kind: the same section, mesh, ply and grid of states.
 
     Parameters
     ----------
@@ -137,7 +137,7 @@ class CorrectionsFolder:
     def __init__(self, folder: Path, design: SpokeDesign, options: EnergyTableOptions) -> None:
         own = {"pitch_mm", "plates", "thickness_mm", "angle_deg", "c10_mpa"}
         content = {
-            "code": code_hash("nptcs.fe.case"),
+            "code": code_hash("nptcs.fe.spoke.sampling"),
             "design": {key: value for key, value in asdict(design).items() if key not in own}
             | {"geometry": design.geometry.model_dump(), "mesh": design.mesh.model_dump()},
             "options": options.model_dump(),

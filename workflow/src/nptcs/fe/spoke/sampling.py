@@ -11,8 +11,15 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.fe import EnergyTableOptions
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
-from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, side_part
+from nptcs.fe.spoke.energy_table import (
+    SpokeEnergyTable,
+    SpokeSamples,
+    chebyshev_nodes,
+    fit,
+    side_part,
+)
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeFields, SpokeModel, SpokeState
+from nptcs.fe.spoke.period import SpokeDesign
 
 # numbers of the row (β, φ) and of the level of s
 Place = tuple[int, int]
@@ -185,3 +192,26 @@ def samples_of(states: Mapping[Place, SpokeState], height_mm: float) -> SpokeSam
 def sample(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
     """Sample a spoke for its table, see `sampled_states`."""
     return samples_of(sampled_states(model, options).states, model.design.geometry.height_mm)
+
+
+def computed_table(
+    design: SpokeDesign, options: EnergyTableOptions, corrections: Corrections = no_correction
+) -> tuple[SpokeEnergyTable, dict[Place, SpokeFields]]:
+    """Compute the energy table of one spoke, and what may help to compute that of another.
+
+    Parameters
+    ----------
+    design : SpokeDesign
+    options : EnergyTableOptions
+    corrections : callable
+        Of the place of a state in the table's grid, see `sampled_states`.
+
+    Returns
+    -------
+    table : SpokeEnergyTable
+    corrections : dict of place to SpokeFields
+        This spoke's own.
+    """
+    height_mm = design.geometry.height_mm
+    sampled = sampled_states(SpokeModel(design, options.accepted_work), options, corrections)
+    return fit(samples_of(sampled.states, height_mm), options, height_mm), sampled.corrections

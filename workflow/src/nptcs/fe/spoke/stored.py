@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import io
 import struct
 import zlib
 from collections.abc import Mapping
@@ -61,7 +62,7 @@ def read_arrays(path: Path, kind: str) -> dict[str, Array] | None:
         number that is not finite.
     """
     try:
-        with np.load(path, allow_pickle=False) as data:
+        with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:
             arrays = {name: np.asarray(data[name]) for name in data.files}
         labels = str(arrays.pop(KIND)), str(arrays.pop(CHECKSUM))
         sound = labels == (kind, _checksum(kind, arrays))

@@ -62,7 +62,9 @@ class Ground:
         points, weights = np.polynomial.legendre.leggauss(EDGE_POINTS)
         self._shape, slope = line_shape(2, points)
         tangent = np.einsum("gn,eni->egi", slope, positions[edges])
-        self._area = np.linalg.norm(tangent, axis=2) * weights * width_mm
+        length = np.linalg.norm(tangent, axis=2) * weights
+        self.point_length_mm = length.ravel()
+        self._area = length * width_mm
         self._edges = edges
         self._options = options
         self._place = np.einsum("gn,eni->egi", self._shape, positions[edges])
