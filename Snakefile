@@ -1,4 +1,4 @@
-# From raw test files to the report. What depends on what is in workflow/rules, a file a stage.
+# From raw test files to the report. What depends on what is in workflow/rules, one file per stage.
 from snakemake.utils import min_version
 
 min_version("9.0")
@@ -15,7 +15,6 @@ include: "workflow/rules/design.smk"
 include: "workflow/rules/solve.smk"
 include: "workflow/rules/surface.smk"
 include: "workflow/rules/compare.smk"
-include: "workflow/rules/validate.smk"
 include: "workflow/rules/report.smk"
 
 

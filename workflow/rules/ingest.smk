@@ -1,4 +1,4 @@
-# Raw files → one tidy curve a specimen, and an account of every file in the folder.
+# Raw files → one tidy curve per specimen, and an account of every file in the folder.
 from nptcs.ingest.folder import find_file, raw_files
 
 
@@ -47,8 +47,8 @@ rule ingest:
 
 rule account:
     input:
+        [str(path) for path in raw_files(SHEET.parent).values() if path != SHEET],
         sheet=str(SHEET),
-        files=[str(path) for path in raw_files(SHEET.parent).values() if path != SHEET],
         records=records(SPECIMENS),
     output:
         files="results/tables/files.csv",

@@ -4,9 +4,12 @@
 def surface_job(wildcards):
     study = CONFIG.study(wildcards.study)
     return {
-        "study": study.model_dump(
-            mode="json", include={"name", "factors", "solvers", "terms"}
-        ),
+        "fit": {
+            "study": study.name,
+            "factors": [factor.name for factor in study.factors],
+            "solvers": list(study.solvers),
+            "terms": list(study.terms),
+        },
         "code": code_of("surface"),
     }
 
@@ -37,7 +40,7 @@ rule sensitivity:
     input:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         designs=expand("results/4_design/{study}.csv", study=SURFACE_STUDIES),
-        quality=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
+        qualities=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
         published=(
             [CONFIG.sensitivity.published_impact]
             if CONFIG.sensitivity.published_impact
@@ -50,7 +53,6 @@ rule sensitivity:
         "results/logs/sensitivity.log",
     params:
         job={
-            "studies": SURFACE_STUDIES,
             "rules": list(CONFIG.sensitivity.rules),
             "code": code_of("sensitivity"),
         },

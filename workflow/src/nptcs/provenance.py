@@ -54,7 +54,7 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
     waiting = [_file(module) for module in modules]
     if None in waiting:
         missing = modules[waiting.index(None)]
-        raise ModuleNotFoundError(f"{missing} is no module of {PACKAGE} and no file")
+        raise ModuleNotFoundError(f"{missing} is neither a module of {PACKAGE} nor a file")
     while waiting:
         file = waiting.pop()
         if file is None or file in found:

@@ -20,7 +20,7 @@ from nptcs.solvers.registry import load, read_options
 
 
 def solve(job: CaseJob) -> SolverResult:
-    """Solve a case; whatever the solver raises becomes a result with status ``error``."""
+    """Solve a case; a solver that raises or leaves a response out gives status ``error``."""
     try:
         solver = load(job.module)
         inputs = CaseInputs(
@@ -32,7 +32,13 @@ def solve(job: CaseJob) -> SolverResult:
             ply=job.ply,
             tables=job.tables,
         )
-        return SolverResult.model_validate(solver.solve(inputs))
+        result = SolverResult.model_validate(solver.solve(inputs))
+        if missing := solver.missing_responses(result):
+            return SolverResult(
+                status=Status.ERROR,
+                message=f"solver '{solver.name}' says ok but gives no {', '.join(missing)}",
+            )
+        return result
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
         where = traceback.extract_tb(error.__traceback__)[-1]
         file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open

@@ -1,4 +1,4 @@
-"""The published results beside ours: table 11, the loads of figure 15, the FE values of table 7.
+"""The load-bearing model compared with table 11, the loads of figure 15 and table 7's FE values.
 
 Published numbers come in as tables. Of figure 15's FE results the paper prints no numbers but the
 largest error of its model at each load, so away from table 11's load ours can stand beside that
@@ -28,7 +28,7 @@ _COMPARED = {
     "stiffness_n_per_mm": "lca_stiffness_n_per_mm",
 }
 """Our column → column of table 11."""
-_OURS_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
+_COMPUTED_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
 
 
 def _solve_cases(
@@ -53,9 +53,9 @@ def _solve_cases(
     return solved.assign(contact_length_mm=2 * designs["radius_mm"] * angle)
 
 
-def _percent(ours: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
+def _percent(computed: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
     """Difference of ours from the published value, in percent of the latter."""
-    return 100 * (ours / published - 1)
+    return 100 * (computed / published - 1)
 
 
 def lca_validation(
@@ -97,22 +97,22 @@ def lca_validation(
         solved = _solve_cases(
             cases.assign(shear_band_c10_mpa=shear_band_c10_mpa), spoke_table, tyre, section
         )
-        part = pd.concat([cases, solved[[*_COMPARED, *_OURS_ALONE]]], axis=1)
+        part = pd.concat([cases, solved[[*_COMPARED, *_COMPUTED_ALONE]]], axis=1)
         part.insert(0, "section", section)
         parts.append(part)
-    compared = _beside_table_11(pd.concat(parts, ignore_index=True), table_11)
+    compared = _with_table_11(pd.concat(parts, ignore_index=True), table_11)
     last = "published_largest_error_percent"
     return compared[[*compared.columns.drop(last), last]]
 
 
-def _beside_table_11(ours: pd.DataFrame, table_11: pd.DataFrame) -> pd.DataFrame:
+def _with_table_11(computed: pd.DataFrame, table_11: pd.DataFrame) -> pd.DataFrame:
     """Join table 11 where C10 and load agree, and take the differences."""
-    names = {theirs: f"published_{name}" for name, theirs in _COMPARED.items()}
+    names = {column: f"published_{name}" for name, column in _COMPARED.items()}
     names["fem_stiffness_n_per_mm"] = "published_fem_stiffness_n_per_mm"
     published = table_11.rename(columns=names | {"lca_force_n": "load_n"})
     keys = ["spoke_c10_mpa", "load_n"]
     published = published[[*keys, *names.values()]].astype(float)
-    joined = ours.merge(published, on=keys, how="left", validate="many_to_one")
+    joined = computed.merge(published, on=keys, how="left", validate="many_to_one")
     for name in _COMPARED:
         quantity = name.removesuffix("_deg").removesuffix("_mm").removesuffix("_n_per_mm")
         quantity = "stiffness" if name == "stiffness_n_per_mm" else quantity
@@ -132,7 +132,7 @@ def lca_against_fem(
     sections: Sequence[str] = SECTION_KINDS,
     load_n: float = 5000.0,
 ) -> pd.DataFrame:
-    """Return the model beside the FE stiffness of table 7 (`LcaAgainstFem`).
+    """Compare the model with the FE stiffness of table 7 (`LcaAgainstFem`).
 
     Parameters
     ----------

@@ -137,6 +137,7 @@ SOLVER = Solver(
     version="3",
     solve=solve,
     factors=TYRE_FACTORS,
+    about="the tyre on 60 spoke super-elements, pressed on a rigid plane",
     required=TYRE_FACTORS,
     options=FeTyreOptions,
     needs_ply=True,

@@ -162,6 +162,6 @@ def _check_calibration_cases(study: Study, tyres: Set[str]) -> None:
             "calibration cases have no effect where no stiffness is compared with the paper's",
             column=f"studies.{study.name}.calibration_cases",
             value=", ".join(stray),
-            remedy="run the solver 'published' in this study beside these solvers of tyres, or "
+            remedy="run the solver 'published' in this study as well as these solvers of tyres, or "
             "leave the key out",
         )

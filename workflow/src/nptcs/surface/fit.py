@@ -88,7 +88,7 @@ def fit(
     Parameters
     ----------
     design : DataFrame
-        One row a case, a column for each factor, natural units.
+        One row per case, one column per factor, natural units.
     response : Series
         The response of each case, without gaps.
     factors : sequence of str

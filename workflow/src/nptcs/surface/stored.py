@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from pathlib import Path
 
 import numpy as np
 
@@ -29,6 +30,11 @@ def dump(surfaces: Mapping[str, Surface]) -> str:
         for solver, surface in surfaces.items()
     }
     return json.dumps(content, indent=1)
+
+
+def read_surfaces(path: str | Path) -> dict[str, Surface]:
+    """Read a file of surfaces, by the name of their solver."""
+    return load(Path(path).read_text(encoding="utf-8"))
 
 
 def load(text: str) -> dict[str, Surface]:

@@ -14,7 +14,7 @@ from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 def surface_table(
     surfaces: Mapping[str, Surface], published: Mapping[tuple[int, ...], float]
 ) -> pd.DataFrame:
-    """Lay the surfaces of a study, by solver, out as `SurfaceTable`.
+    """Write the surfaces of a study, by solver, as `SurfaceTable`.
 
     `published` maps the powers of a term to the coefficient that the paper prints.
     """
@@ -36,7 +36,7 @@ def surface_table(
 
 
 def quality_table(study: str, quality: Mapping[str, Mapping[str, float]]) -> pd.DataFrame:
-    """Lay the quality of a study's surfaces, by solver, out as `SurfaceQuality`."""
+    """Write the quality of a study's surfaces, by solver, as `SurfaceQuality`."""
     rows = [
         {
             "study": study,

@@ -5,11 +5,13 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.status import Status
+
 RESPONSES = ("vertical_stiffness_n_per_mm", "displacement_mm")
 
 
 class Design(pa.DataFrameModel):
-    """A design table: a row a case, then a column for each factor and each fixed value."""
+    """A design table: one row per case, then a column for each factor and each fixed value."""
 
     case_id: Series[str] = pa.Field(unique=True)
     case: Series[int] = pa.Field(ge=1, unique=True)
@@ -22,12 +24,12 @@ class Design(pa.DataFrameModel):
 
 
 class Cases(pa.DataFrameModel):
-    """``cases.csv``: how each case ended; factors and further responses stand to the right."""
+    """``cases.csv``: how each case ended; factors and further responses are to the right."""
 
     study: Series[str]
     case_id: Series[str]
     solver: Series[str]
-    status: Series[str] = pa.Field(isin=["ok", "diverged", "timeout", "licence", "error"])
+    status: Series[str] = pa.Field(isin=list(Status))
     message: Series[str]
     load_n: Series[float] = pa.Field(nullable=True, gt=0, description="Empty for single spokes")
     vertical_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)

@@ -1,12 +1,14 @@
-"""Contracts of the computed stiffness beside the published one: tables 5 and 7 of the paper."""
+"""Contracts that compare computed with published stiffness: tables 5 and 7 of the paper."""
 
 from __future__ import annotations
 
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.status import Status
+
 PUBLISHED = "published"
-"""The solver whose results the others stand beside."""
+"""The solver with whose results the others are compared."""
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
 COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (
@@ -17,9 +19,9 @@ COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (
 
 
 class StiffnessAgainstPublished(pa.DataFrameModel):
-    """Computed vertical stiffness beside the published one, a row a case and solver.
+    """Computed and published vertical stiffness, one row per case and solver.
 
-    Factors and fixed values stand to the right, as in ``cases.csv``. A case that failed is a row
+    Factors and fixed values are to the right, as in ``cases.csv``. A case that failed is a row
     with its status and without a computed value.
     """
 
@@ -27,7 +29,7 @@ class StiffnessAgainstPublished(pa.DataFrameModel):
     case_id: Series[str]
     case: Series[int] = pa.Field(ge=1, description="Number in the study")
     solver: Series[str]
-    status: Series[str] = pa.Field(description="Of the computed case")
+    status: Series[str] = pa.Field(isin=list(Status), description="Of the computed case")
     computed_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)
     published_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)
     difference_percent: Series[float] = pa.Field(
@@ -48,7 +50,7 @@ class StiffnessAgainstPublished(pa.DataFrameModel):
 class StiffnessErrors(pa.DataFrameModel):
     """Differences of ``stiffness_against_published.csv`` summed up for each study and solver.
 
-    Blind cases stand apart from those on which the solver was calibrated.
+    Blind cases are apart from those on which the solver was calibrated.
     """
 
     study: Series[str]

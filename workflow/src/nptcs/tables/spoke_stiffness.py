@@ -5,14 +5,16 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.status import Status
+
 SPOKE_VALUES = ("spoke_c10_mpa", "spacing_mm", "thickness_mm", "angle_deg")
 DIRECTIONS = {"tension": 1.0, "compression": -1.0}
 
 
 class SpokeLines(pa.DataFrameModel):
-    """Single spokes: slopes of the lines through the origin beside table 10.
+    """Single spokes: slopes of the lines through the origin, and table 10.
 
-    Each line is fitted to all points of its curve, k = Σfd/Σd². R² stands in both conventions:
+    Each line is fitted to all points of its curve, k = Σfd/Σd². R² is given in both conventions:
     uncentred, 1 - SSE/Σf², which software prints for a line without intercept, and centred,
     1 - SSE/Σ(f - mean)². The paper does not say which one it prints.
     """
@@ -24,7 +26,7 @@ class SpokeLines(pa.DataFrameModel):
     spacing_mm: Series[float] = pa.Field(gt=0)
     thickness_mm: Series[float] = pa.Field(gt=0)
     angle_deg: Series[float]
-    status: Series[str]
+    status: Series[str] = pa.Field(isin=list(Status))
     tension_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, description="k_t")
     published_tension_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True)
     tension_difference_percent: Series[float] = pa.Field(nullable=True)

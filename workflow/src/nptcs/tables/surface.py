@@ -7,7 +7,7 @@ from pandera.typing.pandas import Series
 
 
 class SurfaceTable(pa.DataFrameModel):
-    """``STUDY_surface.csv``: coefficients of the response surfaces, a row a solver and term."""
+    """``STUDY_surface.csv``: coefficients of the response surfaces, one row per solver and term."""
 
     solver: Series[str]
     term: Series[str]

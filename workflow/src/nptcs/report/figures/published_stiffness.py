@@ -1,4 +1,4 @@
-"""Figures of computed results beside the published ones: tables 5 and 7, figure 14."""
+"""Figures that compare computed with published results: tables 5 and 7, figure 14."""
 
 from __future__ import annotations
 
@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.style import GREY, line_look, mark_synthetic, panel, styled
-from nptcs.report.figures.surface import FactorLabel
 from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
@@ -149,7 +149,7 @@ def level_differences(
 def neutral_lines(
     lines: pd.DataFrame, column: str, title: str, order: Sequence[str], synthetic: bool = False
 ) -> Figure:
-    """Draw one displacement of the band's neutral line against the angle, a line a solver.
+    """Draw one displacement of the band's neutral line against the angle, one line per solver.
 
     Parameters
     ----------

@@ -1,10 +1,10 @@
-"""Which ply the solvers were given, in words, beside table 2 of the paper."""
+"""Which ply the solvers were given, in words, and how it differs from table 2 of the paper."""
 
 from __future__ import annotations
 
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import words
-from nptcs.report.view import joined, number_text
+from nptcs.report.text import joined, number_text
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 

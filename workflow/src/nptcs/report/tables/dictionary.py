@@ -6,13 +6,13 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from nptcs.report.tables.catalogue import Entry
+from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.sheets import Sheet
 
 
 def dictionary_table(sheets: Sequence[Sheet]) -> pd.DataFrame:
-    """Lay out the columns of all sheets: heading, unit, name in the file, meaning."""
+    """List the columns of all sheets: heading, unit, name in the file, meaning."""
     rows = []
     for sheet in sheets:
         meanings = _meanings(sheet.entry)

@@ -16,7 +16,7 @@ _SHEET_NUMBERS = (
 
 
 def sheet_table(results: Results) -> pd.DataFrame:
-    """Lay the specimen sheet out with mean dimensions."""
+    """Write the specimen sheet as a table, with mean dimensions."""
     return pd.DataFrame(
         [
             {
@@ -41,7 +41,7 @@ def sheet_table(results: Results) -> pd.DataFrame:
 
 
 def conditioning_table(results: Results) -> pd.DataFrame:
-    """Lay out how each curve came about, a row a specimen."""
+    """Write how each curve came about, one row per specimen."""
     return pd.DataFrame(
         [
             {

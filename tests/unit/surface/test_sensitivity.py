@@ -13,7 +13,7 @@ from nptcs.surface.sensitivity import impact
 from nptcs.tables.impact import Impact
 from nptcs.tables.io import check
 
-PUBLISHED = Path(__file__).parents[2] / "raw_data" / "published"
+PUBLISHED = Path(__file__).parents[3] / "raw_data" / "published"
 
 
 def published_surface(table, coefficients):
@@ -124,7 +124,7 @@ def test_ranks_are_among_the_factors_that_have_a_printed_value():
             ],
             "rule": "domain_mean_signed",
             "gradient": 1.0,
-            # another range of the thickness: it stands beside nothing
+            # another range of the thickness: it is compared with nothing
             "range": [10.0, 2.0, 90.0, 1.0, 4.0],
             "impact": [-50.0, 900.0, -60.0, 38.0, 300.0],
         }
