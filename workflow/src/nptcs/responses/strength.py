@@ -44,7 +44,7 @@ class PlyStrengths:
         return [name.removesuffix("_mpa") for name in TESTED if getattr(self, name) is None]
 
 
-def ply_strengths(statistics: pd.DataFrame, material: str) -> PlyStrengths:
+def ply_strengths(statistics: pd.DataFrame, material: str | None) -> PlyStrengths:
     """Take the strengths of a ply from the statistics of its tests.
 
     The reported statistic (mean or median) of each group of specimens; a group whose statistic is
@@ -54,9 +54,11 @@ def ply_strengths(statistics: pd.DataFrame, material: str) -> PlyStrengths:
     ----------
     statistics : DataFrame
         `StatisticsTable`.
-    material : str
-        Name of the ply's material in the specimen sheet.
+    material : str or None
+        Name of the ply's material in the specimen sheet; without one there are no strengths.
     """
+    if material is None:
+        return PlyStrengths()
     rows = statistics[(statistics["material"] == material) & (statistics["scope"] == "group")]
     return PlyStrengths(**{name: _reported(rows, *place) for name, place in TESTED.items()})
 

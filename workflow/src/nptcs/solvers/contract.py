@@ -101,7 +101,8 @@ class SolverResult(BaseModel):
     plate_stress: dict[str, list[float]] | None = Field(
         None,
         description="Stress at the faces of the most loaded spokes' plates at the load: spoke, "
-        "leg, height_mm, ply_deg, along_mpa, across_mpa, shear_mpa, mises_mpa, mean_mises_mpa",
+        "leg, face, height_mm, ply_deg, along_mpa, across_mpa, shear_mpa, mises_mpa, "
+        "mean_mises_mpa",
     )
 
     @field_validator("curve", "neutral_line", "plate_stress")

@@ -62,6 +62,7 @@ class PlateStress(pa.DataFrameModel):
     load_n: Series[float] = pa.Field(gt=0)
     spoke: Series[int] = pa.Field(ge=0, description="Number from the contact's middle, along θ")
     leg: Series[int] = pa.Field(isin=[0, 1], description="0 at the rim, 1 at the band")
+    face: Series[int] = pa.Field(isin=[0, 1], description="0 at the ply +A, 1 at the ply -A")
     height_mm: Series[float] = pa.Field(description="Of the element's centre above the rim")
     ply_deg: Series[float] = pa.Field(description="Fibre angle of the ply at this face")
     along_mpa: Series[float] = pa.Field(description="σ1, along the fibres")

@@ -14,7 +14,7 @@ from nptcs.fe.output.fields import rubber_fields
 from nptcs.fe.spoke.equilibrium import SpokeModel, SpokeState
 from nptcs.fe.spoke.mesh import LAYER_ORDERS
 
-# sides of the plate in the order of the plies: +A at the negative normal, -A at the positive one
+# sides of the plate in the elements' first coordinate, along x: the ply +A comes first, then -A
 SIDES = (-1.0, 1.0)
 IN_PLANE = [0, 1, 3]
 
@@ -30,6 +30,8 @@ class FaceStress:
     ----------
     leg : array of int
         0 for the leg at the rim, 1 for the one at the band.
+    face : array of int
+        0 for the face at the ply +A, 1 for that at the ply -A.
     height_mm : array
         Unloaded height of the element's centre above the rim.
     ply_deg : array
@@ -42,6 +44,7 @@ class FaceStress:
     """
 
     leg: Index
+    face: Index
     height_mm: Array
     ply_deg: Array
     along_mpa: Array
@@ -59,8 +62,9 @@ def face_stress(model: SpokeModel, state: SpokeState) -> FaceStress:
     across, along = (grid.ravel() for grid in np.meshgrid(points, points, indexing="ij"))
     share = np.outer(weights, weights).ravel() / 4.0
     parts = []
-    for side, sign in zip(SIDES, (1.0, -1.0), strict=True):
-        angle = sign * design.angle_deg
+    for face, (side, angle) in enumerate(
+        zip(SIDES, (design.angle_deg, -design.angle_deg), strict=True)
+    ):
         stiffness = rotated_stiffness(design.ply, angle)
         place = np.stack([np.full(10, side * ratio), [0.0, *across], [0.0, *along]], axis=1)
         stress = _strain(model, state, place) @ stiffness
@@ -69,6 +73,7 @@ def face_stress(model: SpokeModel, state: SpokeState) -> FaceStress:
         parts.append(
             (
                 plate.leg,
+                np.full_like(plate.leg, face),
                 height,
                 np.full(len(height), angle),
                 *fibre_axes(centre, angle).T,
