@@ -151,12 +151,13 @@ class EnergyTableOptions(Strict):
         "time",
     )
     accepted_work: float = Field(
-        1e-8,
+        1e-9,
         ge=1e-12,
         le=1e-6,
         description="A state is accepted when the work of the next Newton step is below this part "
         "of its energy. It bounds what the order of the cases, and so the guesses with the help "
-        "of spokes that are there already, can change; 1e-6 changes a tyre by up to 0.2 %",
+        "of spokes that are there already, can change: the tangents are right to its root only, "
+        "and 1e-6 changes a tyre's stiffness by 0.1 to 0.2 %",
     )
     degrees: tuple[int, int] = Field(
         (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"

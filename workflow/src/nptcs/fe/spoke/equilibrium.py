@@ -16,8 +16,8 @@ MAX_ITERATIONS = 14
 SMALLEST_CUT = 1.0 / 16.0
 # work of the step that is left, in parts of the energy, where nothing else is asked for
 STRICT_WORK = 1e-9
-# first step's work, in parts of the energy, from which a foreign guess is not worth following
-FARTHEST_WORK = 0.1
+# first step's work, in parts of the energy, from which a corrected guess is not worth following
+FARTHEST_WORK = 1.0
 # misfit between energy and work along a row, in parts of the energy, on one equilibrium path
 SAME_PATH = 0.05
 
