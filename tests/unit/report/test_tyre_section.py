@@ -134,9 +134,8 @@ def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypat
     assert "88.0 MPa" in words
     assert "secant stiffness at 25 mm: not reached for 2 tyres" in words
     assert len([block for block in section.blocks if isinstance(block, Plots)]) == 2
-    built = next(
-        s for s in build_sections(solved, sheets_of(solved)) if s.identifier is ReportSection.TYRE
-    )
+    sections = build_sections(solved, sheets_of(solved))
+    built = next(s for s in sections if s.identifier is ReportSection.TYRE)
     assert any(isinstance(block, TableView) for block in built.blocks)
 
 
