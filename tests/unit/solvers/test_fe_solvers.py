@@ -71,6 +71,11 @@ def test_fe_tyre_goes_on_to_a_displacement_and_says_where_it_ends(tmp_path):
     further = fe_tyre.solve(inputs(fe_tyre.FeTyreOptions(**options, curve_to_mm=target)))
     assert further.curve["displacement_mm"][-1] >= target
     assert further.displacement_mm == plain.displacement_mm
+    # the same tyre loaded again: nothing of the first time is left in it
+    common = len(plain.curve["force_n"])
+    assert further.curve["displacement_mm"][:common] == pytest.approx(
+        plain.curve["displacement_mm"], rel=1e-7
+    )
     assert further.message == ""
     beyond = fe_tyre.solve(inputs(fe_tyre.FeTyreOptions(**options, curve_to_mm=60.0)))
     assert beyond.status is Status.OK

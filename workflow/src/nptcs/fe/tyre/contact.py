@@ -69,7 +69,7 @@ class Ground:
         self._options = options
         self._place = np.einsum("gn,eni->egi", self._shape, positions[edges])
         self._radius = float(np.linalg.norm(positions[edges], axis=2).max())
-        self._anchor = np.zeros(self._area.shape)
+        self.release()
 
     def _pressure(self, depth: Array) -> tuple[Array, Array]:
         stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
@@ -116,6 +116,10 @@ class Ground:
             float(np.sum(area * pressure)),
             float(np.sum(area * slope)),
         )
+
+    def release(self) -> None:
+        """Forget all slip: the tyre is off the ground again."""
+        self._anchor = np.zeros(self._area.shape)
 
     def advance(self, displacement: Array, rise_mm: float) -> None:
         """Remember the slip of a converged step; points off the ground forget theirs."""

@@ -202,6 +202,7 @@ class TyreModel:
         """
         path = LoadPath()
         displacement = np.zeros_like(self.mesh.positions)
+        self.ground.release()
         for block in self.rubbers:
             block.pressure[:] = 0.0
         try:

@@ -77,6 +77,6 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         Line2D([], [], linestyle="", marker="o", mfc="none", mec="black", label="element mean"),
         Line2D([], [], color="black", linestyle="--", linewidth=0.9, label="published largest"),
     ]
-    figure.legend(handles=handles, ncols=4, loc="outside lower center")
+    figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure
