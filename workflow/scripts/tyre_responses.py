@@ -12,20 +12,13 @@ from nptcs.tables.statistics import StatisticsTable
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 
-def gather(
-    job: dict[str, Any],
-    records: list[str],
-    statistics: str,
-    responses: str,
-    curves: str,
-    plates: str,
-) -> None:
+def gather(job: dict[str, Any], records: list[str], statistics: str, **out: str) -> None:
     settings = TyreResponseSettings.model_validate(job["settings"])
     strengths = ply_strengths(read_table(statistics, StatisticsTable), job["ply"])
     cases = read_records(records)
-    write_table(responses, tyre_responses(cases, settings, strengths), TyreResponses)
-    write_table(curves, tyre_curves(cases), TyreCurves)
-    write_table(plates, plate_stress(cases), PlateStress)
+    write_table(out["responses"], tyre_responses(cases, settings, strengths), TyreResponses)
+    write_table(out["curves"], tyre_curves(cases), TyreCurves)
+    write_table(out["plates"], plate_stress(cases), PlateStress)
 
 
 if __name__ == "__main__":
