@@ -14,6 +14,7 @@ include: "workflow/rules/calibrate.smk"
 include: "workflow/rules/design.smk"
 include: "workflow/rules/solve.smk"
 include: "workflow/rules/surface.smk"
+include: "workflow/rules/responses.smk"
 include: "workflow/rules/compare.smk"
 include: "workflow/rules/report.smk"
 

@@ -16,7 +16,8 @@ from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.tables.material_card import PUBLISHED_PLY
 

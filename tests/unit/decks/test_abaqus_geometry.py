@@ -15,7 +15,8 @@ from nptcs.decks.abaqus.mesh import spoke_part
 from nptcs.decks.calculix import total_forces
 from nptcs.fe.elements.groups import RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 
 # a section of its own: what follows must not move with the calibrated one
 SECTION = SpokeGeometry(

@@ -19,7 +19,8 @@ from nptcs.decks.calculix import (
 )
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 
 # Abaqus and CalculiX number the corners around; the tensor product runs z fastest
 CORNERS = [0, 4, 3, 7, 1, 5, 2, 6]

@@ -49,6 +49,41 @@ def neutral_line_is_sound(result):
     assert slope == pytest.approx(-radial[middle].mean(), rel=0.15)
 
 
+def plates_are_sound(result):
+    """The largest values are those of the listed faces, and the worst spoke is over the contact."""
+    plates, extra = result.plate_stress, result.extra
+    assert max(plates["mises_mpa"]) == extra["plate_largest_mises_mpa"] > 0.0
+    assert min(plates["along_mpa"]) == extra["plate_smallest_along_mpa"] < 0.0
+    assert {0.0} <= set(plates["spoke"]) <= {0.0, 1.0, 2.0, 58.0, 59.0}
+    assert extra["smallest_spoke_force_n"] < 0.0 < extra["largest_spoke_force_n"]
+    assert extra["mean_pressure_mpa"] < extra["largest_pressure_mpa"]
+    width = TyreGeometry().tread_width_mm
+    area = extra["contact_length_mm"] * width
+    assert extra["mean_pressure_mpa"] * area == pytest.approx(result.curve["force_n"][-1], rel=1e-3)
+
+
+def test_fe_tyre_goes_on_to_a_displacement_and_says_where_it_ends(tmp_path):
+    options = {"spoke_cache": tmp_path, "load_steps": 3, "plate_stress": "off", **TYRE_OPTIONS}
+    plain = fe_tyre.solve(inputs(fe_tyre.FeTyreOptions(**options)))
+    assert plain.plate_stress is None
+    assert "plate_largest_mises_mpa" not in plain.extra
+    target = 1.2 * plain.displacement_mm
+    further = fe_tyre.solve(inputs(fe_tyre.FeTyreOptions(**options, curve_to_mm=target)))
+    assert further.curve["displacement_mm"][-1] >= target
+    assert further.displacement_mm == plain.displacement_mm
+    # the same tyre loaded again: nothing of the first time is left in it
+    common = len(plain.curve["force_n"])
+    assert further.curve["displacement_mm"][:common] == pytest.approx(
+        plain.curve["displacement_mm"], rel=1e-7
+    )
+    assert further.message == ""
+    beyond = fe_tyre.solve(inputs(fe_tyre.FeTyreOptions(**options, curve_to_mm=60.0)))
+    assert beyond.status is Status.OK
+    assert beyond.displacement_mm == plain.displacement_mm
+    assert beyond.message.startswith("60 mm not reached: spoke ")
+    assert beyond.curve["displacement_mm"][-1] < 60.0
+
+
 def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path):
     options = fe_tyre.FeTyreOptions(spoke_cache=tmp_path, load_steps=3, **TYRE_OPTIONS)
     first = fe_tyre.solve(inputs(options))
@@ -59,6 +94,7 @@ def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path)
     assert 100.0 < first.vertical_stiffness_n_per_mm < 1500.0
     assert first.extra["smallest_u_r_mm"] > -first.displacement_mm
     neutral_line_is_sound(first)
+    plates_are_sound(first)
     files = sorted(tmp_path.iterdir())
     again = fe_tyre.solve(inputs(options))
     assert sorted(tmp_path.iterdir()) == files

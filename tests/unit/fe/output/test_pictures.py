@@ -8,7 +8,8 @@ from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.output.spoke_picture import section_stress, spoke_figure
 from nptcs.fe.output.tyre_picture import FINE, ring_stress, tyre_figure
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState
 
 

@@ -15,7 +15,8 @@ from nptcs.fe.output.bricks import MATERIALS, Bricks, spoke_bricks, tyre_bricks
 from nptcs.fe.output.fields import lattice
 from nptcs.fe.output.vtu import require_vtk, shared_nodes, write_pvd, write_vtu
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.equilibrium import TyreModel
 
 pytest.importorskip("vtkmodules", reason="needs vtk: pip install 'nptcs[paraview]'")

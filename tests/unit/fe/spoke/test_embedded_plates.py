@@ -7,8 +7,9 @@ from scipy.spatial.transform import Rotation
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.spoke import embedded_plates as embedded
 from nptcs.fe.spoke.embedded_plates import HELD, straight_block
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.mesh import build_period
+from nptcs.fe.spoke.period import SpokeDesign
 
 
 @pytest.fixture(scope="module", params=[1, 2])

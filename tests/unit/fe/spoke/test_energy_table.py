@@ -6,10 +6,12 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
-from nptcs.fe.energy_cache import read_table, shared_table, table_key
+from nptcs.fe.energy_cache import read_table, shared_table, table_key, write_table
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
-from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit
+from nptcs.fe.spoke.equilibrium import SpokeFields, SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.fe.spoke.sampling import sample
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 OPTIONS = EnergyTableOptions(
@@ -149,7 +151,8 @@ def test_a_level_of_the_unloaded_spoke_is_one_state():
         elongation_mm=(-1.5, 1.5), inclination_rad=0.02, phi_rad=(-0.02, 0.02), samples=(3, 3, 3),
         degrees=(4, 4),
     )  # fmt: skip
-    coordinates = sample(SpokeModel(spoke_design()), options).coordinates
+    every = options.model_copy(update={"side_states": "every"})
+    coordinates = sample(SpokeModel(spoke_design()), every).coordinates
     assert len(coordinates) == 3 * 2 * 3
     assert np.unique(coordinates[:, 0].round(9)) == pytest.approx([-1.5, 0.0, 1.5])
 
@@ -177,11 +180,13 @@ def test_a_half_turn_leaves_the_spoke_as_it_is():
 def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
     calls = []
 
-    def computed(model, design):
-        calls.append(design)
-        return TABLE
+    fields = SpokeFields(np.zeros((2, 3)), [np.zeros((1, 1))])
 
-    monkeypatch.setattr("nptcs.fe.energy_cache.energy_table", computed)
+    def computed(design, options, corrections):
+        calls.append(design)
+        return TABLE, {(0, 1): fields}
+
+    monkeypatch.setattr("nptcs.fe.energy_cache.computed_table", computed)
     model = FeModel(spoke_mesh=COARSE, table=OPTIONS)
     first = shared_table(model, spoke_design(), tmp_path)
     again = shared_table(model, spoke_design(), tmp_path)
@@ -189,9 +194,32 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
     assert again.coefficients == pytest.approx(first.coefficients, rel=0, abs=0)
     shared_table(model, spoke_design(c10_mpa=2.0), tmp_path)
     assert len(calls) == 2
-    assert len(list(tmp_path.iterdir())) == 2
-    path = tmp_path / f"{table_key(spoke_design(), OPTIONS)}.npz"
-    assert read_table(path).force_residual_n == TABLE.force_residual_n
+    assert len(list(tmp_path.glob("*.npz"))) == 2
+    key = table_key(spoke_design(), OPTIONS)
+    path = tmp_path / f"{key}.npz"
+    assert read_table(path, key).force_residual_n == TABLE.force_residual_n
+
+
+@pytest.mark.parametrize("harm", ["emptied", "cut", "renamed", "doubled", "not a number"])
+def test_a_table_that_is_not_sound_is_computed_again(tmp_path, harm):
+    key = "a" * 64
+    path = tmp_path / f"{key}.npz"
+    bad = {"doubled": 2.0 * TABLE.coefficients, "not a number": np.nan * TABLE.coefficients}
+    write_table(path, key, TABLE)
+    assert read_table(path, key) is not None
+    whole = path.read_bytes()
+    if harm == "emptied":
+        path.write_bytes(b"")
+    elif harm == "cut":
+        path.write_bytes(whole[: len(whole) // 2])
+    elif harm == "renamed":
+        key = "b" * 64
+        path = path.rename(tmp_path / f"{key}.npz")
+    else:
+        with np.load(path) as data:
+            content = {**data, "coefficients": bad[harm]}
+        np.savez(path, **content)
+    assert read_table(path, key) is None
 
 
 def test_every_part_of_the_design_is_in_the_key():

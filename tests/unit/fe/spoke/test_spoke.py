@@ -2,8 +2,9 @@ import numpy as np
 import pytest
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeError, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.mesh import build_period
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.pull import pull
 
 COARSE = SpokeMesh(rows=(1, 1, 2, 1, 1, 1))

@@ -4,7 +4,8 @@ import pytest
 from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke.energy_table import fit, sample
+from nptcs.fe.spoke.energy_table import fit
+from nptcs.fe.spoke.sampling import sample
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel
 from nptcs.fe.tyre.mesh import build_ring
 from nptcs.fe.verification.direct_tyre import (

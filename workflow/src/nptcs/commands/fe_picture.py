@@ -10,7 +10,8 @@ from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:
     from nptcs.config.tyre import TyreGeometry
-    from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+    from nptcs.fe.spoke.equilibrium import SpokeModel
+    from nptcs.fe.spoke.period import SpokeDesign
     from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
 
 

@@ -154,6 +154,21 @@ class EnergyTableOptions(Strict):
         description="Numbers of states of the elongation, β and φ; for β < 0 they are known from "
         "the spoke's symmetry",
     )
+    side_states: Literal["alternate", "every"] = Field(
+        "alternate",
+        description="States beside β = φ = 0: alternate has one at every second level of the "
+        "elongation, neighbouring rows taking turns; every has all of them, for nearly twice the "
+        "time",
+    )
+    accepted_work: float = Field(
+        1e-9,
+        ge=1e-12,
+        le=1e-6,
+        description="A state is accepted when the work of the next Newton step is below this part "
+        "of its energy. It bounds what the order of the cases, and so the guesses with the help "
+        "of spokes that are there already, can change: the tangents are right to its root only, "
+        "and 1e-6 changes a tyre's stiffness by 0.1 to 0.2 %",
+    )
     degrees: tuple[int, int] = Field(
         (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"
     )

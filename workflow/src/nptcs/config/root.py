@@ -12,6 +12,7 @@ from nptcs.config.calibration import CalibrationSettings
 from nptcs.config.explain import describe
 from nptcs.config.ingest import IngestSettings
 from nptcs.config.reduction import ReductionSettings
+from nptcs.config.responses import TyreResponseSettings
 from nptcs.config.sensitivity import Sensitivity
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
@@ -88,6 +89,7 @@ class Config(Strict):
     )
     campaign: Campaign = Campaign()
     sensitivity: Sensitivity = Sensitivity()
+    tyre_responses: TyreResponseSettings = TyreResponseSettings()
     lca_validation: LcaValidation = LcaValidation()
     report: ReportSettings = ReportSettings()
 

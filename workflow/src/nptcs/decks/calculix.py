@@ -14,8 +14,8 @@ from typing import assert_never
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.fe.spoke.equilibrium import SpokeDesign
 from nptcs.fe.spoke.mesh import axial_grid, section_grid
+from nptcs.fe.spoke.period import SpokeDesign
 
 # corners, then edges, of a C3D20 brick as places (0, 1, 2) along x, y, z
 BRICK = np.array(

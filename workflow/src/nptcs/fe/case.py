@@ -9,9 +9,10 @@ from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import FeModel, FeSpokeModel
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.spoke.energy_table import SpokeEnergyTable, fit, sample
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
-from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
+from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.fe.spoke.sampling import computed_table
+from nptcs.fe.tyre.equilibrium import LoadPath, TyreError, TyreModel, TyreState
 
 
 def spoke_design(
@@ -47,7 +48,7 @@ def spoke_design(
 @threadpool_limits.wrap(limits=1)
 def energy_table(model: FeModel, design: SpokeDesign) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
-    return fit(sample(SpokeModel(design), model.table), model.table, design.geometry.height_mm)
+    return computed_table(design, model.table)[0]
 
 
 def tyre_model(
@@ -69,3 +70,47 @@ def tyre_model(
 def loaded_tyre(assembled: TyreModel, model: FeModel, load_n: float) -> TyreState:
     """Load a tyre in equal steps."""
     return assembled.load(np.linspace(0.0, load_n, model.load_steps + 1)[1:].tolist())
+
+
+@threadpool_limits.wrap(limits=1)
+def path_to_displacement(
+    assembled: TyreModel, model: FeModel, load_n: float, path: LoadPath, displacement_mm: float
+) -> tuple[LoadPath, str]:
+    """Load a tyre beyond its load, in the same steps, until it has moved so far.
+
+    Parameters
+    ----------
+    assembled : TyreModel
+    model : FeModel
+    load_n : float
+        Load of the case.
+    path : LoadPath
+        Of the tyre at that load.
+    displacement_mm : float
+
+    Returns
+    -------
+    path : LoadPath
+        To the displacement or a little further, or as far as the tyre was found.
+    reason : str
+        Why the path ends before the displacement; empty where it does not.
+    """
+    step = load_n / model.load_steps
+    while path.rise_mm[-1] < displacement_mm:
+        slope = (path.force_n[-1] - path.force_n[-2]) / (path.rise_mm[-1] - path.rise_mm[-2])
+        missing = slope * (displacement_mm - path.rise_mm[-1])
+        last = path.force_n[-1] + max(missing, step)
+        try:
+            path = assembled.load((np.arange(1, np.ceil(last / step) + 1) * step).tolist()).path
+        except TyreError as error:
+            return error.path, str(error)
+    return path, ""
+
+
+def plate_volume_mm3(design: SpokeDesign, spokes: int) -> float:
+    """Volume of all reinforcement plates of a tyre: both legs of every spoke."""
+    section = design.geometry
+    height = section.height_mm / 2.0 - section.plate_foot_gap_mm - section.plate_mid_gap_mm
+    length = height / np.cos(np.radians(section.leg_angle_deg))
+    one = length * design.plate_width_mm * design.thickness_mm
+    return float(2 * design.plates * spokes * one)

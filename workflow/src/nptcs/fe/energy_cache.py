@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 import json
-from contextlib import suppress
 from dataclasses import asdict
 from pathlib import Path
 from typing import Any
-from zipfile import BadZipFile
 
 import numpy as np
+from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import EnergyTableOptions, FeModel
-from nptcs.fe.case import energy_table
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.spoke.equilibrium import SpokeDesign
-from nptcs.files import atomic_path, sha256_of_text
+from nptcs.fe.spoke.neighbours import CorrectionsFolder
+from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.fe.spoke.sampling import computed_table
+from nptcs.fe.spoke.stored import read_arrays, write_arrays
+from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash
+
+KIND = "energy table of a spoke 2"
 
 
 def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
     """SHA-256 over everything that a spoke's table depends on."""
     content: dict[str, Any] = {
-        "code": code_hash("nptcs.fe.case"),
+        "code": code_hash("nptcs.fe.spoke.sampling"),
         "design": {
             **asdict(design),
             "geometry": design.geometry.model_dump(),
@@ -33,11 +36,14 @@ def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
     return sha256_of_text(json.dumps(content, sort_keys=True))
 
 
+@threadpool_limits.wrap(limits=1)
 def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeEnergyTable:
     """Read a spoke's table from the folder, or compute it and leave it there.
 
-    Files are written whole under a name made from their content's key: two workers that compute
-    the same spoke at the same time leave the same file.
+    A new table's states are guessed with the help of the spokes that are in the folder, and help
+    later ones. Files are written whole under a name made from their content's key: of two workers
+    that compute the same spoke at the same time the later one replaces the file by one that is
+    equal within the accepted work.
 
     Parameters
     ----------
@@ -47,39 +53,44 @@ def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> Sp
         None computes without keeping.
     """
     if folder is None:
-        return energy_table(model, design)
-    path = folder / f"{table_key(design, model.table)}.npz"
-    with suppress(OSError, ValueError, KeyError, BadZipFile):  # an unreadable file is a miss
-        return read_table(path)
-    table = energy_table(model, design)
-    write_table(path, table)
+        return computed_table(design, model.table)[0]
+    key = table_key(design, model.table)
+    path = folder / f"{key}.npz"
+    known = read_table(path, key)
+    if known is not None:
+        return known
+    kept = CorrectionsFolder(folder, design, model.table)
+    table, corrections = computed_table(design, model.table, kept.neighbours().correction)
+    write_table(path, key, table)
+    kept.keep(corrections)
     return table
 
 
-def write_table(path: Path, table: SpokeEnergyTable) -> None:
-    """Write a table atomically."""
-    with atomic_path(path) as temporary, temporary.open("wb") as stream:
-        np.savez(
-            stream,
-            height_mm=np.array(table.height_mm),
-            low=table.low,
-            high=table.high,
-            exponents=table.exponents,
-            coefficients=table.coefficients,
-            narrowing=np.array(table.narrowing),
-            force_residual_n=np.array(table.force_residual_n),
-        )
+def write_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
+    """Write a table atomically, with its key and a checksum."""
+    arrays = {
+        "height_mm": np.array(table.height_mm),
+        "low": table.low,
+        "high": table.high,
+        "exponents": table.exponents,
+        "coefficients": table.coefficients,
+        "narrowing": np.array(table.narrowing),
+        "force_residual_n": np.array(table.force_residual_n),
+    }
+    write_arrays(path, f"{KIND} {key}", arrays)
 
 
-def read_table(path: Path) -> SpokeEnergyTable:
-    """Read a table that `write_table` wrote."""
-    with np.load(path) as data:
-        return SpokeEnergyTable(
-            float(data["height_mm"]),
-            data["low"],
-            data["high"],
-            data["exponents"],
-            data["coefficients"],
-            float(data["narrowing"]),
-            float(data["force_residual_n"]),
-        )
+def read_table(path: Path, key: str) -> SpokeEnergyTable | None:
+    """Read a table that `write_table` wrote; None if there is no sound one under this key."""
+    data = read_arrays(path, f"{KIND} {key}")
+    if data is None:
+        return None
+    return SpokeEnergyTable(
+        float(data["height_mm"]),
+        data["low"],
+        data["high"],
+        data["exponents"].astype(np.int64),
+        data["coefficients"],
+        float(data["narrowing"]),
+        float(data["force_residual_n"]),
+    )

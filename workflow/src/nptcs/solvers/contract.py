@@ -98,7 +98,14 @@ class SolverResult(BaseModel):
         "`neutral_line_columns` makes it: theta_deg, radial_mm, tangential_mm",
     )
 
-    @field_validator("curve", "neutral_line")
+    plate_stress: dict[str, list[float]] | None = Field(
+        None,
+        description="Stress at the faces of the most loaded spokes' plates at the load: spoke, "
+        "leg, face, height_mm, ply_deg, along_mpa, across_mpa, shear_mpa, mises_mpa, "
+        "mean_mises_mpa",
+    )
+
+    @field_validator("curve", "neutral_line", "plate_stress")
     @classmethod
     def _equally_long(cls, columns: dict[str, list[float]] | None) -> dict[str, list[float]] | None:
         lengths = {name: len(column) for name, column in (columns or {}).items()}

@@ -3,16 +3,24 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
 from nptcs.config.fe import FeModel
-from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
+from nptcs.fe.case import (
+    loaded_tyre,
+    path_to_displacement,
+    plate_volume_mm3,
+    spoke_design,
+    tyre_model,
+)
 from nptcs.fe.energy_cache import shared_table
-from nptcs.fe.spoke.equilibrium import SpokeError
+from nptcs.fe.output.loaded_spokes import loaded_spokes
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreError, TyreModel, TyreState
+from nptcs.fe.tyre.responses import contact_responses, spoke_forces
 from nptcs.solvers.contract import (
     CaseInputs,
     Solver,
@@ -29,6 +37,17 @@ class FeTyreOptions(SolverOptions, FeModel):
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
+    plate_stress: Literal["all", "off"] = Field(
+        "all",
+        description="all: the spokes that are loaded most are solved again at their motion in the "
+        "tyre, for the stress of plates and rubber; off: those responses are not assessed",
+    )
+    curve_to_mm: float | None = Field(
+        None,
+        gt=0,
+        description="Go on beyond the load of the case until the tyre has moved so far, for "
+        "example 25 for the stiffness at 25 mm; the curve then costs two to four times as much",
+    )
     spoke_cache: Path | None = Field(
         None,
         description="Folder in which cases share the tables of equal spokes; results do not "
@@ -55,12 +74,31 @@ def solve(inputs: CaseInputs) -> SolverResult:
         return SolverResult(status=Status.DIVERGED, message=f"spoke: {error}")
     except TyreError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.path))
+    path, notes = state.path, []
+    if options.curve_to_mm is not None:
+        target = options.curve_to_mm
+        path, reason = path_to_displacement(tyre, options, inputs.load_n, path, target)
+        notes += [f"{target:g} mm not reached: {reason}"] if reason else []
+    extra = {
+        "table_force_residual_n": table.force_residual_n,
+        "plate_volume_mm3": plate_volume_mm3(design, inputs.tyre.spoke_count),
+        **_summary(tyre, state),
+    }
+    plates = None
+    if options.plate_stress == "all":
+        try:
+            plates, rubber = loaded_spokes(SpokeModel(design), table, state.motion)
+            extra |= rubber
+        except SpokeError as error:
+            notes.append(f"stress of plates and spokes' rubber not assessed: {error}")
     return SolverResult(
         status=Status.OK,
+        message="; ".join(notes),
         vertical_stiffness_n_per_mm=inputs.load_n / state.rise_mm,
         displacement_mm=state.rise_mm,
-        extra={"table_force_residual_n": table.force_residual_n, **_summary(tyre, state)},
-        curve=_curve(state.path),
+        extra=extra,
+        curve=_curve(path),
+        plate_stress=plates,
         neutral_line=_neutral_line(tyre, state),
     )
 
@@ -80,15 +118,14 @@ def _curve(path: LoadPath) -> dict[str, list[float]]:
 
 
 def _summary(tyre: TyreModel, state: TyreState) -> dict[str, float]:
-    """Contact patch, spokes' motions and energies at the load."""
+    """Contact patch, spokes' motions and forces, and energies at the load."""
     place, pressure = tyre.ground.pressure_profile(state.displacement, state.rise_mm)
-    touching = place[pressure > 0.0]
     energy = tyre.energy(state)
     return {
-        "contact_length_mm": float(np.ptp(touching)),
-        "largest_pressure_mpa": float(pressure.max()),
+        **contact_responses(place, pressure, tyre.ground.point_length_mm),
         "smallest_u_r_mm": float(state.motion[:, 0].min()),
         "largest_u_r_mm": float(state.motion[:, 0].max()),
+        **spoke_forces(tyre.table, state.motion),
         "spoke_energy_n_mm": energy["spokes"],
         "band_energy_n_mm": energy["rubber"] + energy["wires"],
         "iterations": float(state.path.iterations),

@@ -32,6 +32,7 @@ from nptcs.tables.result_table import (
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable
+from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 TABLES: dict[str, ResultTable] = {
     "problems.csv": ResultTable(
@@ -136,6 +137,32 @@ TABLES: dict[str, ResultTable] = {
         "spoke_stiffness",
         "the records of the single spokes",
         section=ReportSection.SPOKE,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "tyre_responses.csv": ResultTable(
+        TyreResponses,
+        "What each solved tyre does: stiffness at any load, contact, spokes, plates",
+        "tyre_responses",
+        "the records of the tyres; margins with the ply's strengths in statistics.csv",
+        section=ReportSection.TYRE,
+        mark=RowMark.STATUS,
+        headings=headings.RESPONSES,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "tyre_curves.csv": ResultTable(
+        TyreCurves,
+        "Load–displacement curves of the solved tyres (figure 10 b)",
+        "tyre_responses",
+        "the records of the tyres",
+        section=ReportSection.TYRE,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "plate_stress.csv": ResultTable(
+        PlateStress,
+        "Stress at the faces of the most loaded spokes' plates (figure 10 a)",
+        "tyre_responses",
+        "the records of the tyres, whose most loaded spokes were solved again at their motion",
+        section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
     ),
     "stiffness_against_published.csv": ResultTable(

@@ -41,3 +41,4 @@ QUALITY = {
     "residual_sd": Heading("residual SD", "N/mm"),
     "largest_residual": Heading("largest residual", "N/mm"),
 }
+RESPONSES = {"value": Heading("value", "unit of the row")}

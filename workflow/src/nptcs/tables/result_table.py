@@ -34,6 +34,7 @@ class ReportSection(StrEnum):
     SURFACES = "surfaces"
     SENSITIVITY = "sensitivity"
     SPOKE = "spoke"
+    TYRE = "tyre"
     PUBLISHED_STIFFNESS = "published_stiffness"
     LCA = "lca"
     FURTHER = "further"

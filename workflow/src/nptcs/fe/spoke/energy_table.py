@@ -7,22 +7,21 @@ are those of `coordinates`: it is even in β, and only states with β ≥ 0 are 
 
 from __future__ import annotations
 
-from collections.abc import Iterator
 from dataclasses import dataclass
-from itertools import chain, product
 
 import numpy as np
 from numpy.polynomial import chebyshev
 
 from nptcs.arrays import Array, Index
 from nptcs.config.fe import EnergyTableOptions
-from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
-from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel, SpokeState
+from nptcs.fe.spoke.coordinates import carried, coordinates_of
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
 # what rounding in `coordinates_of` may add to a state on the table's edge, in parts of the range:
 # motions are differences of lengths of a hundred millimetres, known to 1e-14
 EDGE = 1e-12
+# part of the largest energy that is added to each state's own where its data are weighted
+FLOOR = 0.1
 NAMES = ("elongation (mm)", "inclination β (rad)", "φ (rad)")
 
 
@@ -144,68 +143,12 @@ def side_part(s: Array, lowest: float, narrowing: float) -> Array:
     return part
 
 
-def sample(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
-    """Compute the spoke's states on the table's grid, walking from neighbour to neighbour.
-
-    Where a row loses its stability in compression, the samples of all rows end at its last level.
-
-    Raises
-    ------
-    SpokeError
-        If a state in tension or of the unloaded radius is not found.
-    """
-    height = model.design.geometry.height_mm
-    rows = list(_rows(model, options))
-    by_row = [coordinates_of(np.array([state.motion for state in row]), height)[0] for row in rows]
-    lowest = max(float(row[:, 0].min()) for row in by_row)
-    kept = np.concatenate(by_row)[:, 0] >= lowest - 1e-9
-    states = [state for state, keep in zip(chain(*rows), kept, strict=True) if keep]
-    coordinates = np.concatenate(by_row)[kept]
-    force = np.array([state.force for state in states])
-    tangent = np.array([state.tangent for state in states])
-    return SpokeSamples(
-        coordinates,
-        np.array([state.energy for state in states]),
-        *carried(force, tangent, *motion_of(coordinates, height)[1:]),
-    )
-
-
-def _rows(model: SpokeModel, options: EnergyTableOptions) -> Iterator[list[SpokeState]]:
-    """For each (β, φ): rows from s = 0 to both ends, each state from the last two."""
-    lengths = chebyshev_nodes(*options.elongation_mm, options.samples[0])
-    turns = chebyshev_nodes(-options.inclination_rad, options.inclination_rad, options.samples[1])
-    rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
-    # a level of s = 0, up to rounding, is the row's start itself
-    level = np.abs(lengths) < 1e-9 * (lengths[-1] - lengths[0])
-    up, down = lengths[(lengths > 0) & ~level], lengths[(lengths < 0) & ~level][::-1]
-    start = model.rest()
-    for turn, phi in product(turns[turns > -1e-12], rotations):
-        motions = _row(model, options, turn, phi, np.array([0.0]))
-        start = model.move(start, motions[0])
-        states = [start, *model.walk(start, _row(model, options, turn, phi, up))]
-        try:
-            for state in model.walk(start, _row(model, options, turn, phi, down)):
-                states.append(state)
-        except SpokeError:
-            # the spoke buckles: `sample` ends the table at the last level that all rows reach
-            pass
-        yield states if level.any() else states[1:]
-
-
-def _row(
-    model: SpokeModel, options: EnergyTableOptions, turn: float, phi: float, lengths: Array
-) -> Array:
-    """Motions (n, 3) of a row at these elongations."""
-    part = side_part(lengths, options.elongation_mm[0], options.narrowing)
-    coordinates = np.stack([lengths, part * turn, part * phi], axis=1)
-    return motion_of(coordinates, model.design.geometry.height_mm)[0]
-
-
 def fit(samples: SpokeSamples, options: EnergyTableOptions, height_mm: float) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
-    All data enter in units of energy: forces times the half range, tangents times its square. A
-    table that ends early has fewer levels of s, and for them a lower degree.
+    All data enter in units of energy: forces times the half range, tangents times its square;
+    those of a state in parts of its energy plus a tenth of the largest. So small loads are met as
+    well as large ones. A table that ends early has fewer levels of s, and for them a lower degree.
     """
     sides = (-options.inclination_rad, options.inclination_rad)
     low, high = np.array([options.elongation_mm, sides, options.phi_rad]).T
@@ -233,7 +176,10 @@ def fit(samples: SpokeSamples, options: EnergyTableOptions, height_mm: float) ->
         design.append(_term(lines, _order(i, j)))
         data.append(samples.tangent[:, i, j] * half[i] * half[j])
     matrix, target = np.concatenate(design), np.concatenate(data)
-    coefficients, _, rank, _ = np.linalg.lstsq(matrix, target, rcond=1e-12)
+    weight = 1.0 / (FLOOR + samples.energy / samples.energy.max())
+    weight = np.tile(weight, len(data))
+    weighted = matrix * weight[:, None], target * weight
+    coefficients, _, rank, _ = np.linalg.lstsq(*weighted, rcond=1e-12)
     if rank < len(exponents):
         raise ValueError(
             f"{len(exponents)} terms cannot be found from {len(samples.coordinates)} states "

@@ -2,45 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
-from typing import assert_never
 
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
-from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
-from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockPattern
-from nptcs.fe.spoke.element_groups import plate_blocks, rubber_block
-from nptcs.fe.spoke.embedded_plates import straight_block
-from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
+from nptcs.fe.elements.groups import Response
+from nptcs.fe.matrices.block_tridiagonal import BlockCholesky
+from nptcs.fe.spoke.period import SpokeDesign, SpokePeriod
 
 MAX_ITERATIONS = 14
 SMALLEST_CUT = 1.0 / 16.0
+# work of the step that is left, in parts of the energy, where nothing else is asked for
+STRICT_WORK = 1e-9
+# first step's work, in parts of the energy, from which a corrected guess is not worth following
+FARTHEST_WORK = 1.0
+# misfit between energy and work along a row, in parts of the energy, on one equilibrium path
+SAME_PATH = 0.05
 
 
 class SpokeError(RuntimeError):
     """The spoke's equilibrium was not found, with the last state that was."""
-
-
-@dataclass(frozen=True)
-class SpokeDesign:
-    """What makes one spoke differ from another; two equal designs share their results.
-
-    The width is shared out evenly: `plates` periods of `pitch_mm`, with a plate in each.
-    """
-
-    geometry: SpokeGeometry
-    mesh: SpokeMesh
-    pitch_mm: float
-    plate_width_mm: float
-    thickness_mm: float
-    angle_deg: float
-    c10_mpa: float
-    ply: Mapping[str, float]
-    plates: int
-    plate_coupling: PlateCoupling
 
 
 @dataclass
@@ -74,88 +57,57 @@ class SpokeState:
     pressures: list[Array]
 
 
-class SpokeModel:
+@dataclass(frozen=True)
+class SpokeFields:
+    """Displacements (nodes, 3) in mm and pressures of the rubber's blocks in MPa."""
+
+    displacement: Array
+    pressures: Sequence[Array]
+
+    def plus(self, other: SpokeFields, factor: float = 1.0) -> SpokeFields:
+        """Add other fields, or a multiple of them."""
+        pressures = zip(self.pressures, other.pressures, strict=True)
+        return SpokeFields(
+            self.displacement + factor * other.displacement,
+            [own + factor * added for own, added in pressures],
+        )
+
+
+def _joined(last: SpokeState, state: SpokeState) -> bool:
+    """Whether one equilibrium path joins two states: their energies differ by the forces' work.
+
+    A spoke that has buckled to another side, or beyond a loss of stability, fails this.
+    """
+    way = state.motion - last.motion
+    work = 0.5 * (last.force + state.force) @ way
+    work += way @ (last.tangent - state.tangent) @ way / 12.0
+    gained = state.energy - last.energy
+    return bool(abs(gained - work) < SAME_PATH * max(abs(gained), state.energy))
+
+
+class SpokeModel(SpokePeriod):
     """Finite elements of one period, solved for given motions of the band.
 
     Newton's method on displacements with the pressures condensed; a motion is approached in
     steps that are halved when an iteration fails.
+
+    Parameters
+    ----------
+    design : SpokeDesign
+    accepted_work : float
+        A state is accepted when the work of the next Newton step is below this part of its energy.
+        Energy and forces are then right to second order in that step, the tangent to first order.
     """
 
-    def __init__(self, design: SpokeDesign) -> None:
-        self.design = design
-        self.mesh = build_period(
-            design.geometry, design.mesh, design.pitch_mm, design.plate_width_mm
-        )
-        bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
-        self.rubbers = [
-            rubber_block(self.mesh.rubber, RUBBER_ORDERS, design.c10_mpa, bulk),
-            rubber_block(self.mesh.layer, LAYER_ORDERS, design.c10_mpa, bulk),
-        ]
-        self.plates = plate_blocks(
-            self.mesh.plate,
-            self.mesh.plate_axes,
-            design.geometry.plate_layer_mm,
-            design.ply,
-            design.angle_deg,
-            design.thickness_mm,
-        )
-        match design.plate_coupling:
-            case "embedded":
-                columns, e2_mpa = design.mesh.plate_columns, design.ply["e2_mpa"]
-                self.embedding = [straight_block(self.mesh.plate, columns, e2_mpa)]
-            case "conforming":
-                self.embedding = []
-            case _:
-                assert_never(design.plate_coupling)
-        self._dofs = [element_dofs(block.nodes, 3) for block in self.blocks]
-        row = 3 * self.mesh.nodes_per_row
-        self._count = 3 * len(self.mesh.positions)
-        self._free = slice(row, self._count - row)
-        numbers = np.arange(self._count) - row
-        numbers[:row] = -1
-        numbers[self._count - row :] = -1
-        self._pattern = BlockPattern([numbers[d] for d in self._dofs], row, self._count - 2 * row)
-        self._top_dofs = np.arange(self._count - row, self._count)
-        self._arm = self.mesh.positions[self.mesh.top, 0]
-        self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
-        self.scale = float(design.plates)
-
-    @property
-    def blocks(self) -> list[ElementGroup]:
-        """All element blocks, and what holds the plates straight."""
-        return [*self.rubbers, *self.plates, *self.embedding]
-
-    def band_motion(self, motion: Array) -> Array:
-        """Displacements (top nodes, 3) of the rigid foot, mm."""
-        u_r, u_theta, phi = motion
-        moved = np.zeros((len(self._arm), 3))
-        moved[:, 0] = u_theta + self._arm * (np.cos(phi) - 1.0)
-        moved[:, 2] = u_r + self._arm * np.sin(phi)
-        return moved
-
-    def band_motion_slope(self, phi: float) -> tuple[Array, Array]:
-        """∂u/∂(u_r, u_θ, φ) (top dofs, 3) and ∂²u/∂φ² (top dofs,)."""
-        slope = np.zeros((len(self._arm), 3, 3))
-        slope[:, 2, 0] = 1.0
-        slope[:, 0, 1] = 1.0
-        slope[:, 0, 2] = -self._arm * np.sin(phi)
-        slope[:, 2, 2] = self._arm * np.cos(phi)
-        curve = np.zeros((len(self._arm), 3))
-        curve[:, 0] = -self._arm * np.cos(phi)
-        curve[:, 2] = -self._arm * np.sin(phi)
-        return slope.reshape(-1, 3), curve.ravel()
-
-    def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
-        responses = [block.respond(displacement) for block in self.blocks]
-        force = np.zeros(self._count)
-        for dofs, response in zip(self._dofs, responses, strict=True):
-            force += np.bincount(dofs.ravel(), response.force.ravel(), minlength=self._count)
-        return responses, force
+    def __init__(self, design: SpokeDesign, accepted_work: float = STRICT_WORK) -> None:
+        super().__init__(design)
+        self._accepted_work = accepted_work
 
     def rest(self) -> SpokeState:
         """Return the unloaded spoke: no energy and no force, not even of rounding."""
-        state = self._equilibrium(np.zeros(3), np.zeros_like(self.mesh.positions), None)
-        return replace(state, energy=0.0, force=np.zeros(3))
+        pressures = [np.zeros_like(block.pressure) for block in self.rubbers]
+        unloaded = SpokeFields(np.zeros_like(self.mesh.positions), pressures)
+        return replace(self.settle(np.zeros(3), unloaded), energy=0.0, force=np.zeros(3))
 
     def move(self, state: SpokeState, motion: Array) -> SpokeState:
         """Go from an equilibrium to another motion of the band.
@@ -170,7 +122,7 @@ class SpokeModel:
         while done < 1.0:
             target = start + min(done + step, 1.0) * (motion - start)
             try:
-                state = self._equilibrium(target, self._linear_guess(state, target), state)
+                state = self.settle(target, self._linear_guess(state, target))
             except (FloatingPointError, np.linalg.LinAlgError) as error:
                 step /= 2.0
                 if step < SMALLEST_CUT:
@@ -184,9 +136,6 @@ class SpokeModel:
     def walk(self, start: SpokeState, motions: Array) -> Iterator[SpokeState]:
         """Go from an equilibrium through a row of motions (n, 3), and give each state.
 
-        The guess extrapolates the cubic through the last two states and their derivatives; where
-        it does not converge, `move` goes on from the last state.
-
         Raises
         ------
         SpokeError
@@ -194,24 +143,59 @@ class SpokeModel:
         """
         before, last = None, start
         for motion in motions:
-            state = None if before is None else self._follow(before, last, motion)
-            before, last = last, state or self.move(last, motion)
+            before, last = last, self.next_state(before, last, motion)
             yield last
 
-    def _follow(self, before: SpokeState, last: SpokeState, motion: Array) -> SpokeState | None:
-        """Go on along the last two states, or None where the iteration from there fails."""
+    def next_state(
+        self,
+        before: SpokeState | None,
+        last: SpokeState,
+        motion: Array,
+        correction: SpokeFields | None = None,
+    ) -> SpokeState:
+        """Go on along the last two states of a row.
+
+        Newton's method begins at what `extrapolated` gives, with the correction if there is one;
+        where it does not converge, `move` goes on from the last state.
+
+        Raises
+        ------
+        SpokeError
+            As `move`.
+        """
+        guess = self.extrapolated(before, last, motion)
+        state = None
+        if correction is not None:
+            state = self._found(motion, guess.plus(correction), FARTHEST_WORK)
+            state = state if state is not None and _joined(last, state) else None
+        if state is None and before is not None:
+            state = self._found(motion, guess)
+        return state or self.move(last, motion)
+
+    def _found(
+        self, motion: Array, guess: SpokeFields, farthest_work: float = np.inf
+    ) -> SpokeState | None:
+        """Settle from a guess, or give None where the iteration from there fails."""
         try:
-            return self._equilibrium(motion, self._cubic_guess(before, last, motion), last)
+            return self.settle(motion, guess, farthest_work)
         except (FloatingPointError, np.linalg.LinAlgError):
             return None
 
-    def _linear_guess(self, state: SpokeState, motion: Array) -> Array:
+    def extrapolated(
+        self, before: SpokeState | None, last: SpokeState, motion: Array
+    ) -> SpokeFields:
+        """Extrapolate the cubic through two states and their derivatives, or the line of one."""
+        if before is None:
+            return self._linear_guess(last, motion)
+        return self._cubic_guess(before, last, motion)
+
+    def _linear_guess(self, state: SpokeState, motion: Array) -> SpokeFields:
         guess = state.displacement.copy()
         guess.reshape(-1)[self._free] += state.sensitivity @ (motion - state.motion)
         guess[self.mesh.top] = self.band_motion(motion)
-        return guess
+        return SpokeFields(guess, state.pressures)
 
-    def _cubic_guess(self, before: SpokeState, last: SpokeState, motion: Array) -> Array:
+    def _cubic_guess(self, before: SpokeState, last: SpokeState, motion: Array) -> SpokeFields:
         """Extrapolate the cubic through two states on the parabola through the three motions."""
         way, whole = last.motion - before.motion, motion - before.motion
         t = float(whole @ way / (way @ way))
@@ -223,15 +207,32 @@ class SpokeModel:
         inner += slopes[0] * (before.sensitivity @ (way - bend))
         inner += slopes[1] * (last.sensitivity @ (way + bend))
         guess[self.mesh.top] = self.band_motion(motion)
-        return guess
+        return SpokeFields(guess, last.pressures)
 
-    def _equilibrium(
-        self, motion: Array, displacement: Array, near: SpokeState | None
+    def settle(
+        self, motion: Array, guess: SpokeFields, farthest_work: float = np.inf
     ) -> SpokeState:
-        """Newton's method at a fixed motion of the band, from the pressures of a state near by."""
-        for i, block in enumerate(self.rubbers):
-            block.pressure = np.zeros_like(block.pressure) if near is None else near.pressures[i]
-        for _ in range(MAX_ITERATIONS):
+        """Newton's method at a fixed motion of the band.
+
+        Parameters
+        ----------
+        motion : array (3,)
+        guess : SpokeFields
+            Its nodes on the band have the motion.
+        farthest_work : float
+            Work of the first step, in parts of the energy, above which the guess is given up.
+
+        Raises
+        ------
+        FloatingPointError
+            If the iteration does not converge, or the guess is too far.
+        numpy.linalg.LinAlgError
+            If a state on the way is unstable.
+        """
+        displacement = guess.displacement
+        for block, pressure in zip(self.rubbers, guess.pressures, strict=True):
+            block.pressure = pressure
+        for count in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
             factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
             free = force[self._free]
@@ -241,7 +242,10 @@ class SpokeModel:
             energy = sum(response.energy for response in responses)
             if not np.isfinite(work):
                 raise FloatingPointError("the iteration has left the range of numbers")
-            if work < 1e-9 * max(abs(energy), 1e-6):
+            size = max(abs(energy), 1e-6)
+            if count == 0 and work > farthest_work * size:
+                raise FloatingPointError("the guess is too far from an equilibrium")
+            if work < self._accepted_work * size:
                 energy -= 0.5 * work
                 return self._condense(motion, displacement, responses, force, factor, energy)
             largest = float(np.abs(step).max())
@@ -251,17 +255,6 @@ class SpokeModel:
             for block in self.rubbers:
                 block.update_pressure(step)
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
-
-    def _top_product(self, responses: list[Response], slope: Array) -> Array:
-        """Tangent times displacements of the top nodes (top dofs, n): array (all dofs, n)."""
-        whole = np.zeros((self._count, slope.shape[1]))
-        whole[self._top_dofs] = slope
-        product = np.zeros_like(whole)
-        for dofs, edge, response in zip(self._dofs, self._edge, responses, strict=True):
-            if len(edge):
-                local = np.matmul(response.tangent[edge], whole[dofs[edge]])
-                np.add.at(product, dofs[edge], local)
-        return product
 
     def _condense(
         self,

@@ -70,12 +70,14 @@ class Ground:
         points, weights = rule
         self._shape, slope = line_shape(edges.shape[1] - 1, points)
         tangent = np.einsum("gn,eni->egi", slope, positions[edges])
-        self._area = np.linalg.norm(tangent, axis=2) * weights * width_mm
+        length = np.linalg.norm(tangent, axis=2) * weights
+        self.point_length_mm = length.ravel()
+        self._area = length * width_mm
         self._edges = edges
         self._options = options
         self._place = np.einsum("gn,eni->egi", self._shape, positions[edges])
         self._radius = float(np.linalg.norm(positions[edges], axis=2).max())
-        self._anchor = np.zeros(self._area.shape)
+        self.release()
         self._law = options.penalty_mpa_per_mm, options.smoothing_mm
 
     @property
@@ -137,6 +139,10 @@ class Ground:
             float(np.sum(area * pressure)),
             float(np.sum(area * slope)),
         )
+
+    def release(self) -> None:
+        """Forget all slip: the tyre is off the ground again."""
+        self._anchor = np.zeros(self._area.shape)
 
     def advance(self, displacement: Array, rise_mm: float) -> None:
         """Remember the slip of a converged step; points off the ground forget theirs."""

@@ -231,6 +231,7 @@ class TyreModel:
             If a load is not reached with steps down to 2 N, or a spoke leaves its table.
         """
         path = LoadPath()
+        self.ground.release()
         try:
             displacement, rise, reached = self._first_touch(path)
             for load in loads_n:

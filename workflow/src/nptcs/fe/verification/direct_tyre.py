@@ -23,7 +23,8 @@ from nptcs.fe.elements.groups import Response, RubberGroup
 from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState
 from nptcs.fe.tyre.feet import foot_operators
 from nptcs.fe.tyre.mesh import RingMesh

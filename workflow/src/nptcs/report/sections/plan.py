@@ -21,12 +21,14 @@ from nptcs.report.sections.studies import (
     sensitivity_section,
     surfaces_section,
 )
+from nptcs.report.sections.tyre import tyre_section
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheet, Sheets
 from nptcs.tables.lca_validation import LcaNeutralLine
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.spoke_stiffness import SpokeCurves
+from nptcs.tables.tyre_responses import PlateStress, TyreCurves
 
 MOST_ROWS = 500
 """Rows beyond which the page names a table instead of printing it."""
@@ -61,6 +63,7 @@ PLANS: Mapping[ReportSection, SectionPlan] = {
     ReportSection.SURFACES: SectionPlan(surfaces_section),
     ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
     ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
+    ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress)),
     ReportSection.PUBLISHED_STIFFNESS: SectionPlan(published_stiffness_section, (NeutralLine,)),
     ReportSection.LCA: SectionPlan(lca_section, (LcaNeutralLine,)),
     ReportSection.FURTHER: SectionPlan(further_section),

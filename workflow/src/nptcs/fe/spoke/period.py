@@ -1,0 +1,122 @@
+"""Finite elements of one axial period of a spoke: what it is made of, and its forces."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import assert_never
+
+import numpy as np
+
+from nptcs.arrays import Array
+from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
+from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
+from nptcs.fe.matrices.block_tridiagonal import BlockPattern
+from nptcs.fe.spoke.element_groups import plate_blocks, rubber_block
+from nptcs.fe.spoke.embedded_plates import straight_block
+from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
+
+
+@dataclass(frozen=True)
+class SpokeDesign:
+    """What makes one spoke differ from another; two equal designs share their results.
+
+    The width is shared out evenly: `plates` periods of `pitch_mm`, with a plate in each.
+    """
+
+    geometry: SpokeGeometry
+    mesh: SpokeMesh
+    pitch_mm: float
+    plate_width_mm: float
+    thickness_mm: float
+    angle_deg: float
+    c10_mpa: float
+    ply: Mapping[str, float]
+    plates: int
+    plate_coupling: PlateCoupling
+
+
+class SpokePeriod:
+    """Element blocks of one period, with the rim's nodes clamped and the band's moved as one."""
+
+    def __init__(self, design: SpokeDesign) -> None:
+        self.design = design
+        self.mesh = build_period(
+            design.geometry, design.mesh, design.pitch_mm, design.plate_width_mm
+        )
+        bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
+        self.rubbers = [
+            rubber_block(self.mesh.rubber, RUBBER_ORDERS, design.c10_mpa, bulk),
+            rubber_block(self.mesh.layer, LAYER_ORDERS, design.c10_mpa, bulk),
+        ]
+        self.plates = plate_blocks(
+            self.mesh.plate,
+            self.mesh.plate_axes,
+            design.geometry.plate_layer_mm,
+            design.ply,
+            design.angle_deg,
+            design.thickness_mm,
+        )
+        match design.plate_coupling:
+            case "embedded":
+                columns, e2_mpa = design.mesh.plate_columns, design.ply["e2_mpa"]
+                self.embedding = [straight_block(self.mesh.plate, columns, e2_mpa)]
+            case "conforming":
+                self.embedding = []
+            case _:
+                assert_never(design.plate_coupling)
+        self._dofs = [element_dofs(block.nodes, 3) for block in self.blocks]
+        row = 3 * self.mesh.nodes_per_row
+        self._count = 3 * len(self.mesh.positions)
+        self._free = slice(row, self._count - row)
+        numbers = np.arange(self._count) - row
+        numbers[:row] = -1
+        numbers[self._count - row :] = -1
+        self._pattern = BlockPattern([numbers[d] for d in self._dofs], row, self._count - 2 * row)
+        self._top_dofs = np.arange(self._count - row, self._count)
+        self._arm = self.mesh.positions[self.mesh.top, 0]
+        self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
+        self.scale = float(design.plates)
+
+    @property
+    def blocks(self) -> list[ElementGroup]:
+        """All element blocks, and what holds the plates straight."""
+        return [*self.rubbers, *self.plates, *self.embedding]
+
+    def band_motion(self, motion: Array) -> Array:
+        """Displacements (top nodes, 3) of the rigid foot, mm."""
+        u_r, u_theta, phi = motion
+        moved = np.zeros((len(self._arm), 3))
+        moved[:, 0] = u_theta + self._arm * (np.cos(phi) - 1.0)
+        moved[:, 2] = u_r + self._arm * np.sin(phi)
+        return moved
+
+    def band_motion_slope(self, phi: float) -> tuple[Array, Array]:
+        """∂u/∂(u_r, u_θ, φ) (top dofs, 3) and ∂²u/∂φ² (top dofs,)."""
+        slope = np.zeros((len(self._arm), 3, 3))
+        slope[:, 2, 0] = 1.0
+        slope[:, 0, 1] = 1.0
+        slope[:, 0, 2] = -self._arm * np.sin(phi)
+        slope[:, 2, 2] = self._arm * np.cos(phi)
+        curve = np.zeros((len(self._arm), 3))
+        curve[:, 0] = -self._arm * np.cos(phi)
+        curve[:, 2] = -self._arm * np.sin(phi)
+        return slope.reshape(-1, 3), curve.ravel()
+
+    def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
+        responses = [block.respond(displacement) for block in self.blocks]
+        force = np.zeros(self._count)
+        for dofs, response in zip(self._dofs, responses, strict=True):
+            force += np.bincount(dofs.ravel(), response.force.ravel(), minlength=self._count)
+        return responses, force
+
+    def _top_product(self, responses: list[Response], slope: Array) -> Array:
+        """Tangent times displacements of the top nodes (top dofs, n): array (all dofs, n)."""
+        whole = np.zeros((self._count, slope.shape[1]))
+        whole[self._top_dofs] = slope
+        product = np.zeros_like(whole)
+        for dofs, edge, response in zip(self._dofs, self._edge, responses, strict=True):
+            if len(edge):
+                local = np.matmul(response.tangent[edge], whole[dofs[edge]])
+                np.add.at(product, dofs[edge], local)
+        return product

@@ -1,0 +1,217 @@
+"""States of a spoke on the grid of its energy table."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+
+import numpy as np
+
+from nptcs.arrays import Array
+from nptcs.config.fe import EnergyTableOptions
+from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
+from nptcs.fe.spoke.energy_table import (
+    SpokeEnergyTable,
+    SpokeSamples,
+    chebyshev_nodes,
+    fit,
+    side_part,
+)
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeFields, SpokeModel, SpokeState
+from nptcs.fe.spoke.period import SpokeDesign
+
+# numbers of the row (β, φ) and of the level of s
+Place = tuple[int, int]
+Corrections = Callable[[Place], SpokeFields | None]
+# level of s = 0, where each row starts
+START = -1
+
+
+@dataclass(frozen=True)
+class Row:
+    """States of equal β and φ (at full range), and the numbers of their levels, rising."""
+
+    number: int
+    beta: float
+    phi: float
+    levels: tuple[int, ...]
+
+
+class Grid:
+    """Where a table is sampled: levels of s, and the rows of states across them.
+
+    The row β = φ = 0 has a state at every level. The other rows have one at every second level
+    and take turns, as the colours of a chessboard, unless the options ask for every state.
+
+    Parameters
+    ----------
+    options : EnergyTableOptions
+    height_mm : float
+        Distance between the spoke's two feet before the load.
+    """
+
+    def __init__(self, options: EnergyTableOptions, height_mm: float) -> None:
+        self._options, self._height_mm = options, height_mm
+        self.lengths = chebyshev_nodes(*options.elongation_mm, options.samples[0])
+        # a level of s = 0, up to rounding, is the rows' start itself
+        zero = np.abs(self.lengths) < 1e-9 * np.ptp(self.lengths)
+        self._levels = [int(level) for level in np.flatnonzero(~zero)]
+
+    def rows(self) -> list[Row]:
+        """Rows with β ≥ 0, one after the other; the states with β < 0 follow by symmetry."""
+        options = self._options
+        turns = chebyshev_nodes(
+            -options.inclination_rad, options.inclination_rad, options.samples[1]
+        )
+        rotations = chebyshev_nodes(*options.phi_rad, options.samples[2])
+        turns = turns[turns > -1e-12]
+        middle = (len(rotations) - 1) // 2
+        return [
+            Row(number, turns[j], rotations[k], self._levels_of(j + k - middle, turns[j], phi))
+            for number, ((j, k), phi) in enumerate(
+                (place, rotations[place[1]])
+                for place in product(range(len(turns)), range(len(rotations)))
+            )
+        ]
+
+    def _levels_of(self, colour: int, beta: float, phi: float) -> tuple[int, ...]:
+        small = abs(beta) < 1e-12 and abs(phi) < 1e-12
+        if small or self._options.side_states == "every":
+            return tuple(self._levels)
+        return tuple(level for level in self._levels if (level + colour) % 2 == 0)
+
+    def motions(self, row: Row, levels: Sequence[int]) -> Array:
+        """Motions (n, 3) of a row at these levels."""
+        s = np.array([0.0 if level == START else self.lengths[level] for level in levels])
+        part = side_part(s, self._options.elongation_mm[0], self._options.narrowing)
+        coordinates = np.stack([s, part * row.beta, part * row.phi], axis=1)
+        return motion_of(coordinates, self._height_mm)[0]
+
+
+def no_correction(place: Place) -> None:
+    """Leave every state to be found from those beside it alone."""
+
+
+@dataclass
+class SampledSpoke:
+    """A spoke's states, and by what each differs from the extrapolation of those before it."""
+
+    states: dict[Place, SpokeState]
+    corrections: dict[Place, SpokeFields]
+
+
+def sampled_states(
+    model: SpokeModel, options: EnergyTableOptions, corrections: Corrections = no_correction
+) -> SampledSpoke:
+    """Compute the spoke's states on the table's grid, walking from level to level.
+
+    Where a row loses its stability in compression, the states of all rows end at its last level.
+
+    Parameters
+    ----------
+    model : SpokeModel
+    options : EnergyTableOptions
+    corrections : callable
+        Gives, for a place, what is added to the extrapolation of the states before it, or None.
+        It says where an iteration begins, not where it ends.
+
+    Raises
+    ------
+    SpokeError
+        If a state in tension or of the unloaded radius is not found.
+    """
+    grid = Grid(options, model.design.geometry.height_mm)
+    walk = _Walk(model, grid, corrections, SampledSpoke({}, {}))
+    start, lowest = model.rest(), 0
+    for row in grid.rows():
+        start = walk.along(row, start, [START])
+        up = [level for level in row.levels if grid.lengths[level] > 0.0]
+        walk.along(row, start, up)
+        try:
+            walk.along(row, start, [level for level in reversed(row.levels) if level not in up])
+        except SpokeError:
+            lowest = max(lowest, _last_level(model, grid, row, walk.found.states))
+    states = walk.found.states.items()
+    walk.found.states = {at: state for at, state in states if not 0 <= at[1] < lowest}
+    return walk.found
+
+
+@dataclass(frozen=True)
+class _Walk:
+    """Goes along rows and collects what it finds."""
+
+    model: SpokeModel
+    grid: Grid
+    corrections: Corrections
+    found: SampledSpoke
+
+    def along(self, row: Row, start: SpokeState, levels: Sequence[int]) -> SpokeState:
+        """Go from a state through these levels of a row, and give the last state."""
+        before, last = None, start
+        for level, motion in zip(levels, self.grid.motions(row, levels), strict=True):
+            place = (row.number, level)
+            guess = self.model.extrapolated(before, last, motion)
+            state = self.model.next_state(before, last, motion, self.corrections(place))
+            self.found.states[place] = state
+            reached = SpokeFields(state.displacement, state.pressures)
+            self.found.corrections[place] = reached.plus(guess, -1.0)
+            before, last = last, state
+        return last
+
+
+def _last_level(model: SpokeModel, grid: Grid, row: Row, found: dict[Place, SpokeState]) -> int:
+    """Lowest level that a row reaches, with the one that it leaves out next to its last state."""
+    inside = int(np.searchsorted(grid.lengths, 0.0))
+    reached = [level for number, level in found if number == row.number and 0 <= level < inside]
+    last = min(reached, default=START)
+    between = (last if last >= 0 else inside) - 1
+    if between in row.levels or between < 0:
+        return between + 1
+    try:
+        motion = grid.motions(row, [between])[0]
+        found[row.number, between] = model.move(found[row.number, last], motion)
+    except SpokeError:
+        return between + 1
+    return between
+
+
+def samples_of(states: Mapping[Place, SpokeState], height_mm: float) -> SpokeSamples:
+    """Energies and derivatives of states by the table's coordinates."""
+    motion = np.array([state.motion for state in states.values()])
+    force = np.array([state.force for state in states.values()])
+    tangent = np.array([state.tangent for state in states.values()])
+    coordinates = coordinates_of(motion, height_mm)[0]
+    return SpokeSamples(
+        coordinates,
+        np.array([state.energy for state in states.values()]),
+        *carried(force, tangent, *motion_of(coordinates, height_mm)[1:]),
+    )
+
+
+def sample(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
+    """Sample a spoke for its table, see `sampled_states`."""
+    return samples_of(sampled_states(model, options).states, model.design.geometry.height_mm)
+
+
+def computed_table(
+    design: SpokeDesign, options: EnergyTableOptions, corrections: Corrections = no_correction
+) -> tuple[SpokeEnergyTable, dict[Place, SpokeFields]]:
+    """Compute the energy table of one spoke, and what may help to compute that of another.
+
+    Parameters
+    ----------
+    design : SpokeDesign
+    options : EnergyTableOptions
+    corrections : callable
+        Of the place of a state in the table's grid, see `sampled_states`.
+
+    Returns
+    -------
+    table : SpokeEnergyTable
+    corrections : dict of place to SpokeFields
+        This spoke's own.
+    """
+    height_mm = design.geometry.height_mm
+    sampled = sampled_states(SpokeModel(design, options.accepted_work), options, corrections)
+    return fit(samples_of(sampled.states, height_mm), options, height_mm), sampled.corrections

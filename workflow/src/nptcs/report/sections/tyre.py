@@ -1,0 +1,118 @@
+"""Section of the report on the solved tyres: figure 10 and section 4.1 of the paper."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
+from nptcs.report.data import Results
+from nptcs.report.figures.tyre import PUBLISHED_STRESS_MPA, load_displacement, plate_faces
+from nptcs.report.plots import plot
+from nptcs.report.sections.ply import ply_words
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.cases import Cases
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
+
+TITLE = "What the solved tyres do (section 4.1)"
+FIDUCIAL = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
+"""The paper's fiducial plates."""
+
+
+def tyre_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section."""
+    responses = results.table(TyreResponses)
+    if responses.empty:
+        return Section(ReportSection.TYRE, TITLE, ())
+    blocks: list[PageBlock] = [
+        Text(
+            "Load–displacement curves and plate stress of the tyres that were solved. Plates are "
+            "looked at where they are loaded most: at their faces, in the few spokes that store "
+            "most energy, each solved again at its own motion in the tyre. Margins are factors by "
+            "which the stress may grow; the strengths are those of the laboratory's statistics. "
+            + ply_words(results)
+        ),
+        *(Text(words) for words in published_stress(results)),
+        *(Text(words, "warn") for words in not_assessed(responses)),
+        Plots(
+            "Load against vertical displacement, every tyre of a study (figure 10 b of the "
+            "paper, which has no numbers).",
+            tuple(_curve_plots(results)),
+        ),
+    ]
+    stress = tuple(_stress_plots(results))
+    if stress:
+        blocks.append(
+            Plots(
+                "Von Mises stress in the plane of the plates at both faces, in the most loaded "
+                "spoke of the tyre with the largest stress of each study (figure 10 a of the "
+                f"paper; dashed: its largest value, {PUBLISHED_STRESS_MPA:g} MPa). Full lines: "
+                "element centres.",
+                stress,
+            )
+        )
+    return Section(
+        ReportSection.TYRE, TITLE, tuple(blocks), sheet_of(sheets, TyreResponses).synthetic
+    )
+
+
+def published_stress(results: Results) -> list[str]:
+    """Put the plate stress of the fiducial plates next to the paper's largest one."""
+    responses, cases = results.table(TyreResponses), results.table(Cases)
+    if not set(FIDUCIAL) <= set(cases):
+        return []
+    fiducial = cases[(cases[list(FIDUCIAL)] == pd.Series(FIDUCIAL)).all(axis=1)]
+    found = responses[
+        responses["response"].eq("plate_largest_mises")
+        & responses["status"].eq("ok")
+        & responses["case_id"].isin(fiducial["case_id"])
+    ]
+    if found.empty:
+        return []
+    low, high = found["value"].min(), found["value"].max()
+    span = f"{low:.1f} MPa" if len(found) == 1 else f"{low:.1f} to {high:.1f} MPa"
+    return [
+        f"The paper gives {PUBLISHED_STRESS_MPA:g} MPa as the largest stress of a plate at 5000 N; "
+        "it does not say for which plates and rubbers, nor of which measure. The largest von "
+        f"Mises stress here, at the faces of the fiducial plates, is {span} over "
+        f"{len(found)} tyres with different rubbers. Nothing was fitted to it."
+    ]
+
+
+def not_assessed(responses: pd.DataFrame) -> list[str]:
+    """Say how many responses have no value, and why, one sentence for each reason."""
+    missing = responses[responses["status"] != "ok"]
+    groups = missing.groupby(["response", "at", "status"], sort=False)
+    return [
+        f"{str(name).replace('_', ' ')}{f' at {at}' if at else ''}: {status} for {len(rows)} "
+        f"tyres; the first: {rows['note'].iloc[0]}."
+        for (name, at, status), rows in groups
+    ]
+
+
+def _synthetic(results: Results, study: object, solver: object) -> bool:
+    return results.study_is_synthetic(results.config.study(str(study)), str(solver))
+
+
+def _curve_plots(results: Results) -> list[Plot]:
+    plots = []
+    for (study, solver), curves in results.table(TyreCurves).groupby(
+        ["study", "solver"], sort=False
+    ):
+        synthetic = _synthetic(results, study, solver)
+        figure = load_displacement(curves, f"{study}, {solver}", synthetic)
+        plots.append(plot(figure, f"Load against displacement, {study}, {solver}", synthetic))
+    return plots
+
+
+def _stress_plots(results: Results) -> list[Plot]:
+    plots = []
+    for (study, solver), stress in results.table(PlateStress).groupby(
+        ["study", "solver"], sort=False
+    ):
+        worst = stress["case_id"].iloc[int(stress["mises_mpa"].argmax())]
+        rows = stress[stress["case_id"] == worst]
+        synthetic = _synthetic(results, study, solver)
+        figure = plate_faces(rows, f"{worst}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
+        plots.append(plot(figure, f"Stress at the plates' faces, {worst}, {solver}", synthetic))
+    return plots
