@@ -78,7 +78,7 @@ def repeated_specimens(
     """Included specimens that repeat an earlier included one, in the order of the sheet."""
     included = {specimen.specimen: specimen for specimen in specimens if specimen.include}
     by_name = {record.specimen: record for record in records}
-    pieces = {name: getattr(specimen, "piece", "") for name, specimen in included.items()}
+    pieces = {name: specimen.piece for name, specimen in included.items()}
     return repeats((by_name[name] for name in included if name in by_name), pieces)
 
 
