@@ -1,8 +1,8 @@
 """Rules by which curves become properties: every range with the standard's value as default.
 
-One section for each standard, because each has its own ranges; ``tension_standard`` and its siblings
-say which one is in force. Ranges that the standards leave to the laboratory, or whose numbers
-were not read in a public source, are marked "check against your copy of the standard" in
+One section for each standard, because each has its own ranges; ``tension_standard`` and its
+siblings say which one is in force. Ranges that the standards leave to the laboratory, or whose
+numbers were not read in a public source, are marked "check against your copy of the standard" in
 ``docs/methods/reduction.md``.
 """
 
