@@ -73,7 +73,7 @@ def _spikes(readings: Array, share: float) -> Rows:
     step = np.diff(values)
     size = np.abs(step)
     leaves = np.minimum(size[:-1], size[1:])
-    leaves[step[:-1] * step[1:] >= 0] = 0.0
+    leaves[np.sign(step[:-1]) * np.sign(step[1:]) >= 0] = 0.0
     usual = 20 * float(np.median(size))
     if leaves.max() <= usual:
         return kept[:0]

@@ -136,7 +136,7 @@ _PREFIXES = re.compile(
 )
 _SUFFIXES = re.compile(
     r"(?:[ .:-]+(?:filtered|filt|unfiltered|raw|signal|channel|value|wert|istwert|measured|"
-    r"actual|gefiltert|filtre|filtrado|filtrato)|[ ]*\((?:filtered|raw)\))+$"
+    r"actual|gefiltert|filtre|filtrado|filtrato|1)|[ ]*\((?:filtered|raw)\))+$"
 )
 
 

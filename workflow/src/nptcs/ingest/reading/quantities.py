@@ -123,15 +123,18 @@ def map_columns(
                 continue
             wanted = {str(name) for name in known.columns} - set(mapped)
             if known is not profile or bare:
-                wanted &= _lacking(mapped, columns)
+                wanted &= _lacking(mapped, columns, own=known is profile)
             _map_names(mapped, wanted, columns, known, bare, path, block)
     order = [*profile.columns, *(plain.columns if plain is not None else ())]
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
 
 
-def _lacking(mapped: dict[str, Column], columns: Sequence[Column]) -> set[str]:
-    """Quantities of which none of their kind is mapped yet; a time must state its unit."""
-    kinds = (LOADS, (*STRAINS, "displacement"))
+def _lacking(mapped: dict[str, Column], columns: Sequence[Column], own: bool) -> set[str]:
+    """Quantities of which none of their kind is mapped yet; a time must state its unit.
+
+    A travel stands for a strain only against the names of another profile than the `own` one.
+    """
+    kinds = (LOADS, STRAINS if own else (*STRAINS, "displacement"))
     lacking = {name for kind in kinds if not set(kind) & set(mapped) for name in kind}
     lacking |= set(UNITLESS) - set(mapped)
     return lacking | ({"time"} - set(mapped) if any(c.unit for c in columns) else set())

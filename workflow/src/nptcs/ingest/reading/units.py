@@ -34,6 +34,11 @@ FACTORS: dict[str, dict[str, float]] = {
         "second": 1,
         "sekunden": 1,
         "msec": 1e-3,
+        "sek": 1,
+        "sek.": 1,
+        "segundos": 1,
+        "secondes": 1,
+        "secondi": 1,
     },
     "force": {
         "N": 1,
