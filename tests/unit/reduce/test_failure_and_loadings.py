@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.calibrate import calibrate_rubber
+from nptcs.calibrate import c10_against_range, calibrate_rubber
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.config.ingest import IngestSettings
 from nptcs.config.reduction import ReductionSettings
@@ -231,6 +231,18 @@ def test_a_gauge_taken_off_for_the_way_to_failure(
     assert_not_assessed(table, ["ultimate_strain"], "strain recorded up to")
 
 
+@pytest.mark.parametrize("stuck_at", [0.00252, 0.00299, 0.00305])
+def test_a_gauge_that_stands_still_near_the_end_of_the_chord(
+    run: Make, tmp_path: Path, stuck_at: float
+) -> None:
+    strain = np.linspace(0, 0.0045, 700)
+    random = np.random.default_rng(2)
+    seen = np.minimum(strain, stuck_at) + 1e-7 * random.standard_normal(700)
+    name = export(tmp_path, np.arange(700) * 0.2, laminate(strain), seen)
+    table, _, _ = run(tmp_path, force_file=name)
+    assert table.loc["modulus", "value"] == pytest.approx(125000, rel=2e-3)
+
+
 def test_no_strain_is_interpolated_across_a_break(run: Make) -> None:
     table, _, _ = run(
         LABCASES / "break_between_frames",
@@ -321,6 +333,29 @@ def test_the_sheet_chooses_the_loading_of_a_cyclic_test(
     assert value == pytest.approx(c10, rel=2e-3)
     assert f"4 loadings in the record, {words}" in checks
     assert f"4 loadings in the record, {words}" in table.loc["strain_rate", "flags"]
+
+
+def test_a_cyclic_test_is_in_the_table_of_ranges(run: Make) -> None:
+    _, specimen, done = run(
+        LABCASES / "cyclic_rubber", "R-1", "rubber_tension", force_file="rub_cyc3.csv"
+    )
+    curves, material = {"R-1": done.curve}, specimen.material
+    table = c10_against_range(material, curves, [specimen], CalibrationSettings())
+    row = table[(table["specimen"] == "R-1") & table["in_card"]].iloc[0]
+    assert row["c10_mpa"] == pytest.approx(1.0, rel=2e-3)
+    assert "4 loadings in the record" in row["remarks"]
+    # the first loading ends at 20 %
+    beyond = table[(table["specimen"] == "R-1") & (table["strain_high"] == 0.5)].iloc[0]
+    assert np.isnan(beyond["c10_mpa"])
+
+
+def test_two_runs_of_a_piece_in_one_fit_are_said(run: Make) -> None:
+    folder, curves, sheet = LABCASES / "cyclic_rubber", {}, []
+    for name, file in (("R-1", "rub_cyc3.csv"), ("R-2", "rub_mono.csv")):
+        _, specimen, done = run(folder, name, "rubber_tension", force_file=file, piece="R")
+        curves[name], sheet = done.curve, [*sheet, specimen]
+    card = calibrate_rubber(sheet[0].material, curves, sheet, CalibrationSettings())
+    assert any("2 runs of R are in the fit" in check for check in card.checks)
 
 
 def test_a_loading_that_the_record_lacks_is_an_error(run: Make) -> None:

@@ -12,7 +12,13 @@ from nptcs.calibrate.drucker import instabilities
 from nptcs.calibrate.fit import Model, fit_model
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.models import model_named
-from nptcs.calibrate.observations import Observation, observations, observe, specimens_in_fit
+from nptcs.calibrate.observations import (
+    STRAIN_ENDS,
+    Observation,
+    observations,
+    observe,
+    specimens_in_fit,
+)
 from nptcs.calibrate.rubber import unit_of
 from nptcs.config.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
@@ -173,11 +179,12 @@ def _range_rows(
             rows.append(_empty_range_row(specimen.specimen, error.message))
             continue
         observation = replace(observation, origin=origins.get(specimen.specimen, Origin()))
-        if remarks:
+        if any(STRAIN_ENDS in text for text in remarks):
             rows.append(_empty_range_row(specimen.specimen, "; ".join(remarks)))
             continue
         together.append(observation)
-        rows.append(_range_row(specimen.specimen, [observation], settings))
+        row = _range_row(specimen.specimen, [observation], settings)
+        rows.append(row | {"remarks": "; ".join(remarks)})
     if not together:
         return [*rows, _empty_range_row("all", "no specimen covers this range")]
     return [*rows, _range_row("all", together, settings)]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import assert_never
@@ -20,6 +21,7 @@ from nptcs.reduce.rubber_compression import UNIFORM
 from nptcs.tables.specimens import Specimen
 
 SMALLEST_NUMBER_OF_POINTS = 3
+STRAIN_ENDS = "strain ends at"
 
 
 @dataclass(frozen=True)
@@ -94,7 +96,7 @@ def observations(
     remarks = [
         f"{s.specimen}: no curve, not in the fit" for s in chosen if s.specimen not in curves
     ]
-    remarks += _platen_words(name, specimens)
+    remarks += [*_platen_words(name, specimens), *_run_words(chosen)]
     found = []
     for specimen in chosen:
         if specimen.specimen in curves:
@@ -156,6 +158,17 @@ def _platen_words(name: str, specimens: Sequence[Specimen]) -> list[str]:
     return words
 
 
+def _run_words(chosen: Sequence[Specimen]) -> list[str]:
+    """Say which pieces are in the fit with several runs, as if they were several specimens."""
+    counts = Counter(s.tested_piece for s in chosen)
+    return [
+        f"warning: {count} runs of {piece} are in the fit and count as specimens; let the sheet "
+        f"take {HYPERELASTIC_FIT} from one of them"
+        for piece, count in counts.items()
+        if count > 1
+    ]
+
+
 def observe(
     specimen: Specimen,
     curve: pd.DataFrame,
@@ -190,7 +203,7 @@ def observe(
         )
     words = [f"{specimen.specimen}: {text}" for text in branch.words]
     if strain.max() < high:
-        words.append(f"{specimen.specimen}: strain ends at {strain.max():.4g}, before {high:g}")
+        words.append(f"{specimen.specimen}: {STRAIN_ENDS} {strain.max():.4g}, before {high:g}")
     sign = specimen.test.load_sign
     stretch, stress = 1.0 + sign * strain[inside], sign * stress[inside]
     weight = _weight(stress, settings)

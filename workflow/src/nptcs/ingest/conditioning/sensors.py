@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from nptcs.arrays import Array
+from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import ExtensometerRemoval
 from nptcs.ingest.conditioning.signals import LENGTHS, Signals, largest
 from nptcs.ingest.conditioning.steps import STRAINS
@@ -179,4 +179,21 @@ def find_stuck(strain: Array, force: Array, share: float) -> Loss | None:
     gains = np.diff(strain[rows])
     moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
     last = int(moving[-1]) + 1 if len(moving) else 0
-    return Loss(int(rows[last]) + 1, "stands still") if last < len(gains) else None
+    if last >= len(gains):
+        return None
+    return Loss(_stands_from(strain, rows, last) + 1, "stands still")
+
+
+def _stands_from(strain: Array, rows: Rows, last: int) -> int:
+    """First reading at the level at which the strain then stands: at most one step earlier.
+
+    The steps are coarse; a reading of the climb without strain would count at too high a force.
+    """
+    standing = strain[rows[last] + 1 : rows[last + 1] + 1]
+    standing = standing[~np.isnan(standing)]
+    if not len(standing):
+        return int(rows[last])
+    level = float(np.median(standing)) - 3 * float(np.std(standing))
+    before = slice(rows[max(last - 1, 0)], rows[last] + 1)
+    reached = np.flatnonzero(strain[before] >= level)
+    return int(rows[max(last - 1, 0)] + reached[0]) if len(reached) else int(rows[last])
