@@ -11,8 +11,8 @@ from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.ingest.file_names import tokens
+from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
-from nptcs.ingest.reading.raw_file import OpenedFile, open_file
 from nptcs.ingest.reading.units import factor, split_unit
 
 _SPECIMEN = re.compile(

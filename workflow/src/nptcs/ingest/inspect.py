@@ -10,9 +10,10 @@ from pathlib import Path
 from nptcs.errors import InputError
 from nptcs.ingest.reading.dialect import Dialect
 from nptcs.ingest.reading.find_tables import find_tables
+from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
 from nptcs.ingest.reading.quantities import NEEDS, Test, tests_in, unit_of
-from nptcs.ingest.reading.raw_file import OpenedFile, header_labels, matching, open_file, sources_of
+from nptcs.ingest.reading.raw_file import header_labels, matching, sources_of
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, factor
 
 ROWS_SHOWN = 3

@@ -22,9 +22,10 @@ from nptcs.ingest.file_names import (
 )
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
+from nptcs.ingest.reading.column_names import LOADS, STRAINS
 from nptcs.ingest.reading.labels import LabelValue
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.ingest.reading.quantities import LOADS, STRAINS, Test
+from nptcs.ingest.reading.quantities import Test
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
 from nptcs.mechanical_tests import TestType
 from nptcs.tables.specimens import COLUMNS

@@ -12,8 +12,8 @@ from nptcs.arrays import Array
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.read_tables import read_tables
+from nptcs.ingest.reading.column_names import LOADS, STRAINS
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.ingest.reading.quantities import LOADS, STRAINS
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.specimens import Specimen

@@ -11,7 +11,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import SheetSource
+from nptcs.ingest.reading.sheet_cells import SheetSource
 
 TDMS = b"TDSm"
 MAT = b"MATLAB 5.0 MAT-file"

@@ -8,7 +8,8 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import CellSource, SheetSource, TextSource
+from nptcs.ingest.reading.cells import CellSource, TextSource
+from nptcs.ingest.reading.sheet_cells import SheetSource
 from nptcs.ingest.reading.table_columns import SMALLEST_TABLE, FoundTable, describe_columns
 
 DATA = ("data", "odd data")

@@ -13,7 +13,7 @@ from xml.etree.ElementTree import ParseError
 
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import FORMULA, Clock, SheetSource
+from nptcs.ingest.reading.sheet_cells import FORMULA, Clock, SheetSource
 
 ZIP = b"PK\x03\x04"
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"

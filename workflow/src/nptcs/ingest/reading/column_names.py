@@ -1,0 +1,150 @@
+"""Which column is which quantity: by a profile's names, and by the unit where they disagree."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+from pathlib import Path
+
+from nptcs.errors import InputError
+from nptcs.ingest.reading.profiles import (
+    UNITLESS,
+    FormatProfile,
+    name_matches,
+    normalise,
+    without_channel,
+)
+from nptcs.ingest.reading.table_columns import Column, FoundTable
+from nptcs.ingest.reading.units import DIMENSION, find_unit
+
+STRAINS = ("strain", "strain_xx", "strain_yy", "stretch", "extension")
+LOADS = ("force", "stress")
+
+
+def map_columns(
+    columns: Sequence[Column],
+    profile: FormatProfile,
+    path: Path,
+    block: FoundTable,
+    plain: FormatProfile | None = None,
+) -> dict[str, Column]:
+    """Quantity → column, by the profile's names or order.
+
+    Names count as they are, then without the prefix and suffix of a channel; then, where no load
+    or no strain was found, the names of `plain` in the same way.
+
+    Raises
+    ------
+    InputError
+        If a name of the profile fits several columns.
+    """
+    if profile.columns_in_order:
+        if len(profile.columns_in_order) != block.width:
+            raise InputError(
+                f"table has {block.width} columns, profile '{profile.name}' names "
+                f"{len(profile.columns_in_order)}",
+                "correct columns_in_order",
+                path,
+                block.first + 1,
+            )
+        pairs = zip(profile.columns_in_order, columns, strict=True)
+        return {quantity: column for quantity, column in pairs if quantity != "-"}
+    mapped: dict[str, Column] = {}
+    for known in (profile, plain):
+        for bare in (False, True):
+            if known is None:
+                continue
+            wanted = {str(name) for name in known.columns} - set(mapped)
+            if known is not profile or bare:
+                wanted &= _lacking(mapped, columns, own=known is profile)
+            _map_names(mapped, wanted, columns, known, bare, path, block)
+    order = [*profile.columns, *(plain.columns if plain is not None else ())]
+    return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
+
+
+def _lacking(mapped: dict[str, Column], columns: Sequence[Column], own: bool) -> set[str]:
+    """Quantities of which none of their kind is mapped yet; a time must state its unit.
+
+    A travel stands for a strain only against the names of another profile than the `own` one.
+    """
+    kinds = (LOADS, STRAINS if own else (*STRAINS, "displacement"))
+    lacking = {name for kind in kinds if not set(kind) & set(mapped) for name in kind}
+    lacking |= set(UNITLESS) - set(mapped)
+    return lacking | ({"time"} - set(mapped) if any(c.unit for c in columns) else set())
+
+
+def _map_names(
+    mapped: dict[str, Column],
+    wanted: set[str],
+    columns: Sequence[Column],
+    profile: FormatProfile,
+    bare: bool,
+    path: Path,
+    block: FoundTable,
+) -> None:
+    """Add the quantities of `wanted` whose name a free column has, first name first."""
+    taken = {column.position for column in mapped.values()}
+    for quantity in (name for name in profile.columns if name in wanted):
+        for name in profile.columns[quantity]:
+            fitting = [
+                column
+                for column in columns
+                if column.position not in taken
+                and name_matches(without_channel(column.name) if bare else column.name, name)
+            ]
+            if len(fitting) > 1:
+                raise _several(path, block, quantity, name, fitting)
+            if fitting:
+                mapped[quantity] = fitting[0]
+                taken.add(fitting[0].position)
+                break
+
+
+_BY_UNIT = {
+    "strain": "extension",
+    "extension": "strain",
+    "displacement": "strain",
+    "force": "stress",
+    "stress": "force",
+}
+_TRAVEL = re.compile(
+    r"crosshead|travel|travers|position|stroke|course|weg\b|carrera|corsa|ход|行程"
+)
+
+
+def by_unit(mapped: dict[str, Column], profile: FormatProfile, block: FoundTable) -> str:
+    """Let the unit decide what a column is where its name says another quantity.
+
+    ``Axial Extensometer`` in mm/mm is a strain, ``Strain 1`` in mm an extension. A column whose
+    quantity is already there, or whose unit belongs to neither, stays as it is.
+
+    Returns
+    -------
+    str
+        ``crosshead`` if a travel became the strain, else empty.
+    """
+    source = ""
+    for quantity, other in _BY_UNIT.items():
+        column = mapped.get(quantity)
+        unit = profile.wrong_units.get(quantity) or (column and column.unit)  # type: ignore[call-overload]
+        if column is None or not unit or find_unit(DIMENSION[quantity], unit):
+            continue
+        if unit in ("1", "-") or find_unit(DIMENSION[other], unit) is None or other in mapped:
+            continue
+        mapped[other] = mapped.pop(quantity)
+        block.notes.append(f"column '{column.name}' in {unit} is read as {other}")
+        if quantity == "displacement" and _TRAVEL.search(normalise(column.name)):
+            source = "crosshead"
+    return source
+
+
+def _several(
+    path: Path, block: FoundTable, quantity: str, name: str, fitting: Sequence[Column]
+) -> InputError:
+    choices = ", ".join(f"'{column.name}' (number {column.position + 1})" for column in fitting)
+    return InputError(
+        f"'{name}' fits several columns for {quantity}: {choices}",
+        "name the right one exactly in a profile",
+        path,
+        None if block.names_row is None else block.names_row + 1,
+    )

@@ -1,0 +1,118 @@
+"""A raw file's bytes: decoded to lines, or unpacked to sheets, within the limits."""
+
+from __future__ import annotations
+
+import hashlib
+import re
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from nptcs.config.ingest import FileLimits
+from nptcs.errors import InputError
+from nptcs.ingest.reading.binary_tables import is_binary_table, read_binary_table
+from nptcs.ingest.reading.cells import CellSource, split_lines
+from nptcs.ingest.reading.clock import PlainLines, clocks_to_seconds, join_grouped_digits
+from nptcs.ingest.reading.decode import decode
+from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.units import FACTORS
+from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
+
+HEAD_LINES = 60
+_WORD = re.compile(r"[^\W\d_]{2}|[|\[(%]")
+
+
+@dataclass
+class OpenedFile:
+    """A raw file's content, before a dialect and a table are chosen."""
+
+    path: Path
+    head: str
+    encoding: str
+    sha256: str
+    lines: list[str] = field(default_factory=list)
+    clocks: PlainLines | None = None
+    largest_width: int = FileLimits().columns
+    sheets: list[CellSource] = field(default_factory=list)
+    notes: tuple[str, ...] = ()
+
+    @property
+    def kind(self) -> str:
+        """``text`` or ``workbook``."""
+        return "text" if self.lines else "workbook"
+
+
+def vocabulary(profiles: Mapping[str, FormatProfile]) -> set[str]:
+    """Every column name and label that the profiles know, and the units."""
+    words = {unit for units in FACTORS.values() for unit in units}
+    for profile in profiles.values():
+        for names in (*profile.columns.values(), *profile.labels.values()):
+            words.update(name.strip("*") for name in names)
+    return words
+
+
+def open_file(
+    path: Path,
+    profiles: Mapping[str, FormatProfile],
+    profile: FormatProfile,
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
+) -> OpenedFile:
+    """Read a file's bytes and decode them, by the profile's encoding if it states one.
+
+    Raises
+    ------
+    InputError
+        If it is missing, empty, binary, or larger than the limits.
+    """
+    try:
+        refuse_larger(path, "file_mb", path.stat().st_size / 1e6, limits.file_mb, "MB")
+        raw = path.read_bytes()
+    except OSError as error:
+        what = "file is missing" if isinstance(error, FileNotFoundError) else "cannot be read"
+        raise InputError(what, "check the name in the sheet", path) from error
+    digest = hashlib.sha256(raw).hexdigest()
+    if is_workbook(raw):
+        sheets, notes = read_workbook(path, raw, frozenset(profile.missing), limits)
+        head = "\n".join(
+            "\n".join(
+                [sheet.part, *("\t".join(map(_text, row)) for row in sheet.rows[:HEAD_LINES])]
+            )
+            for sheet in sheets
+        )
+        return OpenedFile(path, head, "", digest, sheets=list(sheets), notes=notes)
+    if is_binary_table(raw):
+        tables = read_binary_table(path, raw, frozenset(profile.missing), limits)
+        head = "\n".join("\t".join(map(_text, row)) for one in tables for row in one.rows[:1])
+        return OpenedFile(path, head, "", digest, sheets=list(tables))
+    decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
+    plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
+    lines = plain.lines
+    refuse_larger(path, "rows", len(lines), limits.rows, "lines")
+    longest = max(map(len, lines))
+    refuse_larger(path, "line_length", longest, limits.line_length, "characters in a line")
+    note = f"encoding {decoded.encoding}: {decoded.note}"
+    head = "\n".join(line for line in lines[:HEAD_LINES] if _WORD.search(line))
+    return OpenedFile(
+        path,
+        head,
+        decoded.encoding,
+        digest,
+        lines=plain.lines,
+        clocks=plain,
+        largest_width=limits.columns,
+        notes=(note,),
+    )
+
+
+def refuse_larger(path: Path, limit: str, size: float, allowed: float, what: str) -> None:
+    """Raise InputError if a size is beyond its limit, with the key of the configuration."""
+    if size > allowed:
+        raise InputError(
+            f"has {size:.6g} {what}, {allowed:.6g} are allowed",
+            f"export one test per file, or raise ingest.limits.{limit}",
+            path,
+        )
+
+
+def _text(cell: object) -> str:
+    return "" if cell is None else str(cell)
