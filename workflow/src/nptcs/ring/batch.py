@@ -39,8 +39,8 @@ DIMENSIONS = (
     "wire_modulus_mpa",
     "wire_poisson_ratio",
 )
-"""Fields of `TyreGeometry` that a design may vary. The width is not among them: a spoke's table is of
-a spoke as wide as its tyre."""
+"""Fields of `TyreGeometry` that a design may vary. The width is not among them: a spoke's table is
+of a spoke as wide as its tyre."""
 NUMBERS = (
     "displacement_mm",
     "displacement_standard_error_mm",

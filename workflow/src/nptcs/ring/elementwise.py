@@ -1,4 +1,4 @@
-"""Energies of the ring's parts: residuals and tangents, written once for arrays and for the compiler.
+"""Energies of the ring's parts: residuals and tangents, written once for arrays and compiler.
 
 Each function takes its unknowns by component: `m[3]` is ψ, a number where numba compiles the
 function and calls it element by element, an array over all elements where NumPy runs it. So no

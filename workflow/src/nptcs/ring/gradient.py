@@ -87,7 +87,7 @@ def displacement_slopes(
     neighbours: Sequence[tuple[RingTyre, RingTyre, float]],
     states: Sequence[RingState],
 ) -> Array:
-    """Derivatives (parameters,) of the last state's displacement.
+    """Give the derivatives (parameters,) of the last state's displacement.
 
     Parameters
     ----------

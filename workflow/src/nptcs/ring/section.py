@@ -100,7 +100,7 @@ class Rubber:
 
     @property
     def contraction(self) -> float:
-        """Thickness lost by a stretch along the ring: (κ - 2G/3)/(κ + 4G/3), 1 if incompressible."""
+        """Thickness lost by a stretch along the ring: (κ - 2G/3)/(κ + 4G/3)."""
         inverse = 1.0 / self.bulk_to_shear_ratio
         return (1.0 - 2.0 * inverse / 3.0) / (1.0 + 4.0 * inverse / 3.0)
 

@@ -22,6 +22,8 @@ FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
 # the iteration that ends below it has left an error of about its square
 TOLERANCE_MM = 1e-5
 BACKTRACKS = 6
+# unknowns of a node that are lengths: u_x, u_y, s
+LENGTHS = [0, 1, 4]
 
 
 class RingError(RuntimeError):
@@ -164,8 +166,9 @@ def _equilibrium(
 ) -> RingState:
     """Newton's method at a given load, or at the given rise if `load_n` is None."""
     count = 0
-    for count, (step, change) in enumerate(_iterates(tyre, last, u, rise, load_n), start=1):
-        u, rise = step, change
+    for moved, moved_rise in _iterates(tyre, last, u, rise, load_n):
+        u, rise = moved, moved_rise
+        count += 1
     if outside := tyre.spokes.outside(spoke_coordinates(tyre.ring, u)):
         raise _NoEquilibrium(outside, outside=True)
     force = load_n
@@ -178,25 +181,20 @@ def _equilibrium(
 def _iterates(
     tyre: RingTyre, last: RingState, u: Array, rise: float, load_n: float | None
 ) -> Iterator[tuple[Array, float]]:
-    """Iterates (u, rise) until the last step is below the tolerance."""
-    before, part = np.inf, 1.0
-    back = 0
-    previous: tuple[Array, float] | None = None
+    """Yield iterates (u, rise) until the last step is below the tolerance."""
+    before, part, drawn_back = np.inf, 1.0, 0
+    # the last iterate inside the table
+    inside = last.u, rise if load_n is None else last.rise_mm
     for count in range(MAX_ITERATIONS):
         system = tyre.kernel.assemble(tyre.ring, u, rise, last.anchor)
         if outside := tyre.spokes.outside(system.coordinates):
-            back += 1
-            if previous is None:
-                u, rise = last.u, last.rise_mm if load_n is not None else rise
-            elif back > BACKTRACKS:
+            drawn_back += 1
+            if drawn_back > BACKTRACKS:
                 raise _NoEquilibrium(outside, outside=True)
-            else:
-                u, rise = 0.5 * (u + previous[0]), 0.5 * (rise + previous[1])
-            if back > BACKTRACKS:
-                raise _NoEquilibrium(outside, outside=True)
+            u, rise = 0.5 * (u + inside[0]), 0.5 * (rise + inside[1])
             continue
         step, change = _newton_step(tyre, system, load_n)
-        largest = float(np.abs(step[:, [0, 1, 4]]).max())
+        largest = float(np.abs(step[:, LENGTHS]).max())
         if not np.isfinite(largest):
             raise _NoEquilibrium("the iteration has left the range of numbers")
         if count >= CALM_ITERATIONS:
@@ -204,7 +202,7 @@ def _iterates(
             part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
         before = largest
         damp = min(part, LARGEST_STEP_MM / max(largest, 1e-12))
-        previous = u, rise
+        inside = u, rise
         u, rise = u + damp * step, rise + damp * change
         yield u, rise
         if largest < TOLERANCE_MM and abs(change) < TOLERANCE_MM:

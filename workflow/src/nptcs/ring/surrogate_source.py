@@ -58,7 +58,7 @@ class PredictedSpokes:
 def displacement_error_mm(
     tyre: RingTyre, states: Sequence[RingState], predicted: PredictedTable, factor: float = 1.0
 ) -> float:
-    """Standard error of the last displacement from the errors of the table's components.
+    """Give the standard error of the last displacement from those of the table's components.
 
     The displacement's derivatives by the components come from the adjoint; the components' errors
     are independent.

@@ -11,7 +11,7 @@ which, and the numbers are empty. ``diverged``: no equilibrium was found."""
 
 
 class RingResults(pa.DataFrameModel):
-    """Results of designs on the sandwich ring, one row per design next to the design's own columns."""
+    """Results of designs on the sandwich ring, one row per design, next to its own columns."""
 
     displacement_mm: Series[float] = pa.Field(gt=0, nullable=True)
     displacement_standard_error_mm: Series[float] = pa.Field(
