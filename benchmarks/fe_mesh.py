@@ -43,7 +43,15 @@ TABLES = {
 RINGS = {
     "campaign": TyreMesh(),
     "twice along": TyreMesh(foot_elements=2, gap_elements=2),
-    "twice all": TyreMesh(foot_elements=2, gap_elements=2, band_rows=2, tread_rows=2),
+    "twice through": TyreMesh(cover_rows=2, band_rows=2, tread_rows=2, wire_row_mm=0.025),
+    "twice all": TyreMesh(
+        foot_elements=2,
+        gap_elements=2,
+        cover_rows=2,
+        band_rows=2,
+        tread_rows=2,
+        wire_row_mm=0.025,
+    ),
     "thrice along": TyreMesh(foot_elements=3, gap_elements=3),
     "half a pitch on": TyreMesh(first_spoke_deg=3.0),
 }

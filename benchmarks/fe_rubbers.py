@@ -31,7 +31,7 @@ DESIGNS = (
 
 def stiffness(spoke_c10: float, design: tuple[float, float, float]) -> list[float]:
     """Secant stiffness at 5000 N with each band, N/mm."""
-    model, tyre = FeModel(), TyreGeometry()
+    model, tyre = FeModel(ring="paper_mesh"), TyreGeometry()
     names = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")
     values = dict(zip(names, (*design, spoke_c10), strict=True))
     table = energy_table(model, spoke_design(model, tyre, PUBLISHED_PLY, values))

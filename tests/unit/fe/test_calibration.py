@@ -135,3 +135,12 @@ def test_rounds_walk_to_a_manufactured_section(monkeypatch):
     assert found == pytest.approx(goal, abs=2e-3)
     assert seen[-1].spoke_stiffness == pytest.approx(np.array([[30, 13], [31, 14]]), rel=1e-3)
     assert seen[-1].tyre_stiffness == pytest.approx(200.0 + 20.0 * np.arange(5), rel=1e-3)
+
+
+def test_a_round_that_was_worse_corrects_the_slopes():
+    rng = np.random.default_rng(5)
+    slopes, step, change = rng.normal(size=(9, 4)), rng.normal(size=4), rng.normal(size=9)
+    corrected = calibration._corrected(slopes, step, change)
+    assert corrected @ step == pytest.approx(change)
+    across = np.linalg.svd(step[None])[2][1:]
+    assert corrected @ across.T == pytest.approx(slopes @ across.T)

@@ -295,10 +295,14 @@ class FeSpokeModel(Strict):
     @model_validator(mode="after")
     def _section_fits_the_ring(self) -> Self:
         dimensions = self.geometry.model_dump(exclude={"calibrated_with"})
+        same = [
+            ring
+            for ring, section in SECTIONS.items()
+            if section.model_dump(exclude={"calibrated_with"}) == dimensions
+        ]
         found = self.geometry.calibrated_with
-        for ring, section in SECTIONS.items():
-            if found is None and section.model_dump(exclude={"calibrated_with"}) == dimensions:
-                found = None if ring == self.ring else ring
+        if found is None and same and self.ring not in same:
+            found = same[0]
         if found not in (None, self.ring):
             raise ValueError(
                 f"the section was calibrated with the ring '{found}', on which it makes up for "

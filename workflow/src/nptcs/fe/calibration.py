@@ -159,7 +159,7 @@ def calibrate(
 ) -> FeModel:
     """Find the section by rounds of damped Gauss–Newton steps.
 
-    A round that makes the misfit worse is taken back and tried again with more damping.
+    A round that makes the misfit worse is taken back; what it has shown corrects the slopes.
 
     Parameters
     ----------
@@ -176,7 +176,7 @@ def calibrate(
         The model with the best section of all rounds.
     """
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
-    best, step, smallest, damping = start, np.zeros_like(start), np.inf, problem.damping
+    best, step, smallest = start, np.zeros_like(start), np.inf
     with ProcessPoolExecutor(workers) as pool:
         for last in range(rounds + 1):
             free, computed = _reach(problem, best, step, pool.map)
@@ -185,13 +185,14 @@ def calibrate(
             misfit = _misfit(problem, computed, free - start)
             better = float(misfit @ misfit) < smallest
             if better:
-                best, smallest, best_misfit = free, float(misfit @ misfit), misfit
-            else:
-                damping *= 4.0
+                best, reached, best_misfit = free, computed, misfit
+                smallest = float(misfit @ misfit)
             if last < rounds:
                 if better:
                     slopes = _slopes(problem, best, pool.map)
-                step = _step(problem, slopes, best_misfit, best, damping)
+                else:
+                    slopes = _corrected(slopes, free - best, computed - reached)
+                step = _step(problem, slopes, best_misfit, best, problem.damping)
     return problem.with_section(best)
 
 
@@ -223,6 +224,12 @@ def _slopes(problem: Problem, free: Array, mapper: Mapper) -> Array:
     slopes = (found[:, 1:] - found[:, :1]) / steps[:, None]
     spokes, tyres = np.split(slopes, [len(problem.spokes)])
     return np.concatenate([spokes.swapaxes(1, 2).reshape(-1, len(FREE)), tyres @ TYRE_EXPONENTS])
+
+
+def _corrected(slopes: Array, step: Array, change: Array) -> Array:
+    """Slopes that give the change that a step has made (Broyden's update)."""
+    corrected: Array = slopes + np.outer(change - slopes @ step, step) / (step @ step)
+    return corrected
 
 
 def _spoke_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> list[float]:

@@ -18,14 +18,15 @@ from nptcs.fe.tyre.element_groups import ring_rubbers, wire_groups
 from nptcs.fe.tyre.feet import foot_operators
 from nptcs.fe.tyre.mesh import build_ring
 
-MAX_ITERATIONS = 40
-QUICK_ITERATIONS = 14
+MAX_ITERATIONS = 30
 # from this iteration on, steps that do not shrink are shortened
 CALM_ITERATIONS = 6
 # a soft ground hardens when the steps are this small
 SETTLED_MM = 0.05
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
+# a step may be this much softer than the last one: beyond that it is another equilibrium
+LARGEST_SOFTENING = 1.4
 FIRST_RISE_MM = 0.5
 SMALLEST_RISE_MM = 0.02
 
@@ -72,6 +73,20 @@ class _Trial:
     reaction_row: Array
     reaction_slope: float
     internal: Array
+
+
+def _check_branch(path: LoadPath, force_n: float, rise_mm: float) -> None:
+    """Refuse a step that has left for another equilibrium, in which wires have buckled.
+
+    Raises
+    ------
+    FloatingPointError
+        If the tyre has given way much more for this step than for the last one.
+    """
+    load, rise = np.array(path.force_n[-2:]), np.array(path.rise_mm[-2:])
+    last = float(np.diff(rise)[0] / np.diff(load)[0])
+    if rise_mm - rise[1] > LARGEST_SOFTENING * last * (force_n - load[1]):
+        raise FloatingPointError("the tyre gives way suddenly, as when wires buckle")
 
 
 class TyreModel:
@@ -166,32 +181,15 @@ class TyreModel:
         rhs[self._place] = np.stack([trial.force, trial.slope], axis=1)
         return self._pattern.solve(trial.band, rhs)[self._place]
 
-    def _solve(
+    def _newton(
         self, displacement: Array, rise: float, load: float | None, path: LoadPath
     ) -> tuple[Array, float]:
-        """Find the equilibrium at a given load, or at a given rise if `load` is None.
+        """Newton's method at a given load, or at a given rise if `load` is None.
 
-        Tried at once, and if that fails by way of a soft ground, on which the contact is found
-        more safely.
+        A soft ground hardens as soon as the steps are small.
         """
-        pressures = [block.pressure.copy() for block in self.rubbers]
-        try:
-            return self._newton(displacement, rise, load, path, QUICK_ITERATIONS)
-        except (FloatingPointError, TableRangeError):
-            for block, pressure in zip(self.rubbers, pressures, strict=True):
-                block.pressure = pressure
-        self.ground.soften()
-        try:
-            return self._newton(displacement, rise, load, path, MAX_ITERATIONS)
-        finally:
-            self.ground.harden()
-
-    def _newton(
-        self, displacement: Array, rise: float, load: float | None, path: LoadPath, most: int
-    ) -> tuple[Array, float]:
-        """Newton's method; a soft ground hardens as soon as the steps are small."""
         before, part, calm = np.inf, 1.0, CALM_ITERATIONS
-        for count in range(most):
+        for count in range(MAX_ITERATIONS):
             path.iterations += 1
             trial = self._trial(displacement, rise)
             solved = self._linear(trial)
@@ -220,7 +218,7 @@ class TyreModel:
                     before, part, calm = np.inf, 1.0, count + CALM_ITERATIONS
             elif largest < 1e-6 and abs(change) < 1e-6:
                 return displacement, rise
-        raise FloatingPointError(f"no equilibrium in {most} iterations")
+        raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
 
     def load(self, loads_n: Sequence[float]) -> TyreState:
         """Press the tyre on the ground through a rising sequence of loads.
@@ -251,8 +249,9 @@ class TyreModel:
             displacement = np.zeros_like(self.mesh.positions)
             for block in self.rubbers:
                 block.pressure[:] = 0.0
+            self.ground.soften()
             try:
-                displacement, _ = self._solve(displacement, rise, None, path)
+                displacement, _ = self._newton(displacement, rise, None, path)
             except FloatingPointError:
                 rise /= 2.0
                 if rise < SMALLEST_RISE_MM:
@@ -273,7 +272,8 @@ class TyreModel:
         while True:
             target = load if step >= load - reached else reached + step
             try:
-                moved, new_rise = self._solve(displacement, rise, target, path)
+                moved, new_rise = self._newton(displacement, rise, target, path)
+                _check_branch(path, target, new_rise)
             except (FloatingPointError, TableRangeError):
                 step /= 2.0
                 if step < SMALLEST_STEP_N:

@@ -275,12 +275,12 @@ class DirectTyre(TyreModel):
         return super().load(loads_n)
 
     def _newton(
-        self, displacement: Array, rise: float, load: float | None, path: LoadPath, most: int
+        self, displacement: Array, rise: float, load: float | None, path: LoadPath
     ) -> tuple[Array, float]:
         """Solve as the reduced tyre does; where it fails, spokes return to where they were."""
         before = self.spokes
         try:
-            return super()._newton(displacement, rise, load, path, most)
+            return super()._newton(displacement, rise, load, path)
         except (FloatingPointError, np.linalg.LinAlgError) as error:
             self.spokes = before
             raise FloatingPointError(str(error)) from error
