@@ -9,6 +9,7 @@ from typing import Annotated, Any, Self
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
+from nptcs.config.surface import SurfaceModel, name_of, needs_ply
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
@@ -70,6 +71,11 @@ class Study(Strict):
         description="Terms of the response surface: '1', 'a', 'a^2', 'a*b', with factor names; "
         "without terms no surface is fitted",
     )
+    surfaces: tuple[SurfaceModel, ...] = Field(
+        (),
+        description="Surfaces that are fitted and compared with the polynomial of `terms`: other "
+        "polynomials, the lamination form, Gaussian processes",
+    )
     published_coefficients: str | None = Field(
         None, description="CSV with the paper's coefficients (term, coefficient), shown beside ours"
     )
@@ -107,6 +113,19 @@ class Study(Strict):
         return self
 
     @model_validator(mode="after")
+    def _surfaces_differ(self) -> Self:
+        names = [name_of(model) for model in self.surfaces]
+        names += ["polynomial"] if self.terms else []
+        if len(set(names)) < len(names):
+            raise ValueError(f"study {self.name}: two surfaces are the same: {names}")
+        if self.surfaces and not self.terms:
+            raise ValueError(
+                f"study {self.name}: surfaces are compared with the polynomial of `terms`, which "
+                "are missing"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _cases_exist(self) -> Self:
         last = prod(len(factor.levels) for factor in self.factors)
         named = {"neutral_line_cases": self.neutral_line_cases}
@@ -127,6 +146,10 @@ class Study(Strict):
                 f"published_spoke_stiffness the only factor is spoke_c10_mpa, got {names}"
             )
         return self
+
+    def needs_ply(self) -> bool:
+        """Tell whether one of its surfaces is made of the ply's constants."""
+        return any(needs_ply(model) for model in self.surfaces)
 
     def rubbers(self) -> tuple[str, ...]:
         """Name the tested rubbers that levels or fixed values refer to."""

@@ -15,7 +15,8 @@ def assess(surface: Surface, design: pd.DataFrame, response: pd.Series) -> dict[
     """Measure the fit of a surface to the cases that it was fitted to.
 
     Leave-one-out residuals are e/(1 - h) with the leverage h (PRESS); the ten folds are drawn
-    with a fixed seed. Both R² compare with the total sum of squares about the mean.
+    with a fixed seed. R² compares with the total sum of squares about the
+    mean, through the origin with that about zero.
 
     Parameters
     ----------
@@ -38,7 +39,7 @@ def assess(surface: Surface, design: pd.DataFrame, response: pd.Series) -> dict[
     left_out = residual / (1 - np.einsum("ij,ij->i", q, q))
     folds = KFold(n_splits=min(10, points), shuffle=True, random_state=0)
     folded = cross_val_predict(LinearRegression(fit_intercept=False), matrix, y, cv=folds)
-    total = float(np.sum((y - y.mean()) ** 2))
+    total = float(np.sum(y**2 if surface.through_origin else (y - y.mean()) ** 2))
     r_squared = 1 - float(residual @ residual) / total
     return {
         "points": points,
