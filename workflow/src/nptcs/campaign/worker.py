@@ -32,7 +32,11 @@ def solve(job: CaseJob) -> SolverResult:
             ply=job.ply,
             tables=job.tables,
         )
-        return SolverResult.model_validate(solver.solve(inputs))
+        result = SolverResult.model_validate(solver.solve(inputs))
+        if solver.realise is not None and result.status == Status.OK:
+            realised = solver.realise(inputs.values, inputs.tyre)
+            result.realised = {**realised, **result.realised}
+        return result
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
         where = traceback.extract_tb(error.__traceback__)[-1]
         file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
