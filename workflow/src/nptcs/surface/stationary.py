@@ -142,13 +142,16 @@ def _on_sphere(surface: Surface, sign: float, start: Array, radius: float, axes:
 
 def _root(surface: Surface, start: Array, axes: list[int]) -> Array | None:
     """Search a point without slope inside the box; None if the search leads elsewhere."""
-    found = optimize.root(
+    found = optimize.least_squares(
         lambda coded: _slope(surface, _whole(surface, coded, axes))[axes],
         start,
         jac=lambda coded: _hessian(surface, _whole(surface, coded, axes))[np.ix_(axes, axes)],
-        tol=1e-12,
+        bounds=(-1 - SAME, 1 + SAME),
+        xtol=1e-14,
+        ftol=1e-14,
+        gtol=1e-14,
     )
-    if not found.success or np.abs(found.x).max() > 1 + SAME:
+    if np.abs(found.fun).max() > SAME * np.abs(surface.coefficients_coded[1:]).max():
         return None
     return _whole(surface, found.x, axes)
 
