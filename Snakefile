@@ -15,7 +15,6 @@ include: "workflow/rules/design.smk"
 include: "workflow/rules/solve.smk"
 include: "workflow/rules/surface.smk"
 include: "workflow/rules/compare.smk"
-include: "workflow/rules/validate.smk"
 include: "workflow/rules/report.smk"
 
 

@@ -43,7 +43,12 @@ def solve(inputs):
 
 
 SOLVER = Solver(
-    name="holder", version="1", solve=solve, factors=frozenset({"spoke_c10_mpa"}), options=Options
+    name="holder",
+    version="1",
+    about="holds a token",
+    solve=solve,
+    factors=frozenset({"spoke_c10_mpa"}),
+    options=Options,
 )
 '''
 

@@ -48,10 +48,10 @@ rule calibrate_rubber:
 
 rule material_card:
     input:
-        ply=["results/3_calibrate/ply.json"] if PLY_SERIES else [],
+        plies=["results/3_calibrate/ply.json"] if PLY_SERIES else [],
         rubbers=expand("results/3_calibrate/{rubber}.json", rubber=RUBBERS),
-        models=expand("results/3_calibrate/{rubber}_models.csv", rubber=RUBBERS),
-        ranges=expand("results/3_calibrate/{rubber}_ranges.csv", rubber=RUBBERS),
+        rubber_models=expand("results/3_calibrate/{rubber}_models.csv", rubber=RUBBERS),
+        rubber_ranges=expand("results/3_calibrate/{rubber}_ranges.csv", rubber=RUBBERS),
     output:
         card="results/material_card.json",
         models="results/tables/hyperelastic_models.csv",

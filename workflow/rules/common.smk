@@ -16,7 +16,7 @@ from nptcs.solvers.registry import (
     module_of,
     read_options,
 )
-from nptcs.tables.catalogue import TABLES as TABLE_CONTRACTS
+from nptcs.tables.catalogue import result_files
 from nptcs.tables.specimens import read_sheet
 
 STARTED = time.time()
@@ -36,11 +36,7 @@ RUBBERS = sorted({s.material for s in SPECIMENS if s.test.is_rubber and s.includ
 STUDIES = [study.name for study in CONFIG.studies]
 SURFACE_STUDIES = [study.name for study in CONFIG.studies if study.terms]
 
-TABLES = [
-    f"results/tables/{name.replace('STUDY', study)}"
-    for name in TABLE_CONTRACTS
-    for study in (SURFACE_STUDIES if "STUDY" in name else [""])
-]
+TABLES = [f"results/tables/{file}" for file, _, _ in result_files(SURFACE_STUDIES)]
 
 
 wildcard_constraints:
@@ -55,18 +51,6 @@ wildcard_constraints:
 def plain(section):
     """A configuration section as plain values, so that Snakemake notices each change."""
     return section.model_dump(mode="json")
-
-
-def cases_of(study_name):
-    """What decides the cases of a study, without what is made of their results."""
-    afterwards = {
-        "terms",
-        "published_coefficients",
-        "published_spoke_stiffness",
-        "calibration_cases",
-        "neutral_line_cases",
-    }
-    return CONFIG.study(study_name).model_dump(mode="json", exclude=afterwards)
 
 
 def code_of(script, *modules):

@@ -1,4 +1,4 @@
-# Computed results beside the paper's finite elements: section 4.3.1, tables 5 and 7, figure 14.
+# Computed results compared with the paper: section 4.3.1, tables 5, 7, 10 and 11, figures 14, 15.
 from nptcs.tables.published_stiffness import PUBLISHED
 
 COMPARED_STUDIES = [
@@ -82,3 +82,25 @@ rule neutral_line:
         },
     script:
         "../scripts/neutral_line.py"
+
+
+rule lca_validation:
+    input:
+        table_7=CONFIG.lca_validation.published_fem,
+        table_10=CONFIG.lca_validation.spoke_stiffness,
+        table_11=CONFIG.lca_validation.published,
+        figure_15=CONFIG.lca_validation.published_loads,
+    output:
+        validation="results/tables/lca_validation.csv",
+        fem="results/tables/lca_against_fem.csv",
+        neutral_line="results/tables/lca_neutral_line.csv",
+    log:
+        "results/logs/lca_validation.log",
+    params:
+        job={
+            "shear_band_c10_mpa": CONFIG.lca_validation.shear_band_c10_mpa,
+            "tyre": plain(CONFIG.tyre),
+            "code": code_of("lca_validation"),
+        },
+    script:
+        "../scripts/lca_validation.py"

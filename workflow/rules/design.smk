@@ -11,7 +11,7 @@ def rubber_cards(wildcards):
 
 def design_job(wildcards):
     return {
-        "study": cases_of(wildcards.study),
+        "study": CONFIG.study(wildcards.study).case_definition(),
         "code": code_of("design"),
     }
 

@@ -47,8 +47,8 @@ rule ingest:
 
 rule account:
     input:
+        [str(path) for path in raw_files(SHEET.parent).values() if path != SHEET],
         sheet=str(SHEET),
-        files=[str(path) for path in raw_files(SHEET.parent).values() if path != SHEET],
         records=records(SPECIMENS),
     output:
         files="results/tables/files.csv",

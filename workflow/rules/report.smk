@@ -3,7 +3,7 @@ from importlib.resources import files as package_files
 
 
 def solver_facts():
-    """What the report says of each solver: the first line of its module, and what it is given.
+    """What the report says of each solver: what it is, and what it is given.
 
     A solver's choices between models stand once for each study that makes them differently.
     """
@@ -11,11 +11,8 @@ def solver_facts():
     facts = {}
     for name, study in sorted(named):
         solver, options = solver_of(study, name)
-        about = (
-            (sys.modules[solver.solve.__module__].__doc__ or "").strip().splitlines()
-        )
         facts[name] = {
-            "about": about[0] if about else "",
+            "about": solver.about,
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
             "choices": facts.get(name, {}).get("choices", []),
@@ -68,30 +65,12 @@ rule problems:
 
 rule report:
     input:
-        problems="results/tables/problems.csv",
-        files="results/tables/files.csv",
-        specimens="results/tables/specimens.csv",
-        statistics="results/tables/statistics.csv",
-        models="results/tables/hyperelastic_models.csv",
-        ranges="results/tables/c10_against_range.csv",
+        tables=TABLES,
         card="results/material_card.json",
         curves=curves(SPECIMENS),
         records=records(SPECIMENS),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
-        cases="results/tables/cases.csv",
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
-        coefficients=expand("results/tables/{study}_surface.csv", study=SURFACE_STUDIES),
-        quality="results/tables/surface_quality.csv",
-        impact="results/tables/impact.csv",
-        spoke_stiffness="results/tables/spoke_stiffness.csv",
-        spoke_curves="results/tables/spoke_curves.csv",
-        compare_published="results/tables/stiffness_against_published.csv",
-        stiffness_errors="results/tables/stiffness_errors.csv",
-        stiffness_by_level="results/tables/stiffness_by_level.csv",
-        neutral_line="results/tables/neutral_line.csv",
-        lca_validation="results/tables/lca_validation.csv",
-        lca_against_fem="results/tables/lca_against_fem.csv",
-        lca_neutral_line="results/tables/lca_neutral_line.csv",
         inputs=configured_inputs(),
     output:
         page="results/report.html",
@@ -117,13 +96,13 @@ rule report:
 
 rule verdict:
     input:
+        "results/report.html",
+        "results/workbook.xlsx",
         problems="results/tables/problems.csv",
-        page="results/report.html",
-        workbook="results/workbook.xlsx",
         cases="results/tables/cases.csv",
         records=records(SPECIMENS),
     output:
-        verdict="results/verdict.txt",
+        verdict_file="results/verdict.txt",
     log:
         "results/logs/verdict.log",
     params:

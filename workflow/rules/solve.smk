@@ -15,7 +15,7 @@ def solve_job(wildcards):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
     return {
-        "study": cases_of(wildcards.study),
+        "study": study.case_definition(),
         "solver": wildcards.solver,
         "options": options,
         "tyre": plain(CONFIG.tyre),

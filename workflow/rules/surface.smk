@@ -1,12 +1,13 @@
 # Solved cases → response surfaces → average gradients and comprehensive impact values.
 
 
+FITTED = ("name", "title", "factors", "solvers", "terms", "surfaces")
+
+
 def surface_job(wildcards):
     study = CONFIG.study(wildcards.study)
     return {
-        "study": study.model_dump(
-            mode="json", include={"name", "factors", "solvers", "terms"}
-        ),
+        "study": study.model_dump(mode="json", include=set(FITTED)),
         "code": code_of("surface"),
     }
 
@@ -16,14 +17,24 @@ def published_coefficients(wildcards):
     return [path] if path else []
 
 
+def surface_ply(wildcards):
+    """The card of the plates' ply, where a surface of the study is made of its constants."""
+    needed = CONFIG.study(wildcards.study).needs_ply()
+    return ["results/3_calibrate/ply.json"] if needed else []
+
+
 rule surface:
     input:
+        ply=surface_ply,
         records=lambda wildcards: batches(wildcards.study),
         published=published_coefficients,
     output:
         table="results/tables/{study}_surface.csv",
         surfaces="results/6_surface/{study}.json",
+        models="results/6_surface/{study}_models.json",
         quality="results/6_surface/{study}_quality.csv",
+        comparison="results/6_surface/{study}_comparison.csv",
+        by_factor="results/6_surface/{study}_by_factor.csv",
         problems="results/6_surface/{study}_problems.csv",
     log:
         "results/logs/surface/{study}.log",
@@ -37,7 +48,13 @@ rule sensitivity:
     input:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         designs=expand("results/4_design/{study}.csv", study=SURFACE_STUDIES),
-        quality=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
+        qualities=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
+        comparisons=expand(
+            "results/6_surface/{study}_comparison.csv", study=SURFACE_STUDIES
+        ),
+        factors=expand(
+            "results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES
+        ),
         published=(
             [CONFIG.sensitivity.published_impact]
             if CONFIG.sensitivity.published_impact
@@ -46,11 +63,12 @@ rule sensitivity:
     output:
         impact="results/tables/impact.csv",
         quality="results/tables/surface_quality.csv",
+        comparison="results/tables/surface_comparison.csv",
+        by_factor="results/tables/surface_by_factor.csv",
     log:
         "results/logs/sensitivity.log",
     params:
         job={
-            "studies": SURFACE_STUDIES,
             "rules": list(CONFIG.sensitivity.rules),
             "code": code_of("sensitivity"),
         },

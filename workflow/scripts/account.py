@@ -1,20 +1,21 @@
 """Say what became of every file in the laboratory's folder."""
 
 from collections.abc import Sequence
-from pathlib import Path
+from typing import Any
 
 from nptcs.console import clear_errors
+from nptcs.files import read_model
 from nptcs.ingest.folder import account_for_files
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.files import Files
 from nptcs.tables.io import write_table
 
 
-def account(sheet: str, records: Sequence[str], files: str) -> None:
-    read = [IngestRecord.model_validate_json(Path(file).read_text("utf-8")) for file in records]
+def account(job: dict[str, Any], sheet: str, records: Sequence[str], files: str) -> None:
+    read = [read_model(file, IngestRecord) for file in records]
     write_table(files, account_for_files(sheet, read), Files)
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        account(snakemake.input.sheet, snakemake.input.records, snakemake.output.files)
+        account(**snakemake.params, **snakemake.input, **snakemake.output)

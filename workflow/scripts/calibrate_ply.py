@@ -3,25 +3,22 @@
 from collections.abc import Sequence
 from typing import Any
 
-import pandas as pd
-
 from nptcs.calibrate import calibrate_ply
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
 from nptcs.files import write_text
-from nptcs.tables.io import read_table
+from nptcs.tables.io import read_tables
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 
 
-def calibrate(job: dict[str, Any], properties: Sequence[str], card_file: str) -> None:
+def calibrate(job: dict[str, Any], properties: Sequence[str], card: str) -> None:
     specimens = [Specimen.model_validate(row) for row in job["specimens"]]
     settings = CalibrationSettings.model_validate(job["settings"])
-    table = pd.concat([read_table(file, PropertiesTable) for file in properties])
-    card = calibrate_ply(table, specimens, settings)
-    write_text(card_file, card.model_dump_json(indent=1))
+    ply = calibrate_ply(read_tables(properties, PropertiesTable), specimens, settings)
+    write_text(card, ply.model_dump_json(indent=1))
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        calibrate(snakemake.params.job, snakemake.input.properties, snakemake.output.card)
+        calibrate(**snakemake.params, **snakemake.input, **snakemake.output)

@@ -1,32 +1,24 @@
 """Fit the hyperelastic models to the curves of one rubber."""
 
-from collections.abc import Sequence
-from pathlib import Path
 from typing import Any
 
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
-from nptcs.files import write_text
-from nptcs.tables.curves import Curve, IngestRecord
+from nptcs.files import read_model, write_text
+from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.io import read_table, write_table
+from nptcs.tables.io import write_table
 from nptcs.tables.specimens import Specimen
 
 
-def calibrate(
-    job: dict[str, Any], curves: Sequence[str], records: Sequence[str], output: dict[str, str]
-) -> None:
+def calibrate(job: dict[str, Any], curves: list[str], records: list[str], **output: str) -> None:
     settings = CalibrationSettings.model_validate(job["settings"])
     specimens = [Specimen.model_validate(row) for row in job["specimens"]]
-    read = {
-        specimen.specimen: read_table(file, Curve)
-        for specimen, file in zip(specimens, curves, strict=True)
-    }
-    usable = {name: curve for name, curve in read.items() if len(curve)}
-    data = (job["rubber"], usable, specimens, settings)
-    outcomes = [IngestRecord.model_validate_json(Path(file).read_text("utf-8")) for file in records]
+    usable = {name: curve for name, curve in read_curves(curves).items() if len(curve)}
+    outcomes = [read_model(file, IngestRecord) for file in records]
     sources = {record.specimen: record.strain_source for record in outcomes}
+    data = (job["rubber"], usable, specimens, settings)
     write_text(output["card"], calibrate_rubber(*data, sources).model_dump_json(indent=1))
     write_table(output["models"], compare_models(*data), ModelComparison)
     write_table(output["ranges"], c10_against_range(*data), RangeTable)
@@ -34,9 +26,4 @@ def calibrate(
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        calibrate(
-            snakemake.params.job,
-            snakemake.input.curves,
-            snakemake.input.records,
-            dict(snakemake.output.items()),
-        )
+        calibrate(**snakemake.params, **snakemake.input, **snakemake.output)

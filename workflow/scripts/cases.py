@@ -1,6 +1,7 @@
 """Gather the records of all cases in one table."""
 
 from collections.abc import Sequence
+from typing import Any
 
 from nptcs.campaign.cases import cases_table
 from nptcs.campaign.record import read_records
@@ -9,10 +10,10 @@ from nptcs.tables.cases import Cases
 from nptcs.tables.io import write_table
 
 
-def gather(records: Sequence[str], cases: str) -> None:
+def gather(job: dict[str, Any], records: Sequence[str], cases: str) -> None:
     write_table(cases, cases_table(read_records(list(records))), Cases)
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        gather(snakemake.input.records, snakemake.output.cases)
+        gather(**snakemake.params, **snakemake.input, **snakemake.output)

@@ -1,6 +1,5 @@
-"""Lay all results out: the HTML report and the workbook."""
+"""Write the report: the HTML page and the workbook."""
 
-from collections.abc import Mapping
 from typing import Any
 
 from nptcs.console import clear_errors
@@ -11,7 +10,7 @@ from nptcs.report.stale import stale_name
 from nptcs.report.workbook import build_workbook
 
 
-def report(job: dict[str, Any], files: Mapping[str, Any], page: str, workbook: str) -> None:
+def report(job: dict[str, Any], page: str, workbook: str, **files: Any) -> None:
     results = read_results(job, files)
     with atomic_path(workbook) as temporary:
         temporary.write_bytes(build_workbook(results))
@@ -22,9 +21,4 @@ def report(job: dict[str, Any], files: Mapping[str, Any], page: str, workbook: s
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        report(
-            snakemake.params.job,
-            dict(snakemake.input.items()),
-            snakemake.output.page,
-            snakemake.output.workbook,
-        )
+        report(**snakemake.params, **snakemake.input, **snakemake.output)

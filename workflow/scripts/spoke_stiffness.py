@@ -1,6 +1,5 @@
-"""Gather the single spokes: their curves, and the lines through the origin beside table 10."""
+"""Gather the single spokes: their curves, and their stiffness next to table 10."""
 
-from collections.abc import Sequence
 from typing import Any
 
 from nptcs.campaign.record import read_records
@@ -11,24 +10,14 @@ from nptcs.tables.published_inputs import PublishedSpokeStiffness
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
 
-def gather(
-    job: dict[str, Any], records: Sequence[str], published: Sequence[str], lines: str, curves: str
-) -> None:
-    solved = read_records(list(records))
-    printed = {
-        study: read_table(file, PublishedSpokeStiffness)
-        for study, file in zip(job["studies"], published, strict=True)
-    }
-    write_table(lines, spoke_lines(solved, printed), SpokeLines)
-    write_table(curves, spoke_curves(solved), SpokeCurves)
+def gather(job: dict[str, Any], records: list[str], published: list[str], **output: str) -> None:
+    solved = read_records(records)
+    tables = [read_table(file, PublishedSpokeStiffness) for file in published]
+    table_10 = dict(zip(job["studies"], tables, strict=True))
+    write_table(output["lines"], spoke_lines(solved, table_10), SpokeLines)
+    write_table(output["curves"], spoke_curves(solved), SpokeCurves)
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        gather(
-            snakemake.params.job,
-            snakemake.input.get("records", []),
-            snakemake.input.get("published", []),
-            snakemake.output.lines,
-            snakemake.output.curves,
-        )
+        gather(**snakemake.params, **snakemake.input, **snakemake.output)

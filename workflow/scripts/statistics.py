@@ -3,31 +3,25 @@
 from collections.abc import Sequence
 from typing import Any
 
-import pandas as pd
-
 from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.reduce.statistics import group_statistics
-from nptcs.tables.io import read_table, write_table
+from nptcs.tables.io import read_tables, write_table
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.statistics import StatisticsTable
 
 
-def summarise(job: dict[str, Any], properties: Sequence[str], joined: str, summary: str) -> None:
-    specimens = [Specimen.model_validate(row) for row in job["specimens"]]
+def summarise(
+    job: dict[str, Any], properties: Sequence[str], specimens: str, statistics: str
+) -> None:
+    sheet = [Specimen.model_validate(row) for row in job["specimens"]]
     settings = ReductionSettings.model_validate(job["settings"])
-    table = pd.concat([read_table(file, PropertiesTable) for file in properties])
-    table = table.reset_index(drop=True)
-    write_table(joined, table, PropertiesTable)
-    write_table(summary, group_statistics(table, specimens, settings), StatisticsTable)
+    table = read_tables(properties, PropertiesTable)
+    write_table(specimens, table, PropertiesTable)
+    write_table(statistics, group_statistics(table, sheet, settings), StatisticsTable)
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        summarise(
-            snakemake.params.job,
-            snakemake.input.properties,
-            snakemake.output.specimens,
-            snakemake.output.statistics,
-        )
+        summarise(**snakemake.params, **snakemake.input, **snakemake.output)

@@ -28,5 +28,10 @@ def solve(inputs):
 
 
 SOLVER = Solver(
-    name="commanding", version="1", solve=solve, factors=frozenset({"kind"}), options=Options
+    name="commanding",
+    version="1",
+    about="runs a command that does not end",
+    solve=solve,
+    factors=frozenset({"kind"}),
+    options=Options,
 )

@@ -37,6 +37,7 @@ class Options(SolverOptions):
 SOLVER = Solver(
     name="faulty",
     version="1",
+    about="ends as its factor says",
     solve=solve,
     factors=frozenset({"kind", "other"}),
     required=frozenset({"kind", "other"}),

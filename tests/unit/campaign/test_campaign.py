@@ -222,13 +222,14 @@ def alive(pid):
 
 
 SPOKES = """
-from nptcs.solvers.contract import Solver, SolverResult
+from nptcs.solvers.contract import SPOKE_RESPONSES, Solver, SolverResult
 
 def solve(inputs):
     loaded = inputs.load_n == inputs.load_n  # not so for NaN
-    return SolverResult(status="ok", extra={"load_is_a_number": float(loaded)})
+    responses = dict.fromkeys(SPOKE_RESPONSES, 1.0)
+    return SolverResult(status="ok", extra={"load_is_a_number": float(loaded), **responses})
 
-SOLVER = Solver("spokes", "1", solve, frozenset({"c"}), loads_tyre=False)
+SOLVER = Solver("spokes", "1", solve, frozenset({"c"}), about="a test", loads_tyre=False)
 """
 
 
@@ -251,18 +252,33 @@ def test_a_solver_of_spokes_is_handed_no_load_and_solves_once_for_all_loads(tmp_
     assert light.load_n is None
     assert light.key == heavy.key
     (record,) = run_cases([light], store, 1, quiet)
-    assert record.result.extra == {"load_is_a_number": 0.0}
+    assert record.result.extra["load_is_a_number"] == 0.0
     table = check(cases_table([record]), Cases, "cases")
     assert np.isnan(table["load_n"].iloc[0])
 
 
-def test_a_shape_is_carried_through_process_store_and_batch_file(tmp_path, store):
+def test_a_solver_that_leaves_out_what_its_kind_gives_has_failed(tmp_path, store):
+    module = tmp_path / "half.py"
+    lines = SPOKES.replace("**responses", "'tension_stiffness_n_per_mm': 30.0")
+    for text, missing in (
+        (lines, "compression_stiffness_n_per_mm"),
+        (lines.replace("loads_tyre=False", "loads_tyre=True"), "vertical_stiffness_n_per_mm"),
+    ):
+        module.write_text(text)
+        (record,) = run_cases([job(10, module=str(module), code=missing)], store, 1, quiet)
+        assert record.result.status == "error"
+        assert missing in record.result.message
+
+
+def test_a_neutral_line_is_carried_through_process_store_and_batch_file(tmp_path, store):
     module = tmp_path / "shaped.py"
     module.write_text(
-        "from nptcs.solvers.contract import Solver, SolverResult, neutral_line\n"
+        "from nptcs.solvers.contract import Solver, SolverResult, neutral_line_columns\n"
         "def solve(inputs):\n"
-        "    return SolverResult(status='ok', shape=neutral_line([0, 90], [-1, 2], [0, 1]))\n"
-        "SOLVER = Solver('shaped', '1', solve, frozenset())\n"
+        "    line = neutral_line_columns([0, 90], [-1, 2], [0, 1])\n"
+        "    stiffness = {'vertical_stiffness_n_per_mm': 1.0, 'displacement_mm': 1.0}\n"
+        "    return SolverResult(status='ok', neutral_line=line, **stiffness)\n"
+        "SOLVER = Solver('shaped', '1', solve, frozenset(), about='a test')\n"
     )
     (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)
     write_records(tmp_path / "batch.jsonl", [record])
@@ -277,7 +293,7 @@ def test_columns_of_unequal_length_are_an_error_of_their_case(tmp_path, store):
         "from nptcs.solvers.contract import Solver, SolverResult\n"
         "def solve(inputs):\n"
         "    return SolverResult(status='ok', neutral_line={'a': [1.0], 'b': []})\n"
-        "SOLVER = Solver('ragged', '1', solve, frozenset())\n"
+        "SOLVER = Solver('ragged', '1', solve, frozenset(), about='a test')\n"
     )
     (record,) = run_cases([job(10, module=str(module))], store, 1, quiet)
     assert record.result.status == "error"

@@ -1,4 +1,4 @@
-"""A small run laid out by hand: published tables, real fits, four made-up specimens."""
+"""A small run written by hand: published tables, real fits, four made-up specimens."""
 
 from dataclasses import replace
 from pathlib import Path
@@ -21,25 +21,28 @@ from nptcs.compare.published_stiffness import (
 from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.config.root import read_config
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.report.data import Results, SolverFacts
 from nptcs.solvers.contract import SolverResult
-from nptcs.surface.fit import fit
-from nptcs.surface.quality import assess
-from nptcs.surface.sensitivity import impact
+from nptcs.solvers.spoke_responses import spoke_responses
+from nptcs.surface.impact_table import impact_table
+from nptcs.surface.study import fit_study
 from nptcs.surface.tables import quality_table, surface_table
-from nptcs.tables.cases import Design
+from nptcs.tables.cases import Cases, Design
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.curves import Curve, IngestRecord
+from nptcs.tables.impact import Impact
 from nptcs.tables.io import check, empty_table, read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, Quantity, RubberCard
 from nptcs.tables.neutral_line import NeutralLine
-from nptcs.tables.problems import Problems, problems_table
+from nptcs.tables.problems import problems_table
 from nptcs.tables.published_inputs import PublishedCoefficients, PublishedSpokeStiffness
 from nptcs.tables.published_stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
 )
+from nptcs.tables.result_table import PER_STUDY
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
@@ -108,16 +111,18 @@ def cases_of(study):
 def analysed(study, cases, solver="published"):
     """Fit the study's surface as the pipeline does."""
     names = [factor.name for factor in study.factors]
-    response = cases["vertical_stiffness_n_per_mm"]
-    surface = fit(cases, response, names, study.terms)
+    done = fit_study(
+        cases.assign(solver=solver), study.model_copy(update={"solvers": (solver,), "surfaces": ()})
+    )
+    surface = done.polynomials[solver]
     file = ROOT / study.published_coefficients
-    printed = by_powers(read_table(file, PublishedCoefficients), names)
-    quality = quality_table(study.name, {solver: assess(surface, cases, response)})
-    impacts = [
-        impact(surface, cases, rule).assign(study=study.name, solver=solver)
-        for rule in ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
-    ]
-    return surface, surface_table({solver: surface}, printed), quality, pd.concat(impacts)
+    published = by_powers(read_table(file, PublishedCoefficients), names)
+    quality = quality_table(study.name, done)
+    rules = ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
+    impacts = impact_table(
+        {study.name: {solver: surface}}, {study.name: cases[names]}, quality, rules
+    )
+    return surface, surface_table({solver: surface}, published), quality, impacts
 
 
 def card(synthetic=True):
@@ -239,7 +244,7 @@ def results(config):
     return Results(
         config=config,
         sheet=sheet,
-        solvers={"published": SolverFacts("The published finite element results.", False, True)},
+        solvers={"published": SolverFacts("the published finite element results", False, True)},
         software={"nptcs": "0.1.0", "Python": "3.11"},
         inputs={"raw_data/published/table5_plate_doe.csv": "a" * 64},
         card=card(),
@@ -256,36 +261,36 @@ def results(config):
             for name, table in cases.items()
         },
         surfaces={name: {"published": part[0]} for name, part in parts.items()},
-        coefficients={name: part[1] for name, part in parts.items()},
-        files=files(sheet),
-        specimens=properties(sheet),
-        statistics=empty_table(TABLES["statistics.csv"].contract),
-        models=empty_table(TABLES["hyperelastic_models.csv"].contract),
-        ranges=ranges(),
-        cases=pd.concat(cases.values(), ignore_index=True),
-        quality=pd.concat([part[2] for part in parts.values()], ignore_index=True),
-        impact=with_published(impacts, pd.read_csv(PUBLISHED / "table9_impact.csv")),
-        spoke_stiffness=empty_table(TABLES["spoke_stiffness.csv"].contract),
-        spoke_curves=empty_table(TABLES["spoke_curves.csv"].contract),
-        compare_published=empty_table(TABLES["stiffness_against_published.csv"].contract),
-        stiffness_errors=empty_table(TABLES["stiffness_errors.csv"].contract),
-        stiffness_by_level=empty_table(TABLES["stiffness_by_level.csv"].contract),
-        neutral_line=empty_table(TABLES["neutral_line.csv"].contract),
-        lca_validation=lca_validation(
-            spokes, table_11, pd.read_csv(PUBLISHED / "figure15_load_errors.csv"), tyre
-        ),
-        lca_against_fem=lca_against_fem(
-            spokes, pd.read_csv(PUBLISHED / "table7_rubber_doe.csv"), tyre
-        ),
-        lca_neutral_line=ring_neutral_lines(spokes, table_11[:1], tyre),
-        problems=empty_table(Problems),
+        tables={
+            **{
+                name: empty_table(table.contract)
+                for name, table in TABLES.items()
+                if PER_STUDY not in name
+            },
+            **{f"{name}_surface.csv": part[1] for name, part in parts.items()},
+            "files.csv": files(sheet),
+            "specimens.csv": properties(sheet),
+            "c10_against_range.csv": ranges(),
+            "cases.csv": pd.concat(cases.values(), ignore_index=True),
+            "surface_quality.csv": pd.concat(
+                [part[2] for part in parts.values()], ignore_index=True
+            ),
+            "impact.csv": with_published(impacts, pd.read_csv(PUBLISHED / "table9_impact.csv")),
+            "lca_validation.csv": lca_validation(
+                spokes, table_11, pd.read_csv(PUBLISHED / "figure15_load_errors.csv"), tyre
+            ),
+            "lca_against_fem.csv": lca_against_fem(
+                spokes, pd.read_csv(PUBLISHED / "table7_rubber_doe.csv"), tyre
+            ),
+            "lca_neutral_line.csv": ring_neutral_lines(spokes, table_11[:1], tyre),
+        },
     )
 
 
 @pytest.fixture(scope="session")
 def faulty(results):
     """The same run with a case that diverged and a specimen that could not be read."""
-    cases = results.cases.copy()
+    cases = results.table(Cases).copy()
     cases.loc[0, ["status", "message"]] = ["diverged", "step 7 <cut back> 5 times"]
     cases.loc[0, ["vertical_stiffness_n_per_mm", "displacement_mm"]] = np.nan
     problems = problems_table(
@@ -297,8 +302,7 @@ def faulty(results):
     failed = IngestRecord(specimen="T0-1", status="error", message="not a number")
     return replace(
         results,
-        cases=cases,
-        problems=problems,
+        tables={**results.tables, "cases.csv": cases, "problems.csv": problems},
         curves={**results.curves, "T0-1": empty_table(Curve)},
         records={**results.records, "T0-1": failed},
     )
@@ -335,7 +339,12 @@ def spoke_records(study):
     for number, c10 in enumerate(study.factors[0].levels, start=1):
         force = 30.0 * c10 * place + 2.0 * c10 * np.sign(place) * place**2
         curve = {"displacement_mm": place.tolist(), "force_n": force.tolist()}
-        ok = SolverResult(status="ok", curve=curve)
+        pulled, pressed = place >= 0.0, place <= 0.0
+        lines = (
+            stiffness_line(place[pulled], force[pulled]),
+            stiffness_line(-place[pressed], -force[pressed]),
+        )
+        ok = SolverResult(status="ok", extra=spoke_responses(*lines), curve=curve)
         failed = SolverResult(status="diverged", message="no equilibrium")
         records.append(
             CaseRecord(
@@ -379,7 +388,7 @@ def compared(results):
     config = read_config(values)
     tyres = [config.study(name) for name in ARCHIVES]
     computed = {study.name: computed_cases(study) for study in tyres}
-    cases = pd.concat([results.cases, *computed.values()], ignore_index=True)
+    cases = pd.concat([results.table(Cases), *computed.values()], ignore_index=True)
     studies = {
         study.name: Comparison(
             results.designs[study.name],
@@ -391,7 +400,7 @@ def compared(results):
     }
     table = check(compare_published(cases, studies), StiffnessAgainstPublished, "against")
     records = spoke_records(config.study("spoke"))
-    printed = read_table(PUBLISHED / "table10_spoke_stiffness.csv", PublishedSpokeStiffness)
+    table_10 = read_table(PUBLISHED / "table10_spoke_stiffness.csv", PublishedSpokeStiffness)
     solved = {name: rows[rows["status"] == "ok"] for name, rows in computed.items()}
     parts = {study.name: analysed(study, solved[study.name], "fe_tyre") for study in tyres}
     impacts = pd.concat([part[3] for part in parts.values()], ignore_index=True)
@@ -403,23 +412,32 @@ def compared(results):
         config=config,
         solvers={
             **results.solvers,
-            "lca": SolverFacts("The ring.", False, True),
-            "fe_tyre": SolverFacts("The tyre.", True, True, [{"plate_coupling": "embedded"}]),
-            "fe_spoke": SolverFacts("Solver ``fe_spoke``: one spoke.", True, False),
+            "lca": SolverFacts("the ring", False, True),
+            "fe_tyre": SolverFacts("the tyre", True, True, [{"plate_coupling": "embedded"}]),
+            "fe_spoke": SolverFacts("one spoke", True, False),
         },
         designs={**results.designs, "spoke": check(spokes, Design, "spoke")},
-        cases=cases,
         surfaces={
             name: {**by_solver, "fe_tyre": parts[name][0]}
             for name, by_solver in results.surfaces.items()
         },
-        impact=pd.concat([results.impact, with_published(impacts, table_9)], ignore_index=True),
-        spoke_stiffness=check(spoke_lines(records, {"spoke": printed}), SpokeLines, "lines"),
-        spoke_curves=check(spoke_curves(records), SpokeCurves, "curves"),
-        compare_published=table,
-        stiffness_errors=check(stiffness_errors(table), StiffnessErrors, "errors"),
-        stiffness_by_level=check(stiffness_by_level(table, studies), StiffnessByLevel, "levels"),
-        neutral_line=check(
-            pd.concat([shape("lca", 20.0), shape("fe_tyre", 19.0)]), NeutralLine, ""
-        ),
+        tables={
+            **results.tables,
+            "cases.csv": cases,
+            "impact.csv": pd.concat(
+                [results.table(Impact), with_published(impacts, table_9)], ignore_index=True
+            ),
+            "spoke_stiffness.csv": check(
+                spoke_lines(records, {"spoke": table_10}), SpokeLines, "lines"
+            ),
+            "spoke_curves.csv": check(spoke_curves(records), SpokeCurves, "curves"),
+            "stiffness_against_published.csv": table,
+            "stiffness_errors.csv": check(stiffness_errors(table), StiffnessErrors, "errors"),
+            "stiffness_by_level.csv": check(
+                stiffness_by_level(table, studies), StiffnessByLevel, "levels"
+            ),
+            "neutral_line.csv": check(
+                pd.concat([shape("lca", 20.0), shape("fe_tyre", 19.0)]), NeutralLine, ""
+            ),
+        },
     )

@@ -4,18 +4,21 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.report.data import factor_labels
+from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
 from nptcs.report.figures.lca import load_displacement, ring_neutral_line
 from nptcs.report.figures.materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
 from nptcs.report.figures.style import to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
+from nptcs.tables.cases import Cases
+from nptcs.tables.impact import Impact
+from nptcs.tables.lca_validation import LcaNeutralLine, LcaValidation
 
 
 @pytest.fixture
 def plate(results, config):
     study = config.study("plate")
-    cases = results.cases[results.cases["study"] == "plate"]
+    cases = results.table(Cases)[results.table(Cases)["study"] == "plate"]
     return results.surfaces["plate"]["published"], cases, factor_labels(study)
 
 
@@ -102,11 +105,11 @@ def test_middle_level(levels, middle):
 
 def test_impact_bars_are_the_table(results, config):
     rules = config.sensitivity.rules
-    keys = ranked(results.impact, rules[0])
-    figure = impact_bars(results.impact, dict(zip(keys, "abcde", strict=True)), rules)
+    keys = ranked(results.table(Impact), rules[0])
+    figure = impact_bars(results.table(Impact), dict(zip(keys, "abcde", strict=True)), rules)
     axes = figure.axes[0]
     assert [label.get_text() for label in axes.get_yticklabels()] == list("abcde")
-    table = results.impact.set_index(["rule", "study", "factor"])["impact"]
+    table = results.table(Impact).set_index(["rule", "study", "factor"])["impact"]
     for rule, bars in zip(rules, axes.containers, strict=True):
         widths = [bar.get_width() for bar in bars]
         np.testing.assert_allclose(widths, [table[(rule, *key)] for key in keys])
@@ -115,7 +118,7 @@ def test_impact_bars_are_the_table(results, config):
 
 
 def test_the_ring_stands_on_the_ground(results):
-    shape = results.lca_neutral_line
+    shape = results.table(LcaNeutralLine)
     figure = ring_neutral_line(shape, 431.8)
     drawn = lines(figure)
     lowest = np.nanmin(drawn["contact"].get_ydata())
@@ -125,7 +128,7 @@ def test_the_ring_stands_on_the_ground(results):
 
 
 def test_displacements_are_lines_by_rubber_with_the_printed_ones_on_them(results):
-    table = results.lca_validation
+    table = results.table(LcaValidation)
     table = table[table["section"] == "sandwich"].sample(frac=1, random_state=1)
     drawn = lines(load_displacement(table))
     rubbers = [f"{c10:g}" for c10 in sorted(set(table["spoke_c10_mpa"]))]

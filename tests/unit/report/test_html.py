@@ -8,6 +8,9 @@ import numpy as np
 import pytest
 
 from nptcs.report.html import render_report
+from nptcs.tables.cases import Cases
+from nptcs.tables.impact import Impact
+from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 
 IDENTIFIERS = [
     "specimens",
@@ -17,7 +20,7 @@ IDENTIFIERS = [
     "surfaces",
     "sensitivity",
     "spoke",
-    "against",
+    "published_stiffness",
     "lca",
     "provenance",
 ]
@@ -57,7 +60,7 @@ def page(html):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Build all figures, but do not draw them, which takes most of the time."""
-    monkeypatch.setattr("nptcs.report.view.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
 
 
 @pytest.fixture
@@ -141,7 +144,7 @@ def test_published_studies_are_not_called_synthetic(html):
 @pytest.mark.parametrize("study", ["plate", "rubber"])
 def test_a_reader_can_evaluate_the_surface_from_the_page(html, results, study):
     rows = table_after(html, f"Response surfaces of the study {study}: coefficients")
-    cases = results.cases[results.cases["study"] == study]
+    cases = results.table(Cases)[results.table(Cases)["study"] == study]
     value = np.zeros(len(cases))
     for _, term, natural, *_ in rows:
         product = np.ones(len(cases))
@@ -166,12 +169,15 @@ def test_printed_values_stand_beside_ours(html):
 
 
 def test_a_study_without_a_surface_says_so(results, undrawn):
-    empty = results.coefficients["plate"].iloc[:0]
+    quality, impact = results.table(SurfaceQuality), results.table(Impact)
     without = replace(
         results,
         surfaces={**results.surfaces, "plate": {}},
-        coefficients={**results.coefficients, "plate": empty},
-        quality=results.quality[results.quality["study"] != "plate"],
-        impact=results.impact[results.impact["study"] != "plate"],
+        tables={
+            **results.tables,
+            "plate_surface.csv": results.table(SurfaceTable, "plate")[:0],
+            "surface_quality.csv": quality[quality["study"] != "plate"],
+            "impact.csv": impact[impact["study"] != "plate"],
+        },
     )
     assert "No surface could be fitted to the study plate" in render_report(without)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from nptcs.report.tables.catalogue import IMPACT
 from nptcs.report.tables.headings import heading
+from nptcs.tables.column_headings import IMPACT
 
 
 @pytest.mark.parametrize(
@@ -28,4 +28,4 @@ def test_the_unit_comes_from_the_name(column, written):
 
 
 def test_a_fixed_heading_wins():
-    assert str(heading("impact", IMPACT.headings)) == "impact [N/mm]"
+    assert str(heading("impact", IMPACT)) == "impact [N/mm]"

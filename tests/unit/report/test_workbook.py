@@ -8,10 +8,11 @@ import openpyxl
 import pandas as pd
 import pytest
 
-from nptcs.report.tables.catalogue import IMPACT, design_entry, surface_entry
 from nptcs.report.tables.dictionary import dictionary_table
+from nptcs.report.tables.entries import design_entry, result_entry
 from nptcs.report.tables.sheets import Sheet, sheets_of
 from nptcs.report.workbook import build_workbook
+from nptcs.tables.catalogue import TABLES
 
 
 @pytest.fixture(scope="module")
@@ -98,7 +99,12 @@ def test_the_same_results_give_the_same_bytes(content, results):
 
 def test_a_study_named_as_a_table_does_not_get_its_meanings():
     table = pd.DataFrame({"rank": [1], "coefficient_natural": [1.0]})
-    sheets = [Sheet(entry, table) for entry in (IMPACT, design_entry("impact"))]
+    sheets = [
+        Sheet(entry, table)
+        for entry in (result_entry("impact.csv", TABLES["impact.csv"]), design_entry("impact"))
+    ]
     assert dictionary_table(sheets)["meaning"].astype(bool).tolist() == [True, False, False, False]
-    surface = dictionary_table([Sheet(surface_entry("impact"), table)])
+    surface = dictionary_table(
+        [Sheet(result_entry("impact_surface.csv", TABLES["STUDY_surface.csv"], "impact"), table)]
+    )
     assert surface["meaning"].astype(bool).tolist() == [False, True]

@@ -8,6 +8,13 @@ import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from typing import TypeVar
+
+from pydantic import BaseModel, ValidationError
+
+from nptcs.errors import InputError
+
+Model = TypeVar("Model", bound=BaseModel)
 
 
 @contextmanager
@@ -48,6 +55,33 @@ def write_text(path: str | Path, text: str) -> None:
     """Write `text` to `path` as UTF-8, atomically."""
     with atomic_path(path) as temporary:
         temporary.write_text(text, encoding="utf-8", newline="\n")
+
+
+def read_model(path: str | Path, model: type[Model]) -> Model:
+    """Read a JSON file that holds one record or one card.
+
+    Parameters
+    ----------
+    path : str or Path
+        Written by ``write_text(path, record.model_dump_json())``.
+    model : type of BaseModel
+        What the file must hold.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing or does not hold such a record.
+    """
+    remedy = "run snakemake again; it writes this file anew"
+    if not Path(path).is_file():
+        raise InputError(f"this {model.__name__} does not exist", remedy, file=path)
+    try:
+        return model.model_validate_json(Path(path).read_text(encoding="utf-8"))
+    except (ValidationError, UnicodeDecodeError) as error:
+        first = str(error).splitlines()
+        raise InputError(
+            f"this file does not hold a {model.__name__}: {' '.join(first[:3])}", remedy, file=path
+        ) from None
 
 
 def sha256_of_file(path: str | Path) -> str:

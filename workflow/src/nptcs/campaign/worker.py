@@ -20,7 +20,7 @@ from nptcs.solvers.registry import load, read_options
 
 
 def solve(job: CaseJob) -> SolverResult:
-    """Solve a case; whatever the solver raises becomes a result with status ``error``."""
+    """Solve a case; a solver that raises or leaves a response out gives status ``error``."""
     try:
         solver = load(job.module)
         inputs = CaseInputs(
@@ -33,6 +33,11 @@ def solve(job: CaseJob) -> SolverResult:
             tables=job.tables,
         )
         result = SolverResult.model_validate(solver.solve(inputs))
+        if missing := solver.missing_responses(result):
+            return SolverResult(
+                status=Status.ERROR,
+                message=f"solver '{solver.name}' says ok but gives no {', '.join(missing)}",
+            )
         if solver.realise is not None and result.status == Status.OK:
             realised = solver.realise(inputs.values, inputs.tyre)
             result.realised = {**realised, **result.realised}

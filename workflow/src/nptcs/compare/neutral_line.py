@@ -10,6 +10,23 @@ from nptcs.campaign.record import CaseRecord
 from nptcs.tables.neutral_line import NeutralLine
 
 
+def case_ids(designs: Sequence[pd.DataFrame], numbers: Sequence[Collection[int]]) -> set[str]:
+    """Name the cases with these numbers, study by study.
+
+    Parameters
+    ----------
+    designs : sequence of DataFrame
+        `nptcs.tables.cases.Design` of each study.
+    numbers : sequence of a collection of int
+        Numbers of the cases in the same order of studies.
+    """
+    return {
+        str(case_id)
+        for design, of_study in zip(designs, numbers, strict=True)
+        for case_id in design.loc[design["case"].isin(list(of_study)), "case_id"]
+    }
+
+
 def neutral_lines(records: Sequence[CaseRecord], case_ids: Collection[str]) -> pd.DataFrame:
     """Gather the neutral lines of these cases by all solvers that give one, as `NeutralLine`."""
     tables = [

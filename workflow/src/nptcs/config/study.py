@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from itertools import pairwise
 from math import prod
-from typing import Annotated, Any, Self
+from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, field_validator, model_validator
 
@@ -94,6 +94,25 @@ class Study(Strict):
         description="Numbers of the cases whose deformed neutral line is tabulated and drawn "
         "(figure 14), by every solver that computes it",
     )
+
+    AFTERWARDS: ClassVar[frozenset[str]] = frozenset(
+        {
+            "terms",
+            "surfaces",
+            "published_coefficients",
+            "published_spoke_stiffness",
+            "calibration_cases",
+            "neutral_line_cases",
+        }
+    )
+    """Keys that say what is made of the results; they decide no case."""
+
+    def case_definition(self) -> dict[str, Any]:
+        """Return what decides the cases of the study and how they are solved, as plain values.
+
+        A change of any other key solves nothing anew. What is returned is a study again.
+        """
+        return self.model_dump(mode="json", exclude=set(self.AFTERWARDS))
 
     @model_validator(mode="after")
     def _names_are_consistent(self) -> Self:

@@ -1,4 +1,4 @@
-"""All results that the report and the workbook lay out, read from their files."""
+"""All results that the report and the workbook show, read from their files."""
 
 from __future__ import annotations
 
@@ -10,44 +10,22 @@ from pathlib import Path
 from typing import Any
 
 import pandas as pd
+import pandera.pandas as pa
 
 from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
-from nptcs.files import sha256_of_file
-from nptcs.report.figures.surface import FactorLabel
+from nptcs.files import read_model, sha256_of_file
 from nptcs.report.verdict import verdict
 from nptcs.surface.fit import Surface
-from nptcs.surface.stored import load
-from nptcs.tables.cases import Design
-from nptcs.tables.catalogue import TABLES
-from nptcs.tables.curves import Curve, IngestRecord
+from nptcs.surface.stored import read_surfaces
+from nptcs.tables.cases import Cases, Design
+from nptcs.tables.catalogue import file_of, result_files
+from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.io import read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
+from nptcs.tables.problems import Problems
 from nptcs.tables.specimens import Specimen
-from nptcs.tables.surface import SurfaceTable
-
-PLAIN_TABLES = {
-    "files": "files.csv",
-    "specimens": "specimens.csv",
-    "statistics": "statistics.csv",
-    "models": "hyperelastic_models.csv",
-    "ranges": "c10_against_range.csv",
-    "cases": "cases.csv",
-    "quality": "surface_quality.csv",
-    "impact": "impact.csv",
-    "spoke_stiffness": "spoke_stiffness.csv",
-    "spoke_curves": "spoke_curves.csv",
-    "compare_published": "stiffness_against_published.csv",
-    "stiffness_errors": "stiffness_errors.csv",
-    "stiffness_by_level": "stiffness_by_level.csv",
-    "neutral_line": "neutral_line.csv",
-    "lca_validation": "lca_validation.csv",
-    "lca_against_fem": "lca_against_fem.csv",
-    "lca_neutral_line": "lca_neutral_line.csv",
-    "problems": "problems.csv",
-}
-"""Fields of `Results` that are one table each, and their names among the contracts."""
 
 SOFTWARE = (
     "snakemake",
@@ -72,7 +50,11 @@ class SolverFacts:
 
 @dataclass(frozen=True)
 class Results:
-    """Everything that a run has made. Tables keep the columns of their contracts."""
+    """Everything that a run has made.
+
+    ``tables`` holds the tables of ``results/tables`` by file name; `table` returns one by its
+    contract.
+    """
 
     config: Config
     sheet: tuple[Specimen, ...]
@@ -84,25 +66,16 @@ class Results:
     records: Mapping[str, IngestRecord]
     designs: Mapping[str, pd.DataFrame]
     surfaces: Mapping[str, Mapping[str, Surface]]
-    coefficients: Mapping[str, pd.DataFrame]
-    files: pd.DataFrame
-    specimens: pd.DataFrame
-    statistics: pd.DataFrame
-    models: pd.DataFrame
-    ranges: pd.DataFrame
-    cases: pd.DataFrame
-    quality: pd.DataFrame
-    impact: pd.DataFrame
-    spoke_stiffness: pd.DataFrame
-    spoke_curves: pd.DataFrame
-    compare_published: pd.DataFrame
-    stiffness_errors: pd.DataFrame
-    stiffness_by_level: pd.DataFrame
-    neutral_line: pd.DataFrame
-    lca_validation: pd.DataFrame
-    lca_against_fem: pd.DataFrame
-    lca_neutral_line: pd.DataFrame
-    problems: pd.DataFrame
+    tables: Mapping[str, pd.DataFrame]
+
+    def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
+        """Return the result table that keeps a contract; for a table of one study, the study's."""
+        return self.tables[file_of(contract, study)]
+
+    @property
+    def surface_studies(self) -> list[str]:
+        """Names of the studies that ask for a surface."""
+        return [study.name for study in self.config.studies if study.terms]
 
     @property
     def any_synthetic(self) -> bool:
@@ -126,7 +99,7 @@ class Results:
 
     def verdict(self) -> tuple[bool, str]:
         """Say in one line whether everything gave a result, with counts."""
-        return verdict(self.problems, self.cases, self.sheet, self.records)
+        return verdict(self.table(Problems), self.table(Cases), self.sheet, self.records)
 
     def left_out(self) -> dict[str, str]:
         """Name the specimens that the sheet leaves out, with the reason."""
@@ -162,11 +135,6 @@ class Results:
         )
 
 
-def factor_labels(study: Study) -> dict[str, FactorLabel]:
-    """Return how a study's factors are written in figures."""
-    return {factor.name: FactorLabel(factor.label, factor.unit) for factor in study.factors}
-
-
 def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     """Read all results of a run, each table checked against its contract.
 
@@ -176,9 +144,9 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         ``config``, ``specimens`` (rows of the sheet), ``solvers`` (`SolverFacts` by name), as
         plain values.
     files : mapping
-        A path for each of `PLAIN_TABLES` and for ``card``; lists of paths under ``curves``,
-        ``records``, ``designs``, ``surfaces``, ``coefficients`` and ``inputs``: designs in the
-        order of the studies, surfaces and coefficients in that of the studies that have terms.
+        A path for ``card``; lists of paths under ``tables`` (all of ``results/tables``),
+        ``curves``, ``records``, ``designs``, ``surfaces`` (both named by their study) and
+        ``inputs``.
 
     Returns
     -------
@@ -192,9 +160,10 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     config = Config.model_validate(job["config"])
     studies = [study.name for study in config.studies]
     with_surface = [study.name for study in config.studies if study.terms]
-    designs = [read_table(file, Design) for file in files["designs"]]
-    coefficients = [read_table(file, SurfaceTable) for file in files["coefficients"]]
-    surfaces = [load(Path(file).read_text("utf-8")) for file in files["surfaces"]]
+    paths = {Path(file).name: file for file in files["tables"]}
+    designs = {Path(file).stem: file for file in files["designs"]}
+    surfaces = {Path(file).stem: file for file in files["surfaces"]}
+    records = [read_model(file, IngestRecord) for file in files["records"]]
     return Results(
         config=config,
         sheet=tuple(Specimen.model_validate(row) for row in job["specimens"]),
@@ -205,21 +174,13 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
             **{name: version(name) for name in SOFTWARE},
         },
         inputs={str(file): sha256_of_file(file) for file in files["inputs"]},
-        card=MaterialCard.model_validate_json(Path(files["card"]).read_text("utf-8")),
-        curves={
-            Path(file).name.removesuffix(".csv"): read_table(file, Curve)
-            for file in files["curves"]
-        },
-        records={record.specimen: record for record in map(_read_record, files["records"])},
-        designs=dict(zip(studies, designs, strict=True)),
-        surfaces=dict(zip(with_surface, surfaces, strict=True)),
-        coefficients=dict(zip(with_surface, coefficients, strict=True)),
-        **{
-            name: read_table(files[name], TABLES[table].contract)
-            for name, table in PLAIN_TABLES.items()
+        card=read_model(files["card"], MaterialCard),
+        curves=read_curves(files["curves"]),
+        records={record.specimen: record for record in records},
+        designs={name: read_table(designs[name], Design) for name in studies},
+        surfaces={name: read_surfaces(surfaces[name]) for name in with_surface},
+        tables={
+            name: read_table(paths[name], row.contract)
+            for name, row, _ in result_files(with_surface)
         },
     )
-
-
-def _read_record(file: str) -> IngestRecord:
-    return IngestRecord.model_validate_json(Path(file).read_text("utf-8"))

@@ -8,24 +8,13 @@ from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
 from nptcs.report.data import Results
-from nptcs.report.sections.lca import lca_section
-from nptcs.report.sections.materials import materials_section
-from nptcs.report.sections.provenance import provenance_section
-from nptcs.report.sections.published_stiffness import published_stiffness_section
-from nptcs.report.sections.specimens import specimens_section
-from nptcs.report.sections.spokes import spoke_section
-from nptcs.report.sections.studies import (
-    cases_section,
-    design_section,
-    sensitivity_section,
-    surfaces_section,
-)
+from nptcs.report.sections.plan import build_sections
 from nptcs.report.sections.summary import summary_blocks
 from nptcs.report.tables.sheets import sheets_of
 
 
 def render_report(results: Results) -> str:
-    """Lay all results out as one HTML page.
+    """Write all results as one HTML page.
 
     The page depends on the results alone: the same results give the same page.
 
@@ -40,18 +29,6 @@ def render_report(results: Results) -> str:
         HTML text, UTF-8, with styles and figures inside.
     """
     sheets = sheets_of(results)
-    builders = (
-        specimens_section,
-        materials_section,
-        design_section,
-        cases_section,
-        surfaces_section,
-        sensitivity_section,
-        spoke_section,
-        published_stiffness_section,
-        lca_section,
-        provenance_section,
-    )
     environment = Environment(
         loader=PackageLoader("nptcs.report"),
         autoescape=True,
@@ -63,8 +40,8 @@ def render_report(results: Results) -> str:
         settings=results.config.report,
         sound=results.verdict()[0],
         synthetic=results.any_synthetic,
-        head=summary_blocks(results, sheets),
-        sections=[build(results, sheets) for build in builders],
+        summary=summary_blocks(results, sheets),
+        sections=build_sections(results, sheets),
         style=_resource("report.css"),
         script=_resource("sort.js"),
     )

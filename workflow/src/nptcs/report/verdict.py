@@ -42,6 +42,14 @@ def verdict(
     return False, f"{len(problems)} problem{'s' * (len(problems) > 1)}: {counts}"
 
 
+def problem_lines(problems: pd.DataFrame) -> list[str]:
+    """Write one line per row of ``problems.csv``."""
+    return [
+        f"{row.stage} {row.name} {row.solver} {row.status}: {row.message}"
+        for row in problems.itertuples()
+    ]
+
+
 def _specimens(sheet: Sequence[Specimen], records: Mapping[str, IngestRecord]) -> str:
     """Count the specimens used, left out and unreadable."""
     included = [s.specimen for s in sheet if s.include]

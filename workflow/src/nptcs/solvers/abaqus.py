@@ -186,6 +186,7 @@ SOLVER = Solver(
     version="1",
     solve=solve,
     factors=TYRE_FACTORS,
+    about="the paper's whole tyre, solved by the Abaqus that the user has",
     required=TYRE_FACTORS,
     options=AbaqusOptions,
     needs_ply=True,

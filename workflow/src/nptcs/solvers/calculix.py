@@ -16,6 +16,7 @@ from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, run_command, time_for_command
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.spoke_responses import spoke_responses
 
 STEPS = 4
 
@@ -64,14 +65,10 @@ def solve(inputs: CaseInputs) -> SolverResult:
             message=f"{options.command[0]} ended with code {ended.code} after {len(force)} of "
             f"{2 * STEPS} steps: {ended.output.strip()[-500:]}",
         )
-    tension = stiffness_line(pulled, radial[:STEPS])
-    compression = stiffness_line(pressed, -radial[STEPS:])
+    lines = stiffness_line(pulled, radial[:STEPS]), stiffness_line(pressed, -radial[STEPS:])
     return SolverResult(
         status=Status.OK,
-        extra={
-            "tension_stiffness_n_per_mm": tension.slope,
-            "compression_stiffness_n_per_mm": compression.slope,
-        },
+        extra=spoke_responses(*lines),
         curve=curve,
     )
 
@@ -90,6 +87,7 @@ SOLVER = Solver(
     version="1",
     solve=solve,
     factors=SPOKE_FACTORS,
+    about="the spoke of fe_spoke with meshed plies, solved by the user's ccx",
     required=SPOKE_FACTORS,
     options=CalculixOptions,
     needs_ply=True,

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
-from enum import StrEnum
 from typing import Any, ClassVar
 
 import numpy as np
@@ -18,16 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 from nptcs.arrays import Array
 from nptcs.config.base import Strict
 from nptcs.config.tyre import TyreGeometry
-
-
-class Status(StrEnum):
-    """How a case ended."""
-
-    OK = "ok"
-    DIVERGED = "diverged"
-    TIMEOUT = "timeout"
-    LICENCE = "licence"
-    ERROR = "error"
+from nptcs.tables.status import Status as Status
 
 
 class SolverOptions(Strict):
@@ -155,6 +145,17 @@ def _rounded(values: Array) -> list[float]:
     return [float(f"{value + 0.0:.{NEUTRAL_LINE_DIGITS}g}") for value in values]
 
 
+TYRE_RESPONSES = ("vertical_stiffness_n_per_mm", "displacement_mm")
+"""What a solver of tyres gives for every case that is ok."""
+
+SPOKE_RESPONSES = tuple(
+    f"{direction}_{quantity}"
+    for direction in ("tension", "compression")
+    for quantity in ("stiffness_n_per_mm", "r2_uncentred", "r2_centred")
+)
+"""What a solver of single spokes gives in `SolverResult.extra`: the lines through the origin."""
+
+
 @dataclass(frozen=True)
 class Solver:
     """A solver and what it says of itself.
@@ -170,6 +171,8 @@ class Solver:
         ``CaseInputs → SolverResult``. It may raise: the campaign records the exception.
     factors : frozenset of str
         The factors that it can see. A study that varies any other is refused.
+    about : str
+        What it is, in a few words without a full stop; the report prints them after its name.
     required : frozenset of str
         Values that must be given for each case, as factor or as fixed value.
     options : type of SolverOptions
@@ -178,7 +181,7 @@ class Solver:
         Whether the ply constants are handed to it (and are part of the key).
     loads_tyre : bool
         Whether it loads a tyre: the study's load is handed to it (and is part of the key) and
-        it gives the vertical stiffness. A solver of single spokes does not.
+        it gives `TYRE_RESPONSES`. A solver of single spokes does not; it gives `SPOKE_RESPONSES`.
     realise : callable, optional
         ``(values, tyre) → values`` that the solver really uses for the factors of which it can
         use some values only; the campaign records them with each solved case.
@@ -188,8 +191,17 @@ class Solver:
     version: str
     solve: Callable[[CaseInputs], SolverResult]
     factors: frozenset[str]
+    about: str = field(kw_only=True)
     required: frozenset[str] = frozenset()
     options: type[SolverOptions] = SolverOptions
     needs_ply: bool = False
     loads_tyre: bool = True
     realise: Callable[[Mapping[str, float], TyreGeometry], dict[str, float]] | None = None
+
+    def missing_responses(self, result: SolverResult) -> list[str]:
+        """Name what a result that says ``ok`` must give and does not."""
+        if result.status != Status.OK:
+            return []
+        given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
+        promised = TYRE_RESPONSES if self.loads_tyre else SPOKE_RESPONSES
+        return [name for name in promised if given.get(name) is None]

@@ -10,6 +10,7 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.spoke_responses import spoke_responses
 
 
 class FeSpokeOptions(SolverOptions, FeSpokeModel):
@@ -36,14 +37,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
     force = np.concatenate([-press_force[:0:-1], pull_force])
     return SolverResult(
         status=Status.OK,
-        extra={
-            "tension_stiffness_n_per_mm": result.tension_fit.slope,
-            "tension_r2_uncentred": result.tension_fit.r2_uncentred,
-            "tension_r2_centred": result.tension_fit.r2_centred,
-            "compression_stiffness_n_per_mm": result.compression_fit.slope,
-            "compression_r2_uncentred": result.compression_fit.r2_uncentred,
-            "compression_r2_centred": result.compression_fit.r2_centred,
-        },
+        extra=spoke_responses(result.tension_fit, result.compression_fit),
         curve={"displacement_mm": displacement.tolist(), "force_n": force.tolist()},
     )
 
@@ -53,6 +47,7 @@ SOLVER = Solver(
     version="1",
     solve=solve,
     factors=SPOKE_FACTORS,
+    about="one spoke pulled by 4 mm and pressed by 20 mm (section 4.3.1)",
     required=SPOKE_FACTORS,
     options=FeSpokeOptions,
     needs_ply=True,

@@ -100,6 +100,7 @@ SOLVER = Solver(
     version="2",
     solve=solve,
     factors=TYRE_FACTORS,
+    about="the tyre on 60 spoke super-elements, pressed on a rigid plane",
     required=TYRE_FACTORS,
     options=FeTyreOptions,
     needs_ply=True,

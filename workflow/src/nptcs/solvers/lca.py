@@ -189,6 +189,7 @@ SOLVER = Solver(
     version=VERSION,
     solve=solve,
     factors=frozenset({"shear_band_c10_mpa", "spoke_c10_mpa"}),
+    about="the load-bearing analysis model, which sees the two rubbers and nothing else",
     required=frozenset({"shear_band_c10_mpa", "spoke_c10_mpa"}),
     options=LcaOptions,
 )

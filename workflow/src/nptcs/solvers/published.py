@@ -65,5 +65,6 @@ SOLVER = Solver(
     version="1",
     solve=solve,
     factors=FACTORS,
+    about="the published finite element results, looked up case by case",
     options=PublishedOptions,
 )

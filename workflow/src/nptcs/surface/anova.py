@@ -87,7 +87,9 @@ def anova(surface: Surface, blocks: Sequence[str] = ()) -> list[AnovaRow]:
     """
     matrix = surface.polynomial.matrix(surface.coded(surface.x))
     groups = _groups(surface, blocks)
-    first = [column for column, powers in enumerate(surface.polynomial.exponents) if not any(powers)]
+    first = [
+        column for column, powers in enumerate(surface.polynomial.exponents) if not any(powers)
+    ]
     order = first + [column for members in groups.values() for column in members]
     q, r = linalg.qr(matrix[:, order], mode="economic")
     sequential = dict(zip(order, (q.T @ surface.y) ** 2, strict=True))

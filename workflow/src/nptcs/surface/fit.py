@@ -180,9 +180,7 @@ def fit(
     return fit_points(x, response.to_numpy(float), polynomial, through_origin)
 
 
-def fit_points(
-    x: Array, y: Array, polynomial: Polynomial, through_origin: bool = False
-) -> Surface:
+def fit_points(x: Array, y: Array, polynomial: Polynomial, through_origin: bool = False) -> Surface:
     """Fit a polynomial to points of shape (m, n) with responses of shape (m,).
 
     Coded units and their expansion into natural ones are computed in long double.

@@ -1,4 +1,4 @@
-"""What every kind of surface can do, and a prediction that knows the surface's range of validity."""
+"""What every kind of surface can do, and a prediction that knows where the surface is valid."""
 
 from __future__ import annotations
 

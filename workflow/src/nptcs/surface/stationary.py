@@ -78,7 +78,7 @@ def stationary_points(surface: Surface) -> list[StationaryPoint]:
 
 
 def curved_axes(surface: Surface) -> list[int]:
-    """Number the factors that some term of second order or higher contains."""
+    """Find the numbers of the factors that some term of second order or higher contains."""
     curved = [powers for powers in surface.polynomial.exponents if sum(powers) > 1]
     return [axis for axis in range(len(surface.factors)) if any(powers[axis] for powers in curved)]
 
@@ -122,7 +122,9 @@ def ridge_path(
     return path
 
 
-def _on_sphere(surface: Surface, sign: float, start: Array, radius: float, axes: list[int]) -> Array:
+def _on_sphere(
+    surface: Surface, sign: float, start: Array, radius: float, axes: list[int]
+) -> Array:
     """Find the best point of a sphere from a start on it."""
     found = optimize.minimize(
         lambda coded: sign * _value(surface, coded, axes),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Callable, Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -25,9 +26,19 @@ def dump(surfaces: Mapping[str, Surface]) -> str:
     return json.dumps(content, indent=1)
 
 
+def read_surfaces(path: str | Path) -> dict[str, Surface]:
+    """Read a file of surfaces, by the name of their solver."""
+    return load(Path(path).read_text(encoding="utf-8"))
+
+
 def load(text: str) -> dict[str, Surface]:
     """Read what `dump` has written."""
     return {solver: _polynomial(content) for solver, content in json.loads(text).items()}
+
+
+def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
+    """Read a file of surfaces of any kind, by solver and name."""
+    return load_models(Path(path).read_text(encoding="utf-8"))
 
 
 def dump_models(models: Models) -> str:

@@ -56,9 +56,7 @@ class Polynomial:
         return powers[:, axis] * np.prod(x[:, None, :] ** lowered[None, :, :], axis=2)
 
 
-def parse(
-    terms: Sequence[str], factors: Sequence[str], through_origin: bool = False
-) -> Polynomial:
+def parse(terms: Sequence[str], factors: Sequence[str], through_origin: bool = False) -> Polynomial:
     """Read terms such as ``1``, ``x``, ``x^2``, ``x*y``.
 
     Parameters

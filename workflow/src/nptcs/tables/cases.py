@@ -5,6 +5,8 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.status import Status
+
 RESPONSES = ("vertical_stiffness_n_per_mm", "displacement_mm")
 
 
@@ -32,7 +34,7 @@ class Cases(pa.DataFrameModel):
     study: Series[str]
     case_id: Series[str]
     solver: Series[str]
-    status: Series[str] = pa.Field(isin=["ok", "diverged", "timeout", "licence", "error"])
+    status: Series[str] = pa.Field(isin=list(Status))
     message: Series[str]
     load_n: Series[float] = pa.Field(nullable=True, gt=0, description="Empty for single spokes")
     vertical_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)

@@ -1,12 +1,14 @@
-"""All result tables: file, contract, what each says, which rule made it, and from what.
+"""All result tables: the one list from which rules, report, workbook and reference page follow.
 
-This is the one list of them: the rules, the report, the workbook and the reference page take it.
+A new table is its contract, one row here, its rule and its script. Its row decides its sheet in
+the workbook and the section of the report that shows it; no other place needs to know it.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator, Sequence
 
 import pandera.pandas as pa
 
+from nptcs.tables import column_headings as headings
 from nptcs.tables.cases import Cases
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
@@ -20,147 +22,238 @@ from nptcs.tables.published_stiffness import (
     StiffnessByLevel,
     StiffnessErrors,
 )
+from nptcs.tables.result_table import (
+    PER_STUDY,
+    ReportSection,
+    ResultTable,
+    RowMark,
+    SyntheticBy,
+)
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
-from nptcs.tables.surface import SurfaceQuality, SurfaceTable
+from nptcs.tables.surface import (
+    SurfaceByFactor,
+    SurfaceComparison,
+    SurfaceQuality,
+    SurfaceTable,
+)
 
-
-@dataclass(frozen=True)
-class ResultTable:
-    """One table.
-
-    Parameters
-    ----------
-    contract : type of DataFrameModel
-        Its columns.
-    title : str
-        What it says.
-    rule : str
-        Snakemake rules that made it.
-    source : str
-        What the rules made it from, and how.
-    """
-
-    contract: type[pa.DataFrameModel]
-    title: str
-    rule: str
-    source: str
-
-
-TABLES = {
+TABLES: dict[str, ResultTable] = {
+    "problems.csv": ResultTable(
+        Problems,
+        "Problems: everything that gave no result, and why",
+        "problems",
+        "specimen sheet, ingest records, reduction, case records and surface fits",
+        section=ReportSection.SUMMARY,
+        mark=RowMark.EVERY_ROW,
+        synthetic=SyntheticBy.NOTHING,
+    ),
     "files.csv": ResultTable(
         Files,
         "Every file of the laboratory's folder and what became of it",
         "account",
         "the folder of the specimen sheet and the ingest records",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.FILE_STATUS,
     ),
     "specimens.csv": ResultTable(
         PropertiesTable,
         "Properties of each specimen",
         "reduce, statistics",
         "the specimens' curves, by the rule and the range in each row",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.SPECIMEN,
     ),
     "statistics.csv": ResultTable(
         StatisticsTable,
         "Statistics of each group of specimens",
         "statistics",
         "the properties of the specimens that the sheet includes",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.OUTLIERS,
     ),
     "hyperelastic_models.csv": ResultTable(
         ModelComparison,
         "Hyperelastic models compared",
         "calibrate_rubber, material_card",
         "the rubber curves; the study's model is the one on the card",
+        section=ReportSection.MATERIALS,
+        synthetic=SyntheticBy.RUBBERS,
     ),
     "c10_against_range.csv": ResultTable(
         RangeTable,
         "C10 against the strain range of the fit",
         "calibrate_rubber, material_card",
         "the rubber curves, neo-Hookean fits to growing ranges",
+        section=ReportSection.MATERIALS,
+        synthetic=SyntheticBy.RUBBERS,
     ),
     "cases.csv": ResultTable(
         Cases,
         "Every case of every study: how it ended and its responses",
         "solve, cases",
         "one record a case; wall time is that of the run that solved the case",
+        section=ReportSection.CASES,
+        mark=RowMark.STATUS,
+        synthetic=SyntheticBy.STUDIES,
     ),
     "STUDY_surface.csv": ResultTable(
         SurfaceTable,
         "Response surfaces of the study STUDY: coefficients",
         "surface",
         "solved cases, ordinary least squares in coded units, expanded to natural units",
+        section=ReportSection.SURFACES,
+        headings=headings.SURFACE,
+        synthetic=SyntheticBy.STUDIES,
+        sheet="surface_STUDY",
     ),
     "surface_quality.csv": ResultTable(
         SurfaceQuality,
-        "How well each response surface follows its cases",
+        "How well each polynomial follows its cases",
         "surface, sensitivity",
         "the solved cases and the surfaces fitted to them",
+        section=ReportSection.SURFACES,
+        headings=headings.QUALITY,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_comparison.csv": ResultTable(
+        SurfaceComparison,
+        "Surfaces of every kind: how they predict cases that they have not seen",
+        "surface, sensitivity",
+        "the solved cases; each surface fitted again without each case and without each level",
+        section=ReportSection.SURFACES,
+        headings=headings.COMPARISON,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_by_factor.csv": ResultTable(
+        SurfaceByFactor,
+        "Surfaces of every kind along each factor: range of validity, levels left out, direction",
+        "surface, sensitivity",
+        "the same surfaces; direction over a grid in the box of the cases",
+        section=ReportSection.SURFACES,
+        headings=headings.COMPARISON,
+        synthetic=SyntheticBy.STUDIES,
     ),
     "impact.csv": ResultTable(
         Impact,
         "Average gradients and comprehensive impact values, by every rule",
         "sensitivity",
         "the response surfaces; printed values are those of table 9",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.IMPACT,
+        synthetic=SyntheticBy.STUDIES,
     ),
     "spoke_stiffness.csv": ResultTable(
         SpokeLines,
         "Stiffness of single spokes, computed and table 10",
         "spoke_stiffness",
         "the single spokes' curves, lines through the origin; printed values are those of table 10",
+        section=ReportSection.SPOKE,
+        headings=headings.SPOKE,
+        mark=RowMark.STATUS,
+        synthetic=SyntheticBy.ROWS,
     ),
     "spoke_curves.csv": ResultTable(
         SpokeCurves,
         "Force–displacement curves of single spokes (figure 13)",
         "spoke_stiffness",
         "the records of the single spokes",
+        section=ReportSection.SPOKE,
+        synthetic=SyntheticBy.ROWS,
     ),
     "stiffness_against_published.csv": ResultTable(
         StiffnessAgainstPublished,
         "Computed vertical stiffness beside the published one, case by case",
         "compare_published",
         "cases.csv; published values are those that the solver `published` looked up",
+        section=ReportSection.PUBLISHED_STIFFNESS,
+        mark=RowMark.STATUS_OR_CALIBRATION,
+        synthetic=SyntheticBy.ROWS,
     ),
     "stiffness_errors.csv": ResultTable(
         StiffnessErrors,
         "Differences from the published stiffness, blind cases apart from calibrated ones",
         "compare_published",
         "stiffness_against_published.csv, summed up",
+        section=ReportSection.PUBLISHED_STIFFNESS,
+        headings=headings.ERRORS,
+        synthetic=SyntheticBy.ROWS,
     ),
     "stiffness_by_level.csv": ResultTable(
         StiffnessByLevel,
         "Main effects and differences by level of each factor",
         "compare_published",
         "stiffness_against_published.csv, averaged over the cases at each level",
+        section=ReportSection.PUBLISHED_STIFFNESS,
+        headings=headings.LEVELS,
+        synthetic=SyntheticBy.ROWS,
     ),
     "neutral_line.csv": ResultTable(
         NeutralLine,
         "Displacement of the band's neutral line, every solver (figure 14)",
         "neutral_line",
         "the records of the cases that the studies' neutral_line_cases names",
+        section=ReportSection.PUBLISHED_STIFFNESS,
+        synthetic=SyntheticBy.ROWS,
     ),
     "lca_validation.csv": ResultTable(
         LcaValidation,
         "The load-bearing model (LCA) against the published numbers",
         "lca_validation",
         "the model solved with table 10's spokes; printed values are those of tables 7 and 11",
+        section=ReportSection.LCA,
+        synthetic=SyntheticBy.NOTHING,
     ),
     "lca_against_fem.csv": ResultTable(
         LcaAgainstFem,
         "The load-bearing model (LCA) against the FE stiffness of table 7",
         "lca_validation",
         "the model solved for the cases of table 7; FE values as printed there",
+        section=ReportSection.LCA,
+        synthetic=SyntheticBy.NOTHING,
     ),
     "lca_neutral_line.csv": ResultTable(
         LcaNeutralLine,
         "Deformed neutral line of the shear band, LCA",
         "lca_validation",
         "the same solutions of the model, evaluated along the ring",
-    ),
-    "problems.csv": ResultTable(
-        Problems,
-        "Problems: everything that gave no result, and why",
-        "problems",
-        "specimen sheet, ingest records, reduction, case records and surface fits",
+        section=ReportSection.LCA,
+        synthetic=SyntheticBy.NOTHING,
     ),
 }
-"""Tables of ``results/tables`` by file name; STUDY stands for the name of each study."""
+"""Tables of ``results/tables`` by file name, in the order of the workbook.
+
+`PER_STUDY` in a name stands for each study that has a surface.
+"""
+
+
+def result_files(surface_studies: Sequence[str]) -> Iterator[tuple[str, ResultTable, str]]:
+    """Go through all files of ``results/tables``.
+
+    Parameters
+    ----------
+    surface_studies : sequence of str
+        Names of the studies that have a surface.
+
+    Yields
+    ------
+    file, table, study : str, ResultTable, str
+        Name of the file, its row of `TABLES`, and the study if it holds one study alone.
+    """
+    for name, table in TABLES.items():
+        for study in surface_studies if PER_STUDY in name else [""]:
+            yield name.replace(PER_STUDY, study), table, study
+
+
+def file_of(contract: type[pa.DataFrameModel], study: str = "") -> str:
+    """Return the name of the file that keeps a contract; for one study, that of the study.
+
+    Raises
+    ------
+    KeyError
+        For a contract of no result table.
+    """
+    for name, table in TABLES.items():
+        if table.contract is contract:
+            return name.replace(PER_STUDY, study)
+    raise KeyError(f"{contract.__name__} is not the contract of a result table")

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+from pathlib import Path
 from typing import Literal
 
+import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 from pydantic import Field
 
 from nptcs.config.base import Strict
 from nptcs.errors import InputError
+from nptcs.tables.io import read_table
 
 CURVE_COLUMNS = (
     "time_s",
@@ -46,6 +50,17 @@ class Curve(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
+
+
+def read_curves(paths: Iterable[str | Path]) -> dict[str, pd.DataFrame]:
+    """Read the curves of specimens; each file is named as its specimen.
+
+    Raises
+    ------
+    InputError
+        As `nptcs.tables.io.read_table`.
+    """
+    return {Path(path).name.removesuffix(".csv"): read_table(path, Curve) for path in paths}
 
 
 class FileRecord(Strict):

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, cast
 
@@ -46,6 +47,18 @@ def read_table(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataFr
         if name in table:
             table[name] = table[name].fillna("")
     return check(table, contract, str(path))
+
+
+def read_tables(paths: Iterable[str | Path], contract: type[pa.DataFrameModel]) -> pd.DataFrame:
+    """Read tables of one contract and join them, row under row; no tables, no rows.
+
+    Raises
+    ------
+    InputError
+        As `read_table`.
+    """
+    tables = [read_table(path, contract) for path in paths]
+    return pd.concat(tables, ignore_index=True) if tables else empty_table(contract)
 
 
 def empty_table(contract: type[pa.DataFrameModel]) -> pd.DataFrame:

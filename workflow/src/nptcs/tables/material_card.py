@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import Literal
 
 from pydantic import Field
@@ -99,3 +100,11 @@ class MaterialCard(Strict):
     format: Literal["nptcs-material-card/1"] = "nptcs-material-card/1"
     plies: dict[str, PlyCard]
     rubbers: dict[str, RubberCard]
+
+    @classmethod
+    def joined(cls, plies: Iterable[PlyCard], rubbers: Iterable[RubberCard]) -> MaterialCard:
+        """Join the cards of plies and rubbers, each under its name."""
+        return cls(
+            plies={card.name: card for card in plies},
+            rubbers={card.name: card for card in rubbers},
+        )

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.status import Status
+
 PUBLISHED = "published"
 """The solver whose results the others stand beside."""
 
@@ -27,7 +29,7 @@ class StiffnessAgainstPublished(pa.DataFrameModel):
     case_id: Series[str]
     case: Series[int] = pa.Field(ge=1, description="Number in the study")
     solver: Series[str]
-    status: Series[str] = pa.Field(description="Of the computed case")
+    status: Series[str] = pa.Field(isin=list(Status), description="Of the computed case")
     computed_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)
     published_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, gt=0)
     difference_percent: Series[float] = pa.Field(

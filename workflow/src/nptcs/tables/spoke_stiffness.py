@@ -5,6 +5,8 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.status import Status
+
 SPOKE_VALUES = ("spoke_c10_mpa", "spacing_mm", "thickness_mm", "angle_deg")
 DIRECTIONS = {"tension": 1.0, "compression": -1.0}
 
@@ -24,7 +26,7 @@ class SpokeLines(pa.DataFrameModel):
     spacing_mm: Series[float] = pa.Field(gt=0)
     thickness_mm: Series[float] = pa.Field(gt=0)
     angle_deg: Series[float]
-    status: Series[str]
+    status: Series[str] = pa.Field(isin=list(Status))
     tension_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True, description="k_t")
     published_tension_stiffness_n_per_mm: Series[float] = pa.Field(nullable=True)
     tension_difference_percent: Series[float] = pa.Field(nullable=True)

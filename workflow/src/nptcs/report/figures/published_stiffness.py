@@ -9,8 +9,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.style import GREY, line_look, mark_synthetic, panel, styled
-from nptcs.report.figures.surface import FactorLabel
 from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
 from itertools import combinations
 
 import numpy as np
@@ -11,23 +10,13 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.arrays import Array
+from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.style import COLOURS, MAP, MARKERS, mark_synthetic, panel, styled
 from nptcs.surface.fit import Surface
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
 STIFFNESS_LABEL = "vertical stiffness [N/mm]"
 GRID = 41
-
-
-@dataclass(frozen=True)
-class FactorLabel:
-    """Name and unit of a factor in figures."""
-
-    label: str
-    unit: str
-
-    def __str__(self) -> str:
-        return f"{self.label} [{self.unit}]"
 
 
 def middle_level(levels: Sequence[float]) -> float:

@@ -6,6 +6,7 @@ import math
 
 import pandas as pd
 
+from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.lca import (
     CONTACT,
@@ -17,9 +18,11 @@ from nptcs.report.figures.lca import (
     ring_neutral_line,
     stiffness_bars,
 )
-from nptcs.report.tables import catalogue
-from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import PageBlock, Plot, Plots, Section, Text, plot, sheet_view
+from nptcs.report.plots import plot
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
+from nptcs.tables.result_table import ReportSection
 
 
 def lca_section(results: Results, sheets: Sheets) -> Section:
@@ -46,15 +49,15 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
             "Difference of the stiffness from the FE values of table 7, on the same scale.",
             tuple(_fem_plots(results)),
         ),
-        sheet_view(sheets[catalogue.LCA_VALIDATION.sheet]),
-        sheet_view(sheets[catalogue.LCA_AGAINST_FEM.sheet]),
+        sheet_view(sheet_of(sheets, LcaValidation)),
+        sheet_view(sheet_of(sheets, LcaAgainstFem)),
         Plots(
             "Deformed middle line of the shear band by region (figure 14 of the paper). "
             "Displacements are to scale; the rim is drawn for orientation.",
             tuple(_neutral_line_plots(results)),
         ),
     ]
-    return Section("lca", "Load-bearing model (LCA) against the paper", tuple(blocks))
+    return Section(ReportSection.LCA, "Load-bearing model (LCA) against the paper", tuple(blocks))
 
 
 def _difference_plots(results: Results) -> list[Plot]:
@@ -68,7 +71,7 @@ def _difference_plots(results: Results) -> list[Plot]:
 
 
 def _fem_plots(results: Results) -> list[Plot]:
-    table = results.lca_against_fem
+    table = results.table(LcaAgainstFem)
     limit = math.ceil(float(table["fem_difference_percent"].abs().max()) + 0.5)
     return [
         plot(fem_differences(rows, limit), f"Differences from table 7, section {section}")
@@ -83,7 +86,7 @@ def _stiffness_plot(results: Results) -> Plot:
 
 
 def _load_plots(results: Results) -> list[Plot]:
-    sections = [rows for _, rows in results.lca_validation.groupby("section", sort=False)]
+    sections = [rows for _, rows in results.table(LcaValidation).groupby("section", sort=False)]
     plots = [
         plot(
             load_displacement(rows), f"Displacement against load, section {rows['section'].iloc[0]}"
@@ -103,12 +106,12 @@ def _neutral_line_plots(results: Results) -> list[Plot]:
             ring_neutral_line(rows, rim),
             f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa",
         )
-        for (_, load, c10), rows in results.lca_neutral_line.groupby(
+        for (_, load, c10), rows in results.table(LcaNeutralLine).groupby(
             ["section", "load_n", "spoke_c10_mpa"], sort=False
         )
     ]
 
 
 def _with_published(results: Results) -> pd.DataFrame:
-    table = results.lca_validation
+    table = results.table(LcaValidation)
     return table[table["published_displacement_mm"].notna()]

@@ -9,20 +9,24 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.models import model_named
+from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
-from nptcs.report.tables import catalogue
+from nptcs.report.plots import plot
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
-from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Listing, PageBlock, Plot, Plots, Section, plot, sheet_view
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.material_card import RubberCard
+from nptcs.tables.result_table import ReportSection
 
 
 def materials_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     blocks: list[PageBlock] = [
-        sheet_view(sheets[catalogue.PLY.sheet]),
-        sheet_view(sheets[catalogue.RUBBERS.sheet]),
+        sheet_view(sheets[entries.PLY.sheet]),
+        sheet_view(sheets[entries.RUBBERS.sheet]),
     ]
     checks = [f"{card.name}: {check}" for card in results.cards for check in card.checks]
     if checks:
@@ -34,11 +38,11 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
             "depends on that range.",
             (*_fit_plots(results), *_range_plot(results)),
         ),
-        sheet_view(sheets[catalogue.MODELS.sheet]),
-        sheet_view(sheets[catalogue.RANGES.sheet]),
+        sheet_view(sheet_of(sheets, ModelComparison)),
+        sheet_view(sheet_of(sheets, RangeTable)),
     ]
     synthetic = results.plies_synthetic or results.rubbers_synthetic
-    return Section("materials", "Materials", tuple(blocks), synthetic)
+    return Section(ReportSection.MATERIALS, "Materials", tuple(blocks), synthetic)
 
 
 def _fit_plots(results: Results) -> list[Plot]:
@@ -81,7 +85,7 @@ def _stress(model: Model, mode: str, constants: Array, stretch: Array) -> Array:
 
 
 def _range_plot(results: Results) -> list[Plot]:
-    joint = results.ranges[results.ranges["specimen"] == "all"]
+    joint = results.table(RangeTable)[results.table(RangeTable)["specimen"] == "all"]
     if joint.empty:
         return []
     synthetic = results.rubbers_synthetic

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import words
-from nptcs.report.view import joined, number_text
+from nptcs.report.text import joined, number_text
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 

@@ -4,17 +4,20 @@ from __future__ import annotations
 
 import pandas as pd
 
-from nptcs.report.data import Results, factor_labels
-from nptcs.report.tables.catalogue import Entry
+from nptcs.report.blocks import Listing, PageBlock
+from nptcs.report.data import Results
+from nptcs.report.factor_labels import factor_labels
+from nptcs.report.table_view import table_view
+from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import Heading, words
-from nptcs.report.view import Listing, PageBlock, table_view
+from nptcs.tables.impact import Impact
 
 FILE = "results/tables/impact.csv"
 
 
 def ranking_blocks(results: Results) -> list[PageBlock]:
     """Build the table of impact values beside table 9, and say whether the order is the same."""
-    printed = results.impact.dropna(subset=["published_impact"])
+    printed = results.table(Impact).dropna(subset=["published_impact"])
     if printed.empty:
         return []
     table, headings = published_ranking(printed)

@@ -2,21 +2,27 @@
 
 from __future__ import annotations
 
+from nptcs.report.blocks import Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import stress_strain
-from nptcs.report.tables import catalogue
-from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Plot, Plots, Section, Text, plot, sheet_view
+from nptcs.report.plots import plot
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables import entries
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.files import Files
+from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.statistics import StatisticsTable
 
 
 def specimens_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     tables = (
-        catalogue.STATISTICS,
-        catalogue.SPECIMENS,
-        catalogue.SHEET,
-        catalogue.CONDITIONING,
-        catalogue.FILES,
+        sheet_of(sheets, StatisticsTable),
+        sheet_of(sheets, PropertiesTable),
+        sheets[entries.SHEET.sheet],
+        sheets[entries.CONDITIONING.sheet],
+        sheet_of(sheets, Files),
     )
     curves = Plots(
         "Stress–strain curves of each series after signal conditioning. Dashed grey: left out by "
@@ -24,15 +30,15 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
         tuple(_series_plots(results)),
     )
     return Section(
-        "specimens",
+        ReportSection.SPECIMENS,
         "Specimens and files",
-        (_counts(results), curves, *(sheet_view(sheets[entry.sheet]) for entry in tables)),
+        (_counts(results), curves, *map(sheet_view, tables)),
         results.any_synthetic,
     )
 
 
 def _counts(results: Results) -> Text:
-    counts = results.files["status"].value_counts()
+    counts = results.table(Files)["status"].value_counts()
     files = ", ".join(f"{number} {status}" for status, number in counts.sort_index().items())
     failed, left_out = len(results.failed()), len(results.left_out())
     return Text(

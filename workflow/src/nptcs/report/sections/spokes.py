@@ -5,13 +5,15 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
+from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.spoke import force_displacement
+from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
-from nptcs.report.tables import catalogue
-from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import PageBlock, Plot, Plots, Section, Text, plot, sheet_view
-from nptcs.tables.spoke_stiffness import DIRECTIONS
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.spoke_stiffness import DIRECTIONS, SpokeCurves, SpokeLines
 
 SHOWN = [
     "case_id",
@@ -35,11 +37,11 @@ SHOWN = [
 
 def spoke_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
-    lines = results.spoke_stiffness
+    lines = results.table(SpokeLines)
     if lines.empty:
         nothing = "No study of the configuration computes single spokes."
-        return Section("spoke", "Single spoke", (Text(nothing),))
-    sheet = sheets[catalogue.SPOKE_STIFFNESS.sheet]
+        return Section(ReportSection.SPOKE, "Single spoke", (Text(nothing),))
+    sheet = sheet_of(sheets, SpokeLines)
     blocks: list[PageBlock] = [
         Text(
             "One spoke, clamped at the rim; its foot at the band is moved along the radius and "
@@ -58,13 +60,15 @@ def spoke_section(results: Results, sheets: Sheets) -> Section:
         sheet_view(sheet, SHOWN),
     ]
     title = "Single spoke (section 4.3.1) against the paper"
-    return Section("spoke", title, tuple(blocks), sheet.synthetic)
+    return Section(ReportSection.SPOKE, title, tuple(blocks), sheet.synthetic)
 
 
 def _plots(results: Results) -> list[Plot]:
     plots = []
-    for (study, solver), curves in results.spoke_curves.groupby(["study", "solver"], sort=False):
-        lines = results.spoke_stiffness
+    for (study, solver), curves in results.table(SpokeCurves).groupby(
+        ["study", "solver"], sort=False
+    ):
+        lines = results.table(SpokeLines)
         lines = lines[(lines["study"] == study) & (lines["solver"] == solver)]
         synthetic = results.study_is_synthetic(results.config.study(str(study)), str(solver))
         for direction in DIRECTIONS:

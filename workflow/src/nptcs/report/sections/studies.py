@@ -8,38 +8,36 @@ from collections.abc import Sequence
 import pandas as pd
 
 from nptcs.config.study import Factor, MeasuredRubber, Study
-from nptcs.report.data import Results, SolverFacts, factor_labels
+from nptcs.report.blocks import PageBlock, Plot, Plots, Section, TableView, Text
+from nptcs.report.data import Results, SolverFacts
+from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
 from nptcs.report.figures.surface import contours, pairs, slices
+from nptcs.report.plots import plot
 from nptcs.report.sections.ranking import ranking_blocks
-from nptcs.report.tables import catalogue
-from nptcs.report.tables import row_classes as marks
+from nptcs.report.table_view import sheet_view, table_view
+from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
-from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import (
-    PageBlock,
-    Plot,
-    Plots,
-    Section,
-    TableView,
-    Text,
-    joined,
-    plot,
-    sheet_view,
-    table_view,
-)
+from nptcs.report.tables.row_classes import by_status
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.report.text import joined
+from nptcs.surface.cases import solved_cases
+from nptcs.tables.cases import Cases
+from nptcs.tables.impact import Impact
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 
 COEFFICIENT_DIGITS = 10
 """Significant digits of coefficients: a reader can evaluate the surface from the page."""
 
-FACTORS = catalogue.Entry(
+FACTORS = entries.Entry(
     "factors",
     "Factors, levels and fixed values of each study",
     "results/4_design/*.csv",
     "design",
     "the configuration; C10 of tested rubbers from the material card",
 )
-COUNTS = catalogue.Entry(
+COUNTS = entries.Entry(
     "case_counts",
     "Cases by study, solver and status",
     "results/tables/cases.csv",
@@ -53,7 +51,7 @@ def design_section(results: Results, sheets: Sheets) -> Section:
     rows = [row for study in results.config.studies for row in _factor_rows(study, results)]
     columns = ["study", "title", "cases", "quantity", "unit", "levels", "load_n", "solvers"]
     view = table_view(pd.DataFrame(rows, columns=columns), FACTORS)
-    return Section("design", "Design", (view,))
+    return Section(ReportSection.DESIGN, "Design", (view,))
 
 
 def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
@@ -87,20 +85,15 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
     solvers = [
-        f"{name}: {_about(name, facts)}{_choices(facts)}."
-        for name, facts in results.solvers.items()
+        f"{name}: {facts.about}{_choices(facts)}." for name, facts in results.solvers.items()
     ]
     blocks: list[PageBlock] = [
         Text("Solvers. " + " — ".join(solvers)),
-        table_view(case_counts(results.cases), COUNTS, mark=marks.by_status),
+        table_view(case_counts(results.table(Cases)), COUNTS, mark=by_status),
     ]
-    blocks += [_cases_of(results, study) for study in results.config.studies]
-    return Section("cases", "Cases", tuple(blocks))
-
-
-def _about(name: str, facts: SolverFacts) -> str:
-    """Return the first line of the solver's module without its name, which stands before it."""
-    return facts.about.replace("``", "").removeprefix(f"Solver {name}: ").removesuffix(".")
+    entry = sheet_of(sheets, Cases).entry
+    blocks += [_cases_of(results, study, entry) for study in results.config.studies]
+    return Section(ReportSection.CASES, "Cases", tuple(blocks))
 
 
 def _choices(facts: SolverFacts) -> str:
@@ -112,16 +105,16 @@ def _choices(facts: SolverFacts) -> str:
     return f" ({' or '.join(sets)})" if sets else ""
 
 
-def _cases_of(results: Results, study: Study) -> TableView:
+def _cases_of(results: Results, study: Study, entry: entries.Entry) -> TableView:
     """Lay out the cases of one study; the messages stand last."""
-    cases = results.cases[results.cases["study"] == study.name]
+    cases = results.table(Cases)[results.table(Cases)["study"] == study.name]
     names = [str(name) for name in cases if name not in ("study", "message", "key")]
     return table_view(
         cases,
-        catalogue.CASES,
+        entry,
         f"Cases of the study {study.name}: {study.title}",
         [*names, "message"],
-        mark=marks.by_status,
+        mark=by_status,
         synthetic=results.study_is_synthetic(study),
     )
 
@@ -140,25 +133,25 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
             "and given in both units at full precision: a surface can be evaluated from this "
             "page. A printed coefficient stands beside ours as the paper rounds it."
         ),
-        sheet_view(sheets[catalogue.QUALITY.sheet]),
+        sheet_view(sheet_of(sheets, SurfaceQuality)),
     ]
     for study in results.config.studies:
         blocks += _surface_blocks(results, sheets, study)
-    return Section("surfaces", "Response surfaces", tuple(blocks))
+    return Section(ReportSection.SURFACES, "Response surfaces", tuple(blocks))
 
 
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
         asked = f"No surface is asked for of the study {study.name}: it has no terms."
-        return [Text(study.title, "head"), Text(asked)]
+        return [Text(study.title, "heading"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = f"No surface could be fitted to the study {study.name}; see the problems above."
-        return [Text(study.title, "head"), Text(refused, "bad")]
-    sheet = sheets[catalogue.surface_entry(study.name).sheet]
+        return [Text(study.title, "heading"), Text(refused, "bad")]
+    sheet = sheet_of(sheets, SurfaceTable, study.name)
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
-        Text(study.title, "head"),
+        Text(study.title, "heading"),
         sheet_view(sheet, given_digits=precise),
     ]
     plots = [
@@ -177,10 +170,8 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
 
 def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     surface, labels = results.surfaces[study.name][solver], factor_labels(study)
-    cases = results.cases
-    solved = cases[
-        (cases["study"] == study.name) & (cases["solver"] == solver) & (cases["status"] == "ok")
-    ]
+    cases = results.table(Cases)
+    solved = solved_cases(cases[cases["study"] == study.name], solver, surface.factors).table
     synthetic = results.study_is_synthetic(study, solver)
     about = f"study {study.name}, solver {solver}"
     maps, lines = [], []
@@ -201,7 +192,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
     rules = results.config.sensitivity.rules
     plots = [
         _impact_plot(results, str(solver), rows)
-        for solver, rows in results.impact.groupby("solver", sort=True)
+        for solver, rows in results.table(Impact).groupby("solver", sort=True)
     ]
     blocks: list[PageBlock] = [
         Text(
@@ -212,9 +203,9 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
         ),
         Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
         *ranking_blocks(results),
-        sheet_view(sheets[catalogue.IMPACT.sheet]),
+        sheet_view(sheet_of(sheets, Impact)),
     ]
-    return Section("sensitivity", "Sensitivity", tuple(blocks))
+    return Section(ReportSection.SENSITIVITY, "Sensitivity", tuple(blocks))
 
 
 def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:

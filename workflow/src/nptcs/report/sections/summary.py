@@ -2,13 +2,21 @@
 
 from __future__ import annotations
 
-from nptcs.report.data import Results, factor_labels
+from nptcs.report.blocks import Fact, Facts, Listing, PageBlock, Text
+from nptcs.report.data import Results
+from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import ranked
 from nptcs.report.figures.lca import DIFFERENCES, SECTION_NAMES
-from nptcs.report.tables import catalogue
+from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets
-from nptcs.report.view import Fact, Facts, Listing, PageBlock, Text, joined, sheet_view, with_error
+from nptcs.report.text import joined, with_error
+from nptcs.tables.files import Files
+from nptcs.tables.impact import Impact
+from nptcs.tables.lca_validation import LcaValidation
+from nptcs.tables.published_stiffness import StiffnessErrors
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.surface import SurfaceQuality
 
 WARNING = "warning: "
 """How a check of a material card begins that a reader of any result must see."""
@@ -18,8 +26,11 @@ def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
     """Build the blocks above the first section."""
     sound, line = results.verdict()
     blocks: list[PageBlock] = [Text(line, "ok" if sound else "bad")]
-    if not sound:
-        blocks.append(sheet_view(sheets[catalogue.PROBLEMS.sheet]))
+    blocks += [
+        sheet_view(sheet)
+        for sheet in sheets.values()
+        if sheet.section is ReportSection.SUMMARY and len(sheet.table)
+    ]
     if remarks := _remarks(results):
         blocks.append(Listing("Worth knowing", remarks, "warn"))
     blocks.append(Facts("At a glance", glance(results)))
@@ -37,7 +48,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
         )
     for name, reason in results.left_out().items():
         remarks.append(f"Specimen {name} is left out by the sheet: {reason}")
-    stray = results.files[results.files["status"] == "not named"]
+    stray = results.table(Files)[results.table(Files)["status"] == "not named"]
     if len(stray):
         remarks.append(
             "No row of the sheet names these files of the folder: " + joined(stray["file"])
@@ -57,7 +68,7 @@ def glance(results: Results) -> tuple[Fact, ...]:
         *_materials(results),
         *_surfaces(results),
         *_rankings(results),
-        *_against(results),
+        *_published_differences(results),
         *_lca(results),
     )
 
@@ -90,7 +101,7 @@ def _surfaces(results: Results) -> list[Fact]:
             f"largest residual {row.largest_residual:.3g} N/mm, {row.points} cases",
             "surface_quality.csv",
         )
-        for row in results.quality.itertuples()
+        for row in results.table(SurfaceQuality).itertuples()
     ]
 
 
@@ -102,7 +113,7 @@ def _rankings(results: Results) -> list[Fact]:
         for name, label in factor_labels(study).items()
     }
     rows = []
-    for solver, table in results.impact.groupby("solver", sort=True):
+    for solver, table in results.table(Impact).groupby("solver", sort=True):
         order = [f"{labels[key]} ({key[0]})" for key in ranked(table, rule)]
         rows.append(
             Fact(
@@ -115,10 +126,10 @@ def _rankings(results: Results) -> list[Fact]:
     return rows
 
 
-def _against(results: Results) -> list[Fact]:
+def _published_differences(results: Results) -> list[Fact]:
     """Sum up how far the computed stiffness is from the published one."""
     facts = []
-    for row in results.stiffness_errors.itertuples():
+    for row in results.table(StiffnessErrors).itertuples():
         kind = "blind" if row.group == "blind" else "used for calibration"
         text = f"{row.compared} of {row.cases} cases compared"
         if row.compared:
@@ -136,7 +147,7 @@ def _against(results: Results) -> list[Fact]:
 def _lca(results: Results) -> list[Fact]:
     """Give the smallest and the largest difference from table 11, section by section."""
     facts = []
-    for section, table in results.lca_validation.groupby("section", sort=False):
+    for section, table in results.table(LcaValidation).groupby("section", sort=False):
         spans = [
             f"{label} {table[column].min():+.2f} … {table[column].max():+.2f} %"
             for column, label in DIFFERENCES.items()

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+
+from nptcs.tables.result_table import Heading
 
 UNITS = {
     "_n_per_mm2": "N/mm²",
@@ -48,17 +49,6 @@ NAMES = {
     "b": "B",
 }
 """Parts of column names that are written in another way."""
-
-
-@dataclass(frozen=True)
-class Heading:
-    """Name and unit of a column; the unit is empty where it has none or a row states it."""
-
-    name: str
-    unit: str = ""
-
-    def __str__(self) -> str:
-        return f"{self.name} [{self.unit}]" if self.unit else self.name
 
 
 def heading(column: str, fixed: Mapping[str, Heading] | None = None) -> Heading:

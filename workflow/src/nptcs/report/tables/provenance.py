@@ -6,7 +6,8 @@ import pandas as pd
 import yaml
 
 from nptcs.report.data import Results
-from nptcs.report.tables.catalogue import Entry
+from nptcs.report.tables.entries import Entry
+from nptcs.tables.cases import Cases
 
 
 def entries_table(entries: list[Entry]) -> pd.DataFrame:
@@ -22,7 +23,7 @@ def inputs_table(results: Results) -> pd.DataFrame:
 
 def software_table(results: Results) -> pd.DataFrame:
     """Lay out versions of the software and of the solvers that the cases name."""
-    solvers = results.cases.drop_duplicates(["solver", "solver_version"])
+    solvers = results.table(Cases).drop_duplicates(["solver", "solver_version"])
     rows = list(results.software.items())
     rows += [(f"solver {row.solver}", str(row.solver_version)) for row in solvers.itertuples()]
     return pd.DataFrame(rows, columns=["software", "version"])

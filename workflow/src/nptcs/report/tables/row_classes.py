@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
+from typing import assert_never
+
+from nptcs.tables.result_table import RowMark
 
 Row = Mapping[str, object]
 RowClass = Callable[[Row], str]
@@ -10,12 +13,45 @@ RowClass = Callable[[Row], str]
 FILE_CLASSES = {"not understood": "bad", "missing": "bad", "not named": "warn", "left out": "out"}
 
 
-def nothing(row: Row) -> str:
+def row_class(mark: RowMark, left_out: Collection[str] = ()) -> RowClass:
+    """Return the function that gives the class of a row.
+
+    Parameters
+    ----------
+    mark : RowMark
+        What marks a row.
+    left_out : collection of str
+        Specimens that the sheet leaves out, for `RowMark.SPECIMEN`.
+    """
+    match mark:
+        case RowMark.NONE:
+            return no_row
+        case RowMark.EVERY_ROW:
+            return every_row
+        case RowMark.STATUS:
+            return by_status
+        case RowMark.STATUS_OR_CALIBRATION:
+            return by_calibration
+        case RowMark.FILE_STATUS:
+            return by_file_status
+        case RowMark.INCLUDE:
+            return by_include
+        case RowMark.SPECIMEN:
+            return of_specimens(left_out)
+        case RowMark.OUTLIERS:
+            return by_outliers
+        case RowMark.ORIGIN:
+            return by_origin
+        case _:
+            assert_never(mark)
+
+
+def no_row(row: Row) -> str:
     """Mark no row."""
     return ""
 
 
-def always_bad(row: Row) -> str:
+def every_row(row: Row) -> str:
     """Mark every row: a table of problems."""
     return "bad"
 

@@ -2,105 +2,128 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
+from typing import assert_never
 
 import pandas as pd
+import pandera.pandas as pa
 
 from nptcs.report.data import Results
-from nptcs.report.tables import catalogue
-from nptcs.report.tables import row_classes as marks
-from nptcs.report.tables.catalogue import Entry
+from nptcs.report.tables import entries
+from nptcs.report.tables.entries import Entry, result_entry
 from nptcs.report.tables.materials import ply_table, rubber_table
 from nptcs.report.tables.provenance import inputs_table, software_table
-from nptcs.report.tables.row_classes import RowClass
+from nptcs.report.tables.row_classes import RowClass, no_row, row_class
 from nptcs.report.tables.specimens import conditioning_table, sheet_table
+from nptcs.tables.cases import Cases
+from nptcs.tables.catalogue import file_of, result_files
+from nptcs.tables.files import Files
+from nptcs.tables.hyperelastic import ModelComparison
+from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.result_table import ReportSection, RowMark, SyntheticBy
 
 
 @dataclass(frozen=True)
 class Sheet:
-    """One table with all that its layout needs."""
+    """One table with all that its layout needs.
+
+    Parameters
+    ----------
+    entry : Entry
+        What is said of it.
+    table : DataFrame
+        Finished values.
+    mark : callable
+        Gives the class of a row (`nptcs.report.tables.row_classes`).
+    synthetic : bool
+        Whether it rests on synthetic specimens.
+    section : ReportSection, optional
+        Section of the report that shows it; none for a table that a section asks for by itself.
+    """
 
     entry: Entry
     table: pd.DataFrame
-    mark: RowClass = marks.nothing
+    mark: RowClass = no_row
     synthetic: bool = False
+    section: ReportSection | None = None
 
 
 Sheets = Mapping[str, Sheet]
 """Tables by the name of their sheet."""
 
 
+def sheet_of(sheets: Sheets, contract: type[pa.DataFrameModel], study: str = "") -> Sheet:
+    """Return the sheet of a result table; for a table of one study, that of the study."""
+    file = f"results/tables/{file_of(contract, study)}"
+    return next(sheet for sheet in sheets.values() if sheet.entry.file == file)
+
+
 def sheets_of(results: Results) -> Sheets:
-    """List all tables of a run by the name of their sheet, problems first."""
-    sheets = [
-        Sheet(catalogue.PROBLEMS, results.problems, marks.always_bad),
-        *_laboratory_sheets(results),
-        *_material_sheets(results),
-        *_study_sheets(results),
-        *_compared_sheets(results),
-        Sheet(catalogue.LCA_VALIDATION, results.lca_validation),
-        Sheet(catalogue.LCA_AGAINST_FEM, results.lca_against_fem),
-        Sheet(catalogue.LCA_SHAPE, results.lca_neutral_line),
-        Sheet(catalogue.INPUTS, inputs_table(results)),
-        Sheet(catalogue.SOFTWARE, software_table(results)),
-    ]
+    """List all tables of a run by the name of their sheet, in the order of the catalogue.
+
+    A table that the report makes itself comes before the result table that it leads to.
+    """
+    leading = _leading_sheets(results)
+    sheets: list[Sheet] = []
+    for file, row, study in result_files(results.surface_studies):
+        table = results.tables[file]
+        sheets += leading.get(row.contract, [])
+        sheets.append(
+            Sheet(
+                result_entry(file, row, study),
+                table,
+                row_class(row.mark, results.left_out()),
+                is_synthetic(results, row.synthetic, table, study),
+                row.section,
+            )
+        )
+    sheets.append(Sheet(entries.INPUTS, inputs_table(results)))
+    sheets.append(Sheet(entries.SOFTWARE, software_table(results)))
     return {sheet.entry.sheet: sheet for sheet in sheets}
 
 
-def _laboratory_sheets(results: Results) -> list[Sheet]:
-    synthetic = results.any_synthetic
-    of_specimens = marks.of_specimens(results.left_out())
-    return [
-        Sheet(catalogue.SHEET, sheet_table(results), marks.by_include, synthetic),
-        Sheet(catalogue.FILES, results.files, marks.by_file_status, synthetic),
-        Sheet(catalogue.CONDITIONING, conditioning_table(results), marks.by_status, synthetic),
-        Sheet(catalogue.SPECIMENS, results.specimens, of_specimens, synthetic),
-        Sheet(catalogue.STATISTICS, results.statistics, marks.by_outliers, synthetic),
-    ]
+def is_synthetic(results: Results, by: SyntheticBy, table: pd.DataFrame, study: str = "") -> bool:
+    """Tell whether a table rests on synthetic specimens, by the rule of its row."""
+    match by:
+        case SyntheticBy.NOTHING:
+            return False
+        case SyntheticBy.SPECIMENS:
+            return results.any_synthetic
+        case SyntheticBy.PLIES:
+            return results.plies_synthetic
+        case SyntheticBy.RUBBERS:
+            return results.rubbers_synthetic
+        case SyntheticBy.STUDIES:
+            named = [results.config.study(study)] if study else results.config.studies
+            return any(results.study_is_synthetic(one) for one in named)
+        case SyntheticBy.ROWS:
+            return results.table_is_synthetic(table)
+        case _:
+            assert_never(by)
 
 
-def _material_sheets(results: Results) -> list[Sheet]:
+def _leading_sheets(results: Results) -> dict[type[pa.DataFrameModel], list[Sheet]]:
+    """List the tables that the report makes itself, by the result table that they lead to."""
+    specimens = results.any_synthetic
+    include, status, origin = map(row_class, (RowMark.INCLUDE, RowMark.STATUS, RowMark.ORIGIN))
     plies, rubbers = results.plies_synthetic, results.rubbers_synthetic
-    return [
-        Sheet(catalogue.PLY, ply_table(results), marks.by_origin, plies),
-        Sheet(catalogue.RUBBERS, rubber_table(results), marks.by_origin, rubbers),
-        Sheet(catalogue.MODELS, results.models, marks.nothing, rubbers),
-        Sheet(catalogue.RANGES, results.ranges, marks.nothing, rubbers),
+    designs = [
+        Sheet(
+            entries.design_entry(name),
+            design,
+            synthetic=results.study_is_synthetic(results.config.study(name)),
+        )
+        for name, design in results.designs.items()
     ]
-
-
-def _study_sheets(results: Results) -> list[Sheet]:
-    synthetic = {s.name: results.study_is_synthetic(s) for s in results.config.studies}
-    any_synthetic = any(synthetic.values())
-    per_study: list[tuple[Callable[[str], Entry], dict[str, pd.DataFrame]]] = [
-        (catalogue.design_entry, dict(results.designs)),
-        (catalogue.surface_entry, dict(results.coefficients)),
-    ]
-    designs, surfaces = (
-        [Sheet(entry(name), table, synthetic=synthetic[name]) for name, table in tables.items()]
-        for entry, tables in per_study
-    )
-    return [
-        *designs,
-        Sheet(catalogue.CASES, results.cases, marks.by_status, any_synthetic),
-        *surfaces,
-        Sheet(catalogue.QUALITY, results.quality, synthetic=any_synthetic),
-        Sheet(catalogue.IMPACT, results.impact, synthetic=any_synthetic),
-    ]
-
-
-def _compared_sheets(results: Results) -> list[Sheet]:
-    """List what stands beside the paper's finite elements; each is synthetic by its solvers."""
-    tables: list[tuple[Entry, pd.DataFrame, RowClass]] = [
-        (catalogue.SPOKE_STIFFNESS, results.spoke_stiffness, marks.by_status),
-        (catalogue.SPOKE_CURVES, results.spoke_curves, marks.nothing),
-        (catalogue.STIFFNESS_ERRORS, results.stiffness_errors, marks.nothing),
-        (catalogue.STIFFNESS_AGAINST_PUBLISHED, results.compare_published, marks.by_calibration),
-        (catalogue.STIFFNESS_BY_LEVEL, results.stiffness_by_level, marks.nothing),
-        (catalogue.NEUTRAL_LINE, results.neutral_line, marks.nothing),
-    ]
-    return [
-        Sheet(entry, table, mark, results.table_is_synthetic(table))
-        for entry, table, mark in tables
-    ]
+    return {
+        Files: [Sheet(entries.SHEET, sheet_table(results), include, specimens)],
+        PropertiesTable: [
+            Sheet(entries.CONDITIONING, conditioning_table(results), status, specimens)
+        ],
+        ModelComparison: [
+            Sheet(entries.PLY, ply_table(results), origin, plies),
+            Sheet(entries.RUBBERS, rubber_table(results), origin, rubbers),
+        ],
+        Cases: designs,
+    }

@@ -13,7 +13,7 @@ from nptcs.surface.sensitivity import impact
 from nptcs.tables.impact import Impact
 from nptcs.tables.io import check
 
-PUBLISHED = Path(__file__).parents[2] / "raw_data" / "published"
+PUBLISHED = Path(__file__).parents[3] / "raw_data" / "published"
 
 
 def published_surface(table, coefficients):

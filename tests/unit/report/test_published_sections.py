@@ -7,7 +7,8 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.report.data import factor_labels
+from nptcs.report.blocks import Facts, Listing, Plots, TableView, Text
+from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.published_stiffness import (
     level_differences,
     main_effect,
@@ -15,29 +16,28 @@ from nptcs.report.figures.published_stiffness import (
     parity,
 )
 from nptcs.report.figures.spoke import force_displacement
+from nptcs.report.sections.compared_cases import case_comparison
+from nptcs.report.sections.neutral_lines import line_words
 from nptcs.report.sections.ply import ply_words
-from nptcs.report.sections.published_stiffness import (
-    case_comparison,
-    level_facts,
-    line_words,
-    published_stiffness_section,
-    spoke_facts,
-)
+from nptcs.report.sections.published_stiffness import published_stiffness_section
 from nptcs.report.sections.ranking import published_ranking, verdicts
 from nptcs.report.sections.spokes import spoke_section, what_differs
+from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
 from nptcs.report.sections.studies import cases_section
 from nptcs.report.sections.summary import glance
-from nptcs.report.tables import catalogue
 from nptcs.report.tables.sheets import sheets_of
-from nptcs.report.view import Facts, Listing, Plots, TableView, Text
 from nptcs.report.workbook import build_workbook
+from nptcs.tables.impact import Impact
+from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.published_stiffness import StiffnessAgainstPublished, StiffnessByLevel
+from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
 SOLVERS = ["fe_tyre", "lca"]
 
 
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch):
-    monkeypatch.setattr("nptcs.report.view.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
 
 
 def labelled(figure):
@@ -69,7 +69,7 @@ def test_every_case_is_a_row_and_failed_and_calibrated_ones_are_marked(compared)
 
 
 def test_cases_stand_beside_each_other(compared):
-    table = compared.compare_published
+    table = compared.table(StiffnessAgainstPublished)
     view, headings = case_comparison(table[table["study"] == "plate"], ["spacing_mm", "angle_deg"])
     case = view.set_index("case_id").loc["plate_032"]
     assert case["published_stiffness_n_per_mm"] == 263.73
@@ -101,9 +101,9 @@ def test_words_on_levels_give_signed_means_and_directions(compared):
 
 
 def test_the_spokes_differences_stand_beside_those_of_the_tyres(compared):
-    (fact,) = spoke_facts(compared.spoke_stiffness)
+    (fact,) = spoke_facts(compared.table(SpokeLines))
     text = fact.result
-    first = compared.spoke_stiffness.iloc[0]
+    first = compared.table(SpokeLines).iloc[0]
     assert f"tension {first['tension_difference_percent']:+.1f} % at 1, " in text
     assert "; compression +" in text
     assert "at 5" not in text  # it diverged
@@ -112,7 +112,7 @@ def test_the_spokes_differences_stand_beside_those_of_the_tyres(compared):
 
 
 def test_parity_shows_every_case_and_the_bands(compared):
-    table = compared.compare_published
+    table = compared.table(StiffnessAgainstPublished)
     figure = parity(table[table["study"] == "plate"], "study plate", SOLVERS)
     drawn = labelled(figure)
     blind = np.array(drawn["fe_tyre"].get_ydata()) / np.array(drawn["fe_tyre"].get_xdata())
@@ -130,7 +130,7 @@ def test_parity_shows_every_case_and_the_bands(compared):
 
 
 def test_main_effects_are_means_of_table_7(compared):
-    levels = compared.stiffness_by_level
+    levels = compared.table(StiffnessByLevel)
     rows = levels[levels["factor"] == "shear_band_c10_mpa"]
     label = factor_labels(compared.config.study("rubber"))["shear_band_c10_mpa"]
     drawn = labelled(main_effect(rows, label, SOLVERS))
@@ -142,7 +142,7 @@ def test_main_effects_are_means_of_table_7(compared):
 
 
 def test_a_solver_has_one_colour_in_all_figures(compared):
-    table, levels = compared.compare_published, compared.stiffness_by_level
+    table, levels = compared.table(StiffnessAgainstPublished), compared.table(StiffnessByLevel)
     lca = levels[levels["factor"] == "spoke_c10_mpa"].assign(solver="lca")
     label = factor_labels(compared.config.study("rubber"))["spoke_c10_mpa"]
     colours = {
@@ -150,19 +150,19 @@ def test_a_solver_has_one_colour_in_all_figures(compared):
         for figure in (
             main_effect(lca, label, SOLVERS),
             parity(table.assign(solver="lca"), "", SOLVERS),
-            neutral_lines(compared.neutral_line, "radial_mm", "", SOLVERS),
+            neutral_lines(compared.table(NeutralLine), "radial_mm", "", SOLVERS),
         )
     }
     assert len(colours) == 1
 
 
 def test_neutral_lines_are_drawn_by_solver(compared):
-    figure = neutral_lines(compared.neutral_line, "radial_mm", "rubber_011, 5000 N", SOLVERS)
+    figure = neutral_lines(compared.table(NeutralLine), "radial_mm", "rubber_011, 5000 N", SOLVERS)
     drawn = labelled(figure)
     assert min(drawn["lca"].get_ydata()) == -20.0
     assert min(drawn["fe_tyre"].get_ydata()) == -19.0
     assert figure.axes[0].get_xlim() == (-180, 180)
-    sentences = line_words(compared.neutral_line)
+    sentences = line_words(compared.table(NeutralLine))
     assert "lca, rubber_011: radially from -20.00 mm at θ = 0.0°" in sentences[0]
     section = published_stiffness_section(compared, sheets_of(compared))
     (lines,) = (block for block in blocks(section, Plots) if "figure 14" in block.caption)
@@ -172,7 +172,10 @@ def test_neutral_lines_are_drawn_by_solver(compared):
 
 
 def test_a_neutral_line_that_no_solver_gave_is_said_to_be_missing(compared):
-    without = replace(compared, neutral_line=compared.neutral_line.iloc[:0])
+    without = replace(
+        compared,
+        tables={**compared.tables, "neutral_line.csv": compared.table(NeutralLine).iloc[:0]},
+    )
     section = published_stiffness_section(without, sheets_of(without))
     assert "No solver gave a neutral line of rubber_011." in [t.text for t in blocks(section, Text)]
     section = published_stiffness_section(compared, sheets_of(compared))
@@ -191,7 +194,7 @@ def test_spokes_stand_beside_table_10(compared):
 
 
 def test_the_words_on_spokes_are_those_of_the_table(compared):
-    (text,) = what_differs(compared.spoke_stiffness)
+    (text,) = what_differs(compared.table(SpokeLines))
     # k = Σfd/Σd² of f = 30 C10 d + 2 C10 d² over 0, 0.5 … 4 mm
     d = np.arange(0, 4.25, 0.5)
     slope = 30 + 2 * np.sum(d**3) / np.sum(d**2)
@@ -204,7 +207,9 @@ def test_the_words_on_spokes_are_those_of_the_table(compared):
 
 
 def test_curves_lines_and_printed_ends_are_drawn(compared):
-    figure = force_displacement(compared.spoke_curves, compared.spoke_stiffness, "compression")
+    figure = force_displacement(
+        compared.table(SpokeCurves), compared.table(SpokeLines), "compression"
+    )
     drawn = labelled(figure)
     curve = drawn["1"]
     assert (curve.get_xdata()[0], curve.get_xdata()[-1]) == (0, 20)
@@ -218,7 +223,7 @@ def test_curves_lines_and_printed_ends_are_drawn(compared):
 
 
 def test_the_ranking_is_compared_with_table_9(compared):
-    printed = compared.impact.dropna(subset=["published_impact"])
+    printed = compared.table(Impact).dropna(subset=["published_impact"])
     words = verdicts(compared, printed)
     assert len(words) == 6
     assert (
@@ -232,11 +237,14 @@ def test_the_ranking_is_compared_with_table_9(compared):
 
 
 def test_another_ranking_is_said_to_be_another(compared):
-    swapped = compared.impact.copy()
+    swapped = compared.table(Impact).copy()
     rows = swapped["solver"] == "fe_tyre"
     printed = swapped.loc[rows, "published_rank"]
     swapped.loc[rows, "rank"] = printed.map({1: 1, 2: 2, 3: 3, 4: 5, 5: 4})
-    words = verdicts(replace(compared, impact=swapped), swapped.dropna(subset=["published_impact"]))
+    words = verdicts(
+        replace(compared, tables={**compared.tables, "impact.csv": swapped}),
+        swapped.dropna(subset=["published_impact"]),
+    )
     mine = [text for text in words if text.startswith("fe_tyre")]
     assert mine
     assert all("NOT that of table 9" in text for text in mine)
@@ -251,10 +259,14 @@ def test_the_ply_is_named_beside_table_2(compared, results):
 
 
 def test_all_tables_are_sheets(compared):
-    names = [entry.sheet for entry in (
-        catalogue.SPOKE_STIFFNESS, catalogue.SPOKE_CURVES, catalogue.STIFFNESS_AGAINST_PUBLISHED,
-        catalogue.STIFFNESS_ERRORS, catalogue.STIFFNESS_BY_LEVEL, catalogue.NEUTRAL_LINE,
-    )]  # fmt: skip
+    names = [
+        "spoke_stiffness",
+        "spoke_curves",
+        "stiffness_against_published",
+        "stiffness_errors",
+        "stiffness_by_level",
+        "neutral_line",
+    ]
     sheets = sheets_of(compared)
     assert set(names) <= set(sheets)
     assert all(sheets[name].synthetic for name in names)
@@ -272,7 +284,7 @@ def test_a_study_without_terms_is_no_problem(compared):
 
 
 def test_solvers_compared_over_different_cases_have_published_means_of_their_own(compared):
-    levels = compared.stiffness_by_level
+    levels = compared.table(StiffnessByLevel)
     rows = levels[levels["factor"] == "spoke_c10_mpa"]
     other = rows.assign(solver="lca", published_mean_n_per_mm=rows["published_mean_n_per_mm"] + 1)
     label = factor_labels(compared.config.study("rubber"))["spoke_c10_mpa"]
@@ -287,6 +299,6 @@ def test_listings_are_not_empty(compared):
 
 def test_the_models_that_solvers_choose_are_named(compared):
     (first, *_) = cases_section(compared, sheets_of(compared)).blocks
-    assert "fe_tyre: The tyre (plate coupling: embedded)." in first.text
-    assert "lca: The ring." in first.text
+    assert "fe_tyre: the tyre (plate coupling: embedded)." in first.text
+    assert "lca: the ring." in first.text
     assert "fe_spoke: one spoke." in first.text

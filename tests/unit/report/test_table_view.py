@@ -8,8 +8,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nptcs.report.tables import catalogue
-from nptcs.report.view import number_text, table_view, with_error
+from nptcs.report.table_view import table_view
+from nptcs.report.tables.entries import result_entry
+from nptcs.report.text import number_text, with_error
+from nptcs.tables.catalogue import TABLES
+
+FILES = result_entry("files.csv", TABLES["files.csv"])
 
 
 @pytest.mark.parametrize(
@@ -51,25 +55,25 @@ def test_a_value_ends_where_its_standard_error_does(value, error, text):
 
 def test_columns_without_a_value_are_left_out_but_still_mark_rows():
     table = pd.DataFrame({"a": [1.0, 2.0], "flags": ["", ""], "b": [math.nan, math.nan]})
-    view = table_view(table, catalogue.FILES, mark=lambda row: "bad" if row["a"] > 1 else "")
+    view = table_view(table, FILES, mark=lambda row: "bad" if row["a"] > 1 else "")
     assert [heading.name for heading in view.headings] == ["a"]
     assert [css for css, _ in view.rows] == ["", "bad"]
 
 
 def test_full_numbers_stand_behind_the_cells():
-    view = table_view(pd.DataFrame({"a": [math.pi]}), catalogue.FILES)
+    view = table_view(pd.DataFrame({"a": [math.pi]}), FILES)
     cell = view.rows[0][1][0]
     assert cell.text == "3.1416"
     assert float(cell.number) == math.pi
 
 
 def test_truth_values_are_words():
-    view = table_view(pd.DataFrame({"a": [True, False]}), catalogue.FILES)
+    view = table_view(pd.DataFrame({"a": [True, False]}), FILES)
     assert [cells[0].text for _, cells in view.rows] == ["yes", "no"]
     assert view.numeric == (False,)
 
 
 def test_hashes_are_not_wrapped():
-    view = table_view(pd.DataFrame({"sha256": ["0f" * 32]}), catalogue.FILES)
+    view = table_view(pd.DataFrame({"sha256": ["0f" * 32]}), FILES)
     assert view.rows[0][1][0].css == "hash"
     assert re.fullmatch("[0-9a-f]{64}", view.rows[0][1][0].text)

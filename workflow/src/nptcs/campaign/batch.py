@@ -1,0 +1,66 @@
+"""One batch of cases of a study, solved by one solver."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Mapping
+from typing import Any
+
+import pandas as pd
+
+from nptcs.campaign.jobs import make_jobs
+from nptcs.campaign.record import CaseRecord, RecordStore
+from nptcs.campaign.runner import run_cases
+from nptcs.campaign.schedule import cases_side_by_side
+from nptcs.config.study import Study
+from nptcs.config.tyre import TyreGeometry
+from nptcs.solvers.registry import load, module_of, read_options
+
+
+def solve_batch(
+    job: Mapping[str, Any],
+    design: pd.DataFrame,
+    ply: Mapping[str, float] | None,
+    store: RecordStore,
+    cores: int,
+    tokens: int,
+) -> list[CaseRecord]:
+    """Solve every n-th case of a design, starting at the batch's own number.
+
+    Parameters
+    ----------
+    job : mapping
+        Plain values: ``study`` (`Study.case_definition`), ``solver``, ``options``, ``tyre``,
+        ``batch`` (from 1) and ``batches``.
+    design : DataFrame
+        `nptcs.tables.cases.Design` of the study.
+    ply : mapping of str to float or None
+        Ply constants, for a solver that needs them.
+    store : RecordStore
+        Cases that were solved before are taken from it, those solved now are kept in it.
+    cores, tokens : int
+        What the batch was granted; they decide how many cases run at a time.
+
+    Returns
+    -------
+    list of CaseRecord
+        One per case, failed ones included.
+    """
+    study, tyre = Study.model_validate(job["study"]), TyreGeometry.model_validate(job["tyre"])
+    cases = design.iloc[job["batch"] - 1 :: job["batches"]]
+    jobs = make_jobs(study, job["solver"], job["options"], tyre, cases, ply)
+    options = read_options(load(module_of(job["solver"], job["options"])), job["options"])
+    at_a_time = cases_side_by_side(cores, tokens, options)
+    return run_cases(jobs, store, at_a_time, report_progress)
+
+
+def report_progress(record: CaseRecord, reused: bool, done: int, total: int) -> None:
+    """Write one line per finished case to the log."""
+    how = "known" if reused else f"{record.wall_time_s:.2f} s"
+    status, message = record.result.status.value, record.result.message
+    why = "" if status == "ok" else f": {message}"
+    print(
+        f"{record.study}/{record.solver} {done}/{total} {record.case_id} {status} ({how}){why}",
+        file=sys.stderr,
+        flush=True,
+    )

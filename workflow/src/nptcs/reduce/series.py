@@ -1,0 +1,60 @@
+"""The curves of one series of specimens reduced, each by the standard of its test."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import pandas as pd
+
+from nptcs.config.reduction import ReductionSettings
+from nptcs.errors import InputError
+from nptcs.reduce.specimen import reduce_specimen
+from nptcs.tables.curves import IngestRecord
+from nptcs.tables.io import empty_table
+from nptcs.tables.problems import problems_table
+from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.specimens import Specimen
+
+
+def reduce_series(
+    specimens: Sequence[Specimen],
+    curves: Mapping[str, pd.DataFrame],
+    records: Mapping[str, IngestRecord],
+    settings: ReductionSettings,
+) -> tuple[pd.DataFrame, pd.DataFrame]:
+    """Reduce the specimens that could be read; one that cannot be reduced is a problem.
+
+    Parameters
+    ----------
+    specimens : sequence of Specimen
+        Rows of the specimen sheet.
+    curves : mapping of str to DataFrame
+        `nptcs.tables.curves.Curve` by specimen.
+    records : mapping of str to IngestRecord
+        How each curve came about; one that failed is listed as a problem of the stage ``ingest``.
+    settings : ReductionSettings
+        The section ``reduction`` of the configuration.
+
+    Returns
+    -------
+    properties : DataFrame
+        `PropertiesTable` of all specimens that were reduced.
+    problems : DataFrame
+        `nptcs.tables.problems.Problems` of the others.
+    """
+    tables, problems = [], []
+    for specimen in specimens:
+        name = specimen.specimen
+        record = records[name]
+        if record.status != "ok":
+            continue
+        try:
+            tables.append(
+                reduce_specimen(
+                    curves[name], specimen, settings, record.strain_source, record.flags
+                )
+            )
+        except InputError as error:
+            problems.append(("reduce", name, "", "error", str(error)))
+    properties = pd.concat(tables) if tables else empty_table(PropertiesTable)
+    return properties, problems_table(problems)

@@ -1,0 +1,124 @@
+"""What the page template is handed: tables of finished text, figures as data URIs, paragraphs."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nptcs.report.tables.entries import Entry
+from nptcs.tables.result_table import Heading, ReportSection
+
+LONG = 60
+"""Characters beyond which a text may wrap."""
+
+
+@dataclass(frozen=True)
+class Cell:
+    """One cell: its text, the full number behind it for sorting, and its CSS class."""
+
+    text: str
+    number: str = ""
+
+    @property
+    def css(self) -> str:
+        """Tell how the cell is set."""
+        if self.number or self.text == "–":
+            return "number"
+        if len(self.text) == 64 and set(self.text) <= set("0123456789abcdef"):
+            return "hash"
+        return "long" if len(self.text) > LONG else ""
+
+
+@dataclass(frozen=True)
+class TableView:
+    """One table of the page."""
+
+    entry: Entry
+    caption: str
+    headings: tuple[Heading, ...]
+    numeric: tuple[bool, ...]
+    rows: tuple[tuple[str, tuple[Cell, ...]], ...]
+    synthetic: bool = False
+
+
+@dataclass(frozen=True)
+class Plot:
+    """One figure of the page, as a data URI, with words for those who cannot see it."""
+
+    uri: str
+    alt: str
+    width_px: int
+    height_px: int
+    synthetic: bool = False
+
+
+@dataclass(frozen=True)
+class Plots:
+    """Figures side by side under one caption."""
+
+    caption: str
+    plots: tuple[Plot, ...]
+
+    @property
+    def synthetic(self) -> bool:
+        """True if any of them shows synthetic data."""
+        return any(plot.synthetic for plot in self.plots)
+
+    @property
+    def css(self) -> str:
+        """Two panels a row where three would leave one alone."""
+        return "panels two" if len(self.plots) in (2, 4) else "panels"
+
+
+@dataclass(frozen=True)
+class Text:
+    """A paragraph; `kind` is empty or one of ok, bad, warn, heading."""
+
+    text: str
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Listing:
+    """A list of remarks under a line of words."""
+
+    lead: str
+    items: tuple[str, ...]
+    kind: str = ""
+
+
+@dataclass(frozen=True)
+class Fact:
+    """One result in words: what, the result, the table that holds it."""
+
+    what: str
+    result: str
+    source: str
+
+
+@dataclass(frozen=True)
+class Facts:
+    """Results in words, set so that a phone shows them whole."""
+
+    title: str
+    facts: tuple[Fact, ...]
+
+
+@dataclass(frozen=True)
+class Folded:
+    """Long text that opens on demand, such as the configuration."""
+
+    title: str
+    text: str
+
+
+PageBlock = TableView | Plots | Text | Listing | Facts | Folded
+
+
+@dataclass(frozen=True)
+class Section:
+    """One numbered section of the page."""
+
+    identifier: ReportSection
+    title: str
+    blocks: tuple[PageBlock, ...]
+    synthetic: bool = False

@@ -1,0 +1,23 @@
+"""How the factors of a study are written for a reader."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nptcs.config.study import Study
+
+
+@dataclass(frozen=True)
+class FactorLabel:
+    """Name and unit of a factor in figures."""
+
+    label: str
+    unit: str
+
+    def __str__(self) -> str:
+        return f"{self.label} [{self.unit}]"
+
+
+def factor_labels(study: Study) -> dict[str, FactorLabel]:
+    """Return how a study's factors are written, by the names of their columns."""
+    return {factor.name: FactorLabel(factor.label, factor.unit) for factor in study.factors}

@@ -1,0 +1,85 @@
+"""Neutral lines of the band in figures and words: figure 14 of the paper."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from nptcs.report.blocks import (
+    Listing,
+    PageBlock,
+    Plot,
+    Plots,
+    Text,
+)
+from nptcs.report.data import Results
+from nptcs.report.figures.published_stiffness import (
+    DISPLACEMENTS,
+    neutral_lines,
+)
+from nptcs.report.plots import plot
+from nptcs.report.sections.compared_cases import rests_on_synthetic, solver_order
+from nptcs.report.text import joined
+from nptcs.tables.neutral_line import NeutralLine
+
+
+def line_blocks(results: Results) -> list[PageBlock]:
+    """Build the figures and the words on neutral lines, and name the cases that have none."""
+    lines = results.table(NeutralLine)
+    missing = [case_id for case_id in _line_cases(results) if case_id not in set(lines["case_id"])]
+    blocks: list[PageBlock] = []
+    if missing:
+        blocks.append(Text(f"No solver gave a neutral line of {joined(missing)}."))
+    return blocks if lines.empty else [*blocks, *_drawn_lines(results)]
+
+
+def _line_cases(results: Results) -> list[str]:
+    """Name the cases whose neutral lines the configuration asks for."""
+    return [
+        str(row.case_id)
+        for study in results.config.studies
+        for row in results.designs[study.name].itertuples()
+        if row.case in study.neutral_line_cases
+    ]
+
+
+def _drawn_lines(results: Results) -> list[PageBlock]:
+    lines = results.table(NeutralLine)
+    tyre = results.config.tyre
+    middle = (tyre.inner_wire_diameter_mm + tyre.outer_wire_diameter_mm) / 4
+    plots: list[Plot] = []
+    sentences: list[str] = []
+    for (study, case_id), rows in lines.groupby(["study", "case_id"], sort=False):
+        synthetic = rests_on_synthetic(results, results.config.study(str(study)), rows)
+        title = f"{case_id}, {rows['load_n'].iloc[0]:g} N"
+        for column, label in DISPLACEMENTS.items():
+            figure = neutral_lines(rows, column, title, solver_order(results), synthetic)
+            plots.append(plot(figure, f"{label} of {case_id} against θ", synthetic))
+        sentences += line_words(rows)
+    return [
+        Plots(
+            "Displacement of the band's neutral line relative to the rim (figure 14 of the "
+            "paper), by every solver that computes it. Finite elements: the middle between the "
+            f"wire layers, radius {middle:g} mm, all spokes point one way, so that the two sides "
+            f"differ; load-bearing model: the ring of radius {tyre.band_radius_mm:g} mm, the same "
+            "on both sides.",
+            tuple(plots),
+        ),
+        Listing("What the neutral lines show", tuple(sentences)),
+    ]
+
+
+def line_words(rows: pd.DataFrame) -> list[str]:
+    """Say for each solver how deep, how far out and how far along the neutral line goes."""
+    sentences = []
+    for solver, line in rows.groupby("solver", sort=False):
+        inward, outward = (
+            line.iloc[place] for place in (line["radial_mm"].argmin(), line["radial_mm"].argmax())
+        )
+        along = line["tangential_mm"]
+        sentences.append(
+            f"{solver}, {line['case_id'].iloc[0]}: radially from {inward['radial_mm']:+.2f} mm at "
+            f"θ = {inward['theta_deg']:.1f}° to {outward['radial_mm']:+.2f} mm at "
+            f"θ = {outward['theta_deg']:.1f}°; tangentially from {along.min():+.2f} to "
+            f"{along.max():+.2f} mm."
+        )
+    return sentences

@@ -1,0 +1,103 @@
+"""Which function builds which section, and the tables that a section shows without being asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
+
+import pandera.pandas as pa
+
+from nptcs.report.blocks import PageBlock, Section, TableView, Text
+from nptcs.report.data import Results
+from nptcs.report.sections.lca import lca_section
+from nptcs.report.sections.materials import materials_section
+from nptcs.report.sections.provenance import provenance_section
+from nptcs.report.sections.published_stiffness import published_stiffness_section
+from nptcs.report.sections.specimens import specimens_section
+from nptcs.report.sections.spokes import spoke_section
+from nptcs.report.sections.studies import (
+    cases_section,
+    design_section,
+    sensitivity_section,
+    surfaces_section,
+)
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.sheets import Sheet, Sheets
+from nptcs.tables.lca_validation import LcaNeutralLine
+from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.spoke_stiffness import SpokeCurves
+
+MOST_ROWS = 500
+"""Rows beyond which the page names a table instead of printing it."""
+
+
+def further_section(results: Results, sheets: Sheets) -> Section:
+    """Begin the section of tables that no other section claims."""
+    return Section(ReportSection.FURTHER, "Further tables", ())
+
+
+@dataclass(frozen=True)
+class SectionPlan:
+    """How a section comes about.
+
+    Parameters
+    ----------
+    build : callable
+        ``(results, sheets) → Section``.
+    drawn : tuple of DataFrameModel types
+        Result tables that it shows as figures only.
+    """
+
+    build: Callable[[Results, Sheets], Section]
+    drawn: tuple[type[pa.DataFrameModel], ...] = ()
+
+
+PLANS: Mapping[ReportSection, SectionPlan] = {
+    ReportSection.SPECIMENS: SectionPlan(specimens_section),
+    ReportSection.MATERIALS: SectionPlan(materials_section),
+    ReportSection.DESIGN: SectionPlan(design_section),
+    ReportSection.CASES: SectionPlan(cases_section),
+    ReportSection.SURFACES: SectionPlan(surfaces_section),
+    ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
+    ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
+    ReportSection.PUBLISHED_STIFFNESS: SectionPlan(published_stiffness_section, (NeutralLine,)),
+    ReportSection.LCA: SectionPlan(lca_section, (LcaNeutralLine,)),
+    ReportSection.FURTHER: SectionPlan(further_section),
+    ReportSection.PROVENANCE: SectionPlan(provenance_section),
+}
+"""All sections in reading order; `ReportSection.SUMMARY` stands above them."""
+
+
+def build_sections(results: Results, sheets: Sheets) -> list[Section]:
+    """Build all sections; a section without content is left out.
+
+    A result table with rows that belongs to a section and that the section neither shows nor
+    draws is added at its end.
+    """
+    sections = []
+    for name, plan in PLANS.items():
+        section = plan.build(results, sheets)
+        shown = {block.entry.file for block in section.blocks if isinstance(block, TableView)}
+        rest = [
+            sheet
+            for sheet in sheets.values()
+            if sheet.section is name
+            and len(sheet.table)
+            and sheet.entry.file not in shown
+            and sheet.entry.contract not in plan.drawn
+        ]
+        if section.blocks or rest:
+            blocks = (*section.blocks, *map(_shown, rest))
+            sections.append(replace(section, blocks=blocks))
+    return sections
+
+
+def _shown(sheet: Sheet) -> PageBlock:
+    """Show a table, or say where it is if it is too long for a page."""
+    if len(sheet.table) <= MOST_ROWS:
+        return sheet_view(sheet)
+    return Text(
+        f"{sheet.entry.title}: {len(sheet.table)} rows, in {sheet.entry.file} and in the sheet "
+        f"{sheet.entry.sheet} of the workbook."
+    )

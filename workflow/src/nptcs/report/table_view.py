@@ -1,0 +1,126 @@
+"""From a table to what the page shows: digits, headings, row classes; nothing is computed."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from nptcs.report.blocks import Cell, TableView
+from nptcs.report.tables.entries import Entry
+from nptcs.report.tables.headings import heading
+from nptcs.report.tables.row_classes import RowClass, no_row
+from nptcs.report.tables.sheets import Sheet
+from nptcs.report.text import DIGITS, number_text
+
+FEWER_DIGITS = {
+    "standard_error": 3,
+    "standard_error_mpa": 3,
+    "standard_deviation": 3,
+    "cv_percent": 3,
+    "mnr": 4,
+    "mnr_critical": 4,
+    "rmse_mpa": 3,
+    "largest_error_percent": 3,
+    "balance_residual": 2,
+    "condition_number_natural": 3,
+    "condition_number_coded": 3,
+    "wall_time_s": 3,
+    "mean_percent": 3,
+    "mean_absolute_percent": 3,
+    "largest_percent": 3,
+}
+"""Columns whose digits beyond these mean nothing."""
+
+PERCENTS = ("difference_percent", "change_percent")
+"""Endings of columns that have three digits as well."""
+
+
+def table_view(
+    table: pd.DataFrame,
+    entry: Entry,
+    caption: str = "",
+    columns: Sequence[str] | None = None,
+    given_digits: Mapping[str, int] | None = None,
+    mark: RowClass = no_row,
+    synthetic: bool = False,
+) -> TableView:
+    """Write a table for the page.
+
+    Parameters
+    ----------
+    table : DataFrame
+        Finished values.
+    entry : Entry
+        Where the table is kept and which rule made it.
+    caption : str
+        Words above the table; the entry's title by default.
+    columns : sequence of str, optional
+        Columns that are shown, all by default; a column without any value is not shown.
+    given_digits : mapping of str to int, optional
+        Significant digits of columns that need other than `DIGITS` and `FEWER_DIGITS`.
+    mark : callable
+        Gives a row's CSS class, such as ``bad`` or ``out``.
+    synthetic : bool
+        Whether it shows synthetic data.
+    """
+    shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
+    digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith(PERCENTS)}}
+    digits |= given_digits or {}
+    numeric = tuple(_is_numeric(table[name]) for name in shown)
+    rows = []
+    for record in table.to_dict("records"):
+        cells = tuple(
+            _cell(record[name], digits.get(name, DIGITS), is_number)
+            for name, is_number in zip(shown, numeric, strict=True)
+        )
+        rows.append((mark({str(key): value for key, value in record.items()}), cells))
+    return TableView(
+        entry,
+        caption or entry.title,
+        tuple(heading(name, entry.headings) for name in shown),
+        numeric,
+        tuple(rows),
+        synthetic,
+    )
+
+
+def sheet_view(
+    sheet: Sheet,
+    columns: Sequence[str] | None = None,
+    given_digits: Mapping[str, int] | None = None,
+) -> TableView:
+    """Write one of the workbook's tables for the page; arguments as in `table_view`."""
+    return table_view(
+        sheet.table,
+        sheet.entry,
+        columns=columns,
+        given_digits=given_digits,
+        mark=sheet.mark,
+        synthetic=sheet.synthetic,
+    )
+
+
+def _is_numeric(column: pd.Series) -> bool:
+    """Tell whether a column holds numbers, and no truth values."""
+    types = pd.api.types
+    return types.is_numeric_dtype(column) and not types.is_bool_dtype(column)
+
+
+def _is_empty(column: pd.Series) -> bool:
+    """Tell whether a column of a table with rows has no value at all."""
+    return len(column) > 0 and bool((column.isna() | (column.astype(str) == "")).all())
+
+
+def _cell(value: object, digits: int, is_number: bool) -> Cell:
+    """Write one value; `is_number` tells whether its column holds numbers."""
+    if value is None or value is pd.NA:
+        return Cell("–" if is_number else "")
+    if isinstance(value, bool | np.bool_):
+        return Cell("yes" if value else "no")
+    if isinstance(value, int | float | np.integer | np.floating):
+        number = float(value)
+        return Cell(number_text(number, digits), "" if math.isnan(number) else repr(number))
+    return Cell(str(value))

@@ -1,0 +1,37 @@
+"""Numbers and lists in words, as the report prints them."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable
+
+DIGITS = 5
+"""Significant digits of numbers in the report; the CSV files and the workbook have all."""
+
+
+def number_text(value: float, digits: int = DIGITS) -> str:
+    """Write a number to some significant digits; digits before the point are never dropped."""
+    if not math.isfinite(value):
+        return "–" if math.isnan(value) else str(value)
+    if float(value).is_integer() and abs(value) < 1e15:
+        return str(int(value))
+    text = f"{value:.{digits}g}"
+    return f"{value:.0f}" if "e+" in text and abs(value) < 1e9 else text
+
+
+def with_error(value: float, error: float | None, unit: str = "1") -> str:
+    """Write a value and its standard error to the error's second significant digit."""
+    suffix = "" if unit == "1" else f" {unit}"
+    if error is None or not error > 0:
+        return f"{value:.4g}{suffix}"
+    decimals = 1 - math.floor(math.log10(error))
+    shown = max(0, decimals)
+    return f"{round(value, decimals):.{shown}f} ± {round(error, decimals):.{shown}f}{suffix}"
+
+
+def joined(words: Iterable[str]) -> str:
+    """Join words as ``a, b and c``."""
+    parts = list(words)
+    if len(parts) < 2:
+        return "".join(parts)
+    return ", ".join(parts[:-1]) + " and " + parts[-1]

@@ -1,0 +1,69 @@
+"""Impact values of all surfaces by every averaging rule, as one table."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import numpy as np
+import pandas as pd
+
+from nptcs.config.sensitivity import AveragingRule
+from nptcs.surface.fit import Surface
+from nptcs.surface.sensitivity import impact
+
+COLUMNS = [
+    "solver", "study", "factor", "rule", "gradient", "range", "impact", "nominal_range",
+    "values_used", "cases", "failed_cases",
+]  # fmt: skip
+
+
+def impact_table(
+    surfaces: Mapping[str, Mapping[str, Surface]],
+    designs: Mapping[str, pd.DataFrame],
+    qualities: pd.DataFrame,
+    rules: Sequence[AveragingRule],
+) -> pd.DataFrame:
+    """Take the impact values of every study, solver and rule.
+
+    Parameters
+    ----------
+    surfaces : mapping of str to mapping of str to Surface
+        By study and solver.
+    designs : mapping of str to DataFrame
+        Design tables by study: the given values, and how many cases there should be.
+    qualities : DataFrame
+        `nptcs.tables.surface.SurfaceQuality` of these surfaces.
+    rules : sequence of str
+        Averaging rules.
+
+    Returns
+    -------
+    DataFrame
+        The columns `COLUMNS` (and no rows without surfaces).
+    """
+    failed = qualities.set_index(["study", "solver"])["failed_cases"]
+    tables = [
+        _with_basis(
+            impact(surface, rule), surface, designs[study], int(failed[study, solver])
+        ).assign(solver=solver, study=study)
+        for study, by_solver in surfaces.items()
+        for solver, surface in by_solver.items()
+        for rule in rules
+    ]
+    return pd.concat(tables)[COLUMNS] if tables else pd.DataFrame(columns=COLUMNS)
+
+
+def _with_basis(
+    table: pd.DataFrame, surface: Surface, design: pd.DataFrame, failed: int
+) -> pd.DataFrame:
+    """Add in what values the index is computed, and on how many cases it rests."""
+    used = [
+        np.isin(surface.x[:, axis].round(9), design[factor].to_numpy(float).round(9)).all()
+        for axis, factor in enumerate(surface.factors)
+    ]
+    return table.assign(
+        nominal_range=np.ptp(design[list(surface.factors)].to_numpy(float), axis=0),
+        values_used=["given" if given else "realised" for given in used],
+        cases=surface.points,
+        failed_cases=failed,
+    )

@@ -1,0 +1,58 @@
+"""Headings of columns whose names do not state the unit, for the rows of the catalogue."""
+
+from __future__ import annotations
+
+from nptcs.tables.result_table import Heading
+
+IMPACT = {
+    "gradient": Heading("gradient", "N/mm per unit of the factor"),
+    "range": Heading("range", "unit of the factor"),
+    "nominal_range": Heading("range of the levels", "unit of the factor"),
+    "impact": Heading("impact", "N/mm"),
+    "published_gradient": Heading("printed gradient", "N/mm per unit of the factor"),
+    "published_impact": Heading("printed impact", "N/mm"),
+    "difference_percent": Heading("difference", "%"),
+    "published_rank": Heading("printed rank"),
+}
+SURFACE = {
+    "coefficient_natural": Heading("coefficient, natural", "N/mm per unit of the term"),
+    "coefficient_coded": Heading("coefficient, coded", "N/mm"),
+    "standard_error": Heading("standard error, natural", "N/mm per unit of the term"),
+    "standard_error_coded": Heading("standard error, coded", "N/mm"),
+    "published_coefficient": Heading("printed coefficient (FE)", "N/mm per unit of the term"),
+}
+SPOKE = {
+    f"{prefix}{direction}_r2{suffix}": Heading(f"{prefix.replace('_', ' ')}{direction} R²{kind}")
+    for direction in ("tension", "compression")
+    for prefix, suffix, kind in (
+        ("", "_uncentred", ", uncentred"),
+        ("", "_centred", ", centred"),
+        ("published_", "", ""),
+    )
+}
+ERRORS = {
+    "compared": Heading("cases compared"),
+    "largest_case_id": Heading("case of the largest"),
+}
+LEVELS = {
+    "level": Heading("level", "unit of the factor"),
+    "compared": Heading("cases compared"),
+}
+QUALITY = {
+    "press": Heading("PRESS", "(N/mm)²"),
+    "residual_sd": Heading("residual SD", "N/mm"),
+    "largest_residual": Heading("largest residual", "N/mm"),
+}
+COMPARISON = {
+    "largest_residual": Heading("largest residual", "N/mm"),
+    "leave_one_out_largest": Heading("leave-one-out, largest", "N/mm"),
+    "leave_one_out_rms": Heading("leave-one-out, rms", "N/mm"),
+    "leave_one_out_not_fitted": Heading("leave-one-out, not fitted"),
+    "coverage_percent": Heading("in the 95 % interval", "%"),
+    "level_out_largest": Heading("level left out, largest", "N/mm"),
+    "level_out_not_fitted": Heading("level left out, not fitted"),
+    "lowest": Heading("lowest", "unit of the factor"),
+    "highest": Heading("highest", "unit of the factor"),
+    "rising_percent": Heading("steps that rise", "%"),
+    "falling_percent": Heading("steps that fall", "%"),
+}
