@@ -74,3 +74,20 @@ rule sensitivity:
         },
     script:
         "../scripts/sensitivity.py"
+
+
+rule diagnostics:
+    input:
+        surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+    output:
+        tests="results/tables/surface_tests.csv",
+        anova="results/tables/surface_anova.csv",
+        influence="results/tables/surface_influence.csv",
+        stationary="results/tables/surface_stationary.csv",
+        selection="results/tables/surface_selection.csv",
+    log:
+        "results/logs/diagnostics.log",
+    params:
+        job={"code": code_of("diagnostics")},
+    script:
+        "../scripts/diagnostics.py"

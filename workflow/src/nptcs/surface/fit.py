@@ -183,7 +183,7 @@ def fit(
 def fit_points(x: Array, y: Array, polynomial: Polynomial, through_origin: bool = False) -> Surface:
     """Fit a polynomial to points of shape (m, n) with responses of shape (m,).
 
-    Coded units and their expansion into natural ones are computed in long double.
+    Coded units and their expansion into natural ones are computed in more digits than double.
 
     Raises
     ------
@@ -193,11 +193,11 @@ def fit_points(x: Array, y: Array, polynomial: Polynomial, through_origin: bool 
         minimum-norm solution.
     """
     refuse_unusable(x, y, polynomial.factors, len(polynomial))
-    centre, half = (side.astype(np.longdouble) for side in coding(x, through_origin))
-    matrix = polynomial.matrix((x - centre) / half)
+    centre, half = (least_squares.widened(side) for side in coding(x, through_origin))
+    matrix = polynomial.matrix((least_squares.widened(x) - centre) / half)
     refuse_aliased(matrix.astype(float), polynomial.names)
     coded, inverse = least_squares.solve(matrix, y)
-    residual = (y - matrix @ coded).astype(float)
+    residual = (least_squares.widened(y) - matrix @ coded).astype(float)
     residual_sd = float(np.sqrt(residual @ residual / (len(y) - len(polynomial))))
     return Surface(
         polynomial=polynomial,

@@ -21,6 +21,9 @@ SAME = 1e-6
 """Distance in coded units within which two stationary points are one."""
 
 STARTS_PER_AXIS = 5
+DIRECTIONS_TRIED = 2000
+"""Directions (fixed seed) among which the start of the search on a sphere is chosen."""
+
 Direction = Literal["maximum", "minimum"]
 
 
@@ -106,40 +109,37 @@ def ridge_path(
     axes = [axis for axis, name in enumerate(surface.factors) if name not in held]
     sign = -1.0 if direction == "maximum" else 1.0
     centre, half = surface.coding()
-    starts = [side * unit for unit in np.eye(len(axes)) for side in (-1.0, 1.0)]
+    directions = np.random.default_rng(0).normal(size=(DIRECTIONS_TRIED, len(axes)))
+    directions /= np.linalg.norm(directions, axis=1)[:, None]
     path = []
-    best = np.zeros(len(axes))
     for radius in radii:
-        if radius > 0:
-            norm = np.linalg.norm(best)
-            tried = [*starts, *([best / norm] if norm else [])]
-            best = min(
-                (_on_sphere(surface, sign, start * radius, radius, axes) for start in tried),
-                key=lambda coded: sign * _value(surface, coded, axes),
-            )
-        coded = _whole(surface, best, axes)
-        path.append((radius, centre + half * coded, _value(surface, best, axes)))
+        tried = np.zeros((len(directions), len(surface.factors)))
+        tried[:, axes] = radius * directions
+        values = surface.polynomial.matrix(tried) @ surface.coefficients_coded
+        start = directions[np.argmin(sign * values)]
+        coded = _whole(surface, radius * _best_direction(surface, sign, start, radius, axes), axes)
+        value = float(surface.polynomial.matrix(coded[None, :])[0] @ surface.coefficients_coded)
+        path.append((float(radius), centre + half * coded, value))
     return path
 
 
-def _on_sphere(
+def _best_direction(
     surface: Surface, sign: float, start: Array, radius: float, axes: list[int]
 ) -> Array:
-    """Find the best point of a sphere from a start on it."""
-    found = optimize.minimize(
-        lambda coded: sign * _value(surface, coded, axes),
-        start,
-        jac=lambda coded: sign * _slope(surface, _whole(surface, coded, axes))[axes],
-        constraints={
-            "type": "eq",
-            "fun": lambda coded: coded @ coded - radius**2,
-            "jac": lambda coded: 2 * coded,
-        },
-        method="SLSQP",
-        options={"ftol": 1e-14, "maxiter": 200},
-    )
-    point = np.asarray(found.x, dtype=float)
-    return point * radius / max(np.linalg.norm(point), np.finfo(float).tiny)
+    """Find the unit vector along which the surface is extreme at a radius, from a good start."""
+
+    def value_and_slope(vector: Array) -> tuple[float, Array]:
+        length = float(np.linalg.norm(vector))
+        unit = vector / length
+        coded = _whole(surface, radius * unit, axes)
+        value = surface.polynomial.matrix(coded[None, :])[0] @ surface.coefficients_coded
+        slope = _slope(surface, coded)[axes] * radius
+        return sign * float(value), sign * (slope - unit * (unit @ slope)) / length
+
+    if radius == 0:
+        return start
+    found = optimize.minimize(value_and_slope, start, jac=True, method="BFGS", tol=1e-10)
+    return np.asarray(found.x / np.linalg.norm(found.x), dtype=float)
 
 
 def _root(surface: Surface, start: Array, axes: list[int]) -> Array | None:
@@ -188,11 +188,6 @@ def _whole(surface: Surface, coded: Array, axes: list[int]) -> Array:
     point = np.zeros(len(surface.factors))
     point[axes] = coded
     return point
-
-
-def _value(surface: Surface, coded: Array, axes: list[int]) -> float:
-    matrix = surface.polynomial.matrix(_whole(surface, coded, axes)[None, :])
-    return float(matrix[0] @ surface.coefficients_coded)
 
 
 def _slope(surface: Surface, coded: Array) -> Array:

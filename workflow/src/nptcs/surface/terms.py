@@ -7,15 +7,14 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import comb, prod
-from typing import TypeVar
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from nptcs.arrays import Array, Floating
+from nptcs.arrays import Array
 from nptcs.errors import InputError
 
-Real = TypeVar("Real", bound=np.floating)
 _POWER = re.compile(r"^\s*([A-Za-z_]\w*)\s*(?:\^\s*(\d+))?\s*$")
 
 
@@ -42,10 +41,9 @@ class Polynomial:
         """The terms as text: ``1``, ``thickness_mm``, ``thickness_mm*angle_deg``, …."""
         return tuple(_name(self.factors, powers) for powers in self.exponents)
 
-    def matrix(self, x: NDArray[Real]) -> NDArray[Real]:
+    def matrix(self, x: NDArray[Any]) -> NDArray[Any]:
         """Evaluate the terms: points of shape (m, n) give a design matrix of shape (m, p)."""
-        powers = x[:, None, :] ** np.array(self.exponents)[None, :, :]
-        return np.asarray(np.prod(powers, axis=2), x.dtype)
+        return np.asarray(np.prod(x[:, None, :] ** np.array(self.exponents)[None, :, :], axis=2))
 
     def derivative_matrix(self, x: Array, factor: str) -> Array:
         """Evaluate ∂(term)/∂(factor): points of shape (m, n) give a matrix of shape (m, p)."""
@@ -110,15 +108,15 @@ def parse(terms: Sequence[str], factors: Sequence[str], through_origin: bool = F
 
 
 def coded_to_natural(
-    polynomial: Polynomial, centre: Floating, half_range: Floating
-) -> NDArray[np.longdouble]:
+    polynomial: Polynomial, centre: NDArray[Any], half_range: NDArray[Any]
+) -> NDArray[Any]:
     """Build the matrix M with b_natural = M b_coded, for c = (x - centre) / half_range.
 
-    Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem, in long
-    double. Shape (p, p).
+    Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem, in the type of
+    the numbers given. Shape (p, p).
     """
     index = {powers: row for row, powers in enumerate(polynomial.exponents)}
-    matrix = np.zeros((len(polynomial), len(polynomial)), np.longdouble)
+    matrix = np.zeros((len(polynomial), len(polynomial)), centre.dtype)
     for column, powers in enumerate(polynomial.exponents):
         for lower in product(*(range(power + 1) for power in powers)):
             weight = prod(

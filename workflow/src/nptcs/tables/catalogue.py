@@ -10,6 +10,13 @@ import pandera.pandas as pa
 
 from nptcs.tables import column_headings as headings
 from nptcs.tables.cases import Cases
+from nptcs.tables.diagnostics import (
+    SurfaceAnova,
+    SurfaceInfluence,
+    SurfaceSelection,
+    SurfaceStationary,
+    SurfaceTests,
+)
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
@@ -132,6 +139,51 @@ TABLES: dict[str, ResultTable] = {
         "the same surfaces; direction over a grid in the box of the cases",
         section=ReportSection.SURFACES,
         headings=headings.COMPARISON,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_tests.csv": ResultTable(
+        SurfaceTests,
+        "Tests of the polynomials' coefficients: t, p, confidence interval, variance inflation",
+        "diagnostics",
+        "the polynomials of equations 21 and 22, or those configured; coded coefficients",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_anova.csv": ResultTable(
+        SurfaceAnova,
+        "Analysis of variance of the polynomials, sequential and partial, with lack of fit",
+        "diagnostics",
+        "the polynomials and the cases that they were fitted to",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_influence.csv": ResultTable(
+        SurfaceInfluence,
+        "What each case does to the polynomials: residual, leverage, Cook's distance",
+        "diagnostics",
+        "the polynomials and the cases that they were fitted to",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_stationary.csv": ResultTable(
+        SurfaceStationary,
+        "Stationary points of the polynomials with their kind, and paths of the extremes",
+        "diagnostics",
+        "the polynomials; paths on spheres about the centre in coded units",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_selection.csv": ResultTable(
+        SurfaceSelection,
+        "Terms of the polynomials dropped one after the other, by AICc and by PRESS",
+        "diagnostics",
+        "the polynomials' terms; only a term that no other one needs may go",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
         synthetic=SyntheticBy.STUDIES,
     ),
     "impact.csv": ResultTable(

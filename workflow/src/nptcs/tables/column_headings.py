@@ -56,3 +56,16 @@ COMPARISON = {
     "rising_percent": Heading("steps that rise", "%"),
     "falling_percent": Heading("steps that fall", "%"),
 }
+DIAGNOSTICS = {
+    "coefficient_coded": Heading("coefficient, coded", "N/mm"),
+    "confidence_low": Heading("95 % interval from", "N/mm"),
+    "confidence_high": Heading("95 % interval to", "N/mm"),
+    "sequential_ss": Heading("sequential sum of squares", "(N/mm)²"),
+    "partial_ss": Heading("partial sum of squares", "(N/mm)²"),
+    "mean_square": Heading("mean square", "(N/mm)²"),
+    "response": Heading("response", "N/mm"),
+    "residual": Heading("residual", "N/mm"),
+    "left_out_residual": Heading("left-out residual", "N/mm"),
+    "value": Heading("value", "unit of the factor"),
+    "press": Heading("PRESS", "(N/mm)²"),
+}
