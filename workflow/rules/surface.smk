@@ -31,7 +31,7 @@ rule surface:
     output:
         table="results/tables/{study}_surface.csv",
         surfaces="results/6_surface/{study}.json",
-        models="results/6_surface/{study}_models.json",
+        models="results/6_surface/models/{study}.json",
         quality="results/6_surface/{study}_quality.csv",
         comparison="results/6_surface/{study}_comparison.csv",
         by_factor="results/6_surface/{study}_by_factor.csv",
@@ -52,9 +52,7 @@ rule sensitivity:
         comparisons=expand(
             "results/6_surface/{study}_comparison.csv", study=SURFACE_STUDIES
         ),
-        factors=expand(
-            "results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES
-        ),
+        factors=expand("results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES),
         published=(
             [CONFIG.sensitivity.published_impact]
             if CONFIG.sensitivity.published_impact
@@ -70,6 +68,7 @@ rule sensitivity:
     params:
         job={
             "rules": list(CONFIG.sensitivity.rules),
+            "near_tie_ratio": CONFIG.sensitivity.near_tie_ratio,
             "code": code_of("sensitivity"),
         },
     script:
@@ -91,3 +90,19 @@ rule diagnostics:
         job={"code": code_of("diagnostics")},
     script:
         "../scripts/diagnostics.py"
+
+
+rule sobol:
+    input:
+        models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
+        quality="results/tables/surface_quality.csv",
+    output:
+        indices="results/tables/sobol_indices.csv",
+        effects="results/tables/main_effects.csv",
+        problems="results/6_surface/sobol/problems.csv",
+    log:
+        "results/logs/sobol.log",
+    params:
+        job={"settings": plain(CONFIG.sensitivity), "code": code_of("sobol")},
+    script:
+        "../scripts/sobol.py"

@@ -18,7 +18,7 @@ def assess(job: dict[str, Any], impact: str, **files: Any) -> None:
     surfaces = {Path(file).stem: read_surfaces(file) for file in files["surfaces"]}
     designs = {Path(file).stem: read_table(file, Design) for file in files["designs"]}
     qualities = read_tables(files["qualities"], SurfaceQuality)
-    computed = impact_table(surfaces, designs, qualities, job["rules"])
+    computed = impact_table(surfaces, designs, qualities, job["rules"], job["near_tie_ratio"])
     published = read_tables(files["published"], PublishedImpact)
     write_table(impact, with_published(computed, published), Impact)
     write_table(files["quality"], qualities, SurfaceQuality)

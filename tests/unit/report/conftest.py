@@ -120,7 +120,7 @@ def analysed(study, cases, solver="published"):
     quality = quality_table(study.name, done)
     rules = ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
     impacts = impact_table(
-        {study.name: {solver: surface}}, {study.name: cases[names]}, quality, rules
+        {study.name: {solver: surface}}, {study.name: cases[names]}, quality, rules, 0.8
     )
     return surface, surface_table({solver: surface}, published), quality, impacts
 

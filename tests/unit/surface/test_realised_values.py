@@ -91,6 +91,7 @@ def test_impact_says_in_what_values_it_is_and_what_failed():
         {"plate": design},
         quality_table("plate", done),
         ["domain_mean_signed"],
+        0.8,
     )
     rows = impact.set_index(["solver", "factor"])
 

@@ -104,6 +104,7 @@ def test_printed_values_stand_only_beside_the_same_range():
             "values_used": "",
             "cases": 9,
             "failed_cases": 0,
+            "near_tie_with": "",
             "impact": [-50.0, 26.0, 1.0],
         }
     )
@@ -134,6 +135,7 @@ def test_ranks_are_among_the_factors_that_have_a_printed_value():
             "values_used": "",
             "cases": 9,
             "failed_cases": 0,
+            "near_tie_with": "",
             "impact": [-50.0, 900.0, -60.0, 38.0, 300.0],
         }
     )

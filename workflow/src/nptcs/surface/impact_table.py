@@ -10,10 +10,11 @@ import pandas as pd
 from nptcs.config.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
 from nptcs.surface.sensitivity import impact
+from nptcs.surface.ties import near_ties
 
 COLUMNS = [
     "solver", "study", "factor", "rule", "gradient", "range", "impact", "nominal_range",
-    "values_used", "cases", "failed_cases",
+    "values_used", "cases", "failed_cases", "near_tie_with",
 ]  # fmt: skip
 
 
@@ -22,6 +23,7 @@ def impact_table(
     designs: Mapping[str, pd.DataFrame],
     qualities: pd.DataFrame,
     rules: Sequence[AveragingRule],
+    near_tie_ratio: float,
 ) -> pd.DataFrame:
     """Take the impact values of every study, solver and rule.
 
@@ -35,6 +37,8 @@ def impact_table(
         `nptcs.tables.surface.SurfaceQuality` of these surfaces.
     rules : sequence of str
         Averaging rules.
+    near_tie_ratio : float
+        `nptcs.config.sensitivity.Sensitivity.near_tie_ratio`.
 
     Returns
     -------
@@ -50,7 +54,13 @@ def impact_table(
         for solver, surface in by_solver.items()
         for rule in rules
     ]
-    return pd.concat(tables)[COLUMNS] if tables else pd.DataFrame(columns=COLUMNS)
+    if not tables:
+        return pd.DataFrame(columns=COLUMNS)
+    table = pd.concat(tables, ignore_index=True)
+    for _, rows in table.groupby("study"):
+        ties = near_ties(rows, ["solver", "rule"], "factor", "impact", near_tie_ratio)
+        table.loc[rows.index, "near_tie_with"] = ties
+    return table[COLUMNS]
 
 
 def _with_basis(

@@ -36,6 +36,7 @@ from nptcs.tables.result_table import (
     RowMark,
     SyntheticBy,
 )
+from nptcs.tables.sobol import MainEffects, SobolIndices
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
 from nptcs.tables.surface import (
@@ -193,6 +194,24 @@ TABLES: dict[str, ResultTable] = {
         "the response surfaces; printed values are those of table 9",
         section=ReportSection.SENSITIVITY,
         headings=headings.IMPACT,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "sobol_indices.csv": ResultTable(
+        SobolIndices,
+        "Shares of the variance by factor and by pair (Sobol indices), every surface",
+        "sobol",
+        "the surfaces, sampled over independent factors; intervals by bootstrap",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.SOBOL,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "main_effects.csv": ResultTable(
+        MainEffects,
+        "Main effect of each factor over its range, every surface",
+        "sobol",
+        "the surfaces, averaged over the other factors",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.SOBOL,
         synthetic=SyntheticBy.STUDIES,
     ),
     "spoke_stiffness.csv": ResultTable(

@@ -69,3 +69,11 @@ DIAGNOSTICS = {
     "value": Heading("value", "unit of the factor"),
     "press": Heading("PRESS", "(N/mm)²"),
 }
+SOBOL = {
+    "cut_percent": Heading("cut off", "%"),
+    "index": Heading("first order, or interaction"),
+    "index_confidence": Heading("± first order"),
+    "total_confidence": Heading("± total"),
+    "value": Heading("value", "unit of the factor"),
+    "effect_n_per_mm": Heading("effect", "N/mm"),
+}

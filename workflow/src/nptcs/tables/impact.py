@@ -28,6 +28,10 @@ class Impact(pa.DataFrameModel):
     failed_cases: Series[int] = pa.Field(
         ge=0, description="Cases of the design without a result: they are not in the index"
     )
+    near_tie_with: Series[str] = pa.Field(
+        description="Factors of the study whose order relative to this one is not settled: near "
+        "in size, or in another order by another rule or solver"
+    )
     published_gradient: Series[float] = pa.Field(nullable=True)
     published_impact: Series[float] = pa.Field(nullable=True)
     difference_percent: Series[float] = pa.Field(
