@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import prod
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
+from nptcs.config.design import Design, FullFactorial, number_of_cases
 from nptcs.config.surface import SurfaceModel, name_of, needs_ply
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
@@ -47,12 +47,17 @@ class Factor(Strict):
 
 
 class Study(Strict):
-    """One full-factorial study of the tyre."""
+    """One study of the tyre: factors, how its cases are chosen, solvers, surfaces."""
 
     name: Name = Field(description="Stem of the case ids and of the result files")
     title: str = Field(description="Heading in the report")
     factors: tuple[Factor, ...] = Field(
         min_length=1, description="Factors; the last one changes fastest from case to case"
+    )
+    design: Design = Field(
+        FullFactorial(),
+        description="How the cases are chosen; kinds other than full_factorial and d_optimal take "
+        "the lowest and the highest level of each factor as the box",
     )
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
@@ -146,7 +151,7 @@ class Study(Strict):
 
     @model_validator(mode="after")
     def _cases_exist(self) -> Self:
-        last = prod(len(factor.levels) for factor in self.factors)
+        last = self.number_of_cases()
         named = {"neutral_line_cases": self.neutral_line_cases}
         named |= {
             f"calibration_cases.{key}": value for key, value in self.calibration_cases.items()
@@ -165,6 +170,10 @@ class Study(Strict):
                 f"published_spoke_stiffness the only factor is spoke_c10_mpa, got {names}"
             )
         return self
+
+    def number_of_cases(self) -> int:
+        """Return how many cases its design has."""
+        return number_of_cases(self.design, [len(factor.levels) for factor in self.factors])
 
     def needs_ply(self) -> bool:
         """Tell whether one of its surfaces is made of the ply's constants."""

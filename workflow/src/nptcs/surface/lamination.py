@@ -23,7 +23,7 @@ from scipy.optimize import least_squares
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.fe.elements.laminate import abd
+from nptcs.laminate import abd
 from nptcs.surface.response_surface import Outside, refuse_unusable
 
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg")
@@ -176,9 +176,7 @@ def fit_lamination(
 
 def laminates(x: Array, ply: Mapping[str, float]) -> Array:
     """Laminate stiffness ABD of the plates of each case, shape (m, 6, 6), in N and mm."""
-    plates, place = np.unique(x[:, 1:], axis=0, return_inverse=True)
-    stiffness = np.array([abd(ply, angle, thickness) for thickness, angle in plates])
-    return stiffness[place.ravel()]
+    return abd(ply, x[:, 2], x[:, 1])
 
 
 def _best(

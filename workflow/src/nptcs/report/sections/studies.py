@@ -76,6 +76,8 @@ def _fixed(value: object) -> str:
 def _levels(factor: Factor, design: pd.DataFrame) -> str:
     """Write the levels as they stand in the design, with the rubber behind each measured one."""
     numbers = list(dict.fromkeys(design[factor.name]))
+    if len(numbers) != len(factor.levels):
+        return f"{min(numbers):g} to {max(numbers):g}, {len(numbers)} values"
     return ", ".join(
         f"{number:.5g} ({level.rubber})" if isinstance(level, MeasuredRubber) else f"{number:g}"
         for number, level in zip(numbers, factor.levels, strict=True)
