@@ -1,7 +1,15 @@
 # Solved cases → response surfaces → average gradients and comprehensive impact values.
 
 
-FITTED = ("name", "title", "factors", "solvers", "terms", "surfaces")
+FITTED = (
+    "name",
+    "title",
+    "factors",
+    "solvers",
+    "terms",
+    "least_cases",
+    "surfaces",
+)
 
 
 def surface_job(wildcards):
@@ -106,3 +114,28 @@ rule sobol:
         job={"settings": plain(CONFIG.sensitivity), "code": code_of("sobol")},
     script:
         "../scripts/sobol.py"
+
+
+rule coverage:
+    input:
+        cases="results/tables/cases.csv",
+        designs=expand("results/4_design/{study}.csv", study=STUDIES),
+    output:
+        coverage="results/tables/case_coverage.csv",
+    log:
+        "results/logs/coverage.log",
+    params:
+        job={
+            "studies": {
+                study.name: {
+                    "factors": [factor.name for factor in study.factors],
+                    "solvers": list(study.solvers),
+                    "terms": list(study.terms),
+                    "least_cases": study.least_solved_cases(),
+                }
+                for study in CONFIG.studies
+            },
+            "code": code_of("coverage"),
+        },
+    script:
+        "../scripts/coverage.py"

@@ -76,6 +76,12 @@ class Study(Strict):
         description="Terms of the response surface: '1', 'a', 'a^2', 'a*b', with factor names; "
         "without terms no surface is fitted",
     )
+    least_cases: int | None = Field(
+        None,
+        ge=2,
+        description="Solved cases of a solver below which no surface is fitted; none: two more "
+        "than `terms` has",
+    )
     surfaces: tuple[SurfaceModel, ...] = Field(
         (),
         description="Surfaces that are fitted and compared with the polynomial of `terms`: other "
@@ -103,6 +109,7 @@ class Study(Strict):
     AFTERWARDS: ClassVar[frozenset[str]] = frozenset(
         {
             "terms",
+            "least_cases",
             "surfaces",
             "published_coefficients",
             "published_spoke_stiffness",
@@ -174,6 +181,10 @@ class Study(Strict):
     def number_of_cases(self) -> int:
         """Return how many cases its design has."""
         return number_of_cases(self.design, [len(factor.levels) for factor in self.factors])
+
+    def least_solved_cases(self) -> int:
+        """Return the number of solved cases below which no surface is fitted."""
+        return len(self.terms) + 2 if self.least_cases is None else self.least_cases
 
     def needs_ply(self) -> bool:
         """Tell whether one of its surfaces is made of the ply's constants."""

@@ -80,6 +80,17 @@ def fit_study(
         table = solved[solver].table
         x, y = table[factors].to_numpy(float), table[RESPONSE].to_numpy(float)
         models[solver] = {}
+        least = study.least_solved_cases()
+        if len(table) < least:
+            counts = f"{len(table)} cases solved, {solved[solver].failed} failed"
+            why = InputError(
+                f"no surface from so few cases: {counts}",
+                column=f"studies.{study.name}.least_cases",
+                value=least,
+                remedy="see case_coverage.csv for the levels that failed, and solve more cases",
+            )
+            problems.append(("surface", study.name, solver, "refused", str(why)))
+            continue
         for name, model in models_of(study).items():
             start = time.process_time()
             try:

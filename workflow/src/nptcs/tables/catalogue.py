@@ -10,6 +10,7 @@ import pandera.pandas as pa
 
 from nptcs.tables import column_headings as headings
 from nptcs.tables.cases import Cases
+from nptcs.tables.coverage import CaseCoverage
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -103,6 +104,14 @@ TABLES: dict[str, ResultTable] = {
         "one record a case; wall time is that of the run that solved the case",
         section=ReportSection.CASES,
         mark=RowMark.STATUS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "case_coverage.csv": ResultTable(
+        CaseCoverage,
+        "Solved, failed and missing cases by level of each factor",
+        "coverage",
+        "cases.csv and the design tables; estimability of the terms with the solved cases",
+        section=ReportSection.CASES,
         synthetic=SyntheticBy.STUDIES,
     ),
     "STUDY_surface.csv": ResultTable(
