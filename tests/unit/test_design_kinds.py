@@ -6,11 +6,13 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 import pytest
+import yaml
 from scipy.stats import qmc
 
 from nptcs.campaign.times import seconds_per_case, time_in_words
+from nptcs.cli import main
 from nptcs.config.study import Study
-from nptcs.config.surface import GaussianProcessModel
+from nptcs.config.surface import GaussianProcessModel, PolynomialModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.design import build_design
 from nptcs.doe.augment import augment
@@ -19,6 +21,7 @@ from nptcs.doe.points import box_behnken, central_composite, space_filling
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
 from nptcs.surface.models import Cases, fit_model
+from nptcs.surface.stored import dump_models
 from nptcs.surface.terms import parse
 
 ROOT = Path(__file__).parents[2]
@@ -28,6 +31,7 @@ FACTORS = [
     {"name": "angle_deg", "label": "A", "unit": "deg", "levels": [0, 45, 90]},
 ]
 TERMS = ["1", "spacing_mm", "thickness_mm", "angle_deg", "angle_deg^2"]
+THROUGH_ORIGIN = {"kind": "polynomial", "through_origin": True}
 KINDS = {
     "latin_hypercube": {"cases": 17},
     "sobol": {"cases": 16},
@@ -170,3 +174,40 @@ def test_time_is_estimated_from_solved_cases_or_said_to_be_unknown(tmp_path):
     assert "63 cases × 40 s = 42 min" in time_in_words(63, 40.0)
     assert "= 5.6 h" in time_in_words(500, 40.0)
     assert "= 20 s" in time_in_words(10, 2.0)
+
+
+def test_further_cases_follow_the_design_and_are_complete():
+    further = [{"angle_deg": 30.0, "spacing_mm": 12.0, "thickness_mm": 2.0}]
+    chosen = study({"kind": "central_composite"}, further_cases=further)
+    table = build_design(chosen, {}, TyreGeometry())
+    assert len(table) == chosen.number_of_cases() == 16
+    assert table.iloc[-1][["case_id", "spacing_mm", "angle_deg"]].tolist() == ["s_016", 12.0, 30.0]
+    with pytest.raises(ValueError, match="further_cases, case 1"):
+        study({"kind": "central_composite"}, further_cases=[{"spacing_mm": 12.0}])
+
+
+def test_terms_that_cannot_be_read_are_found_with_the_configuration():
+    for changes in (
+        {"terms": ["1", "width_mm"]},
+        {"terms": ["1"], "surfaces": [{"kind": "polynomial", "terms": ["1", "angle_deg^2"]}]},
+        {"terms": ["1"], "surfaces": [{**THROUGH_ORIGIN, "terms": ["1"]}]},
+    ):
+        with pytest.raises(ValueError, match="terms"):
+            study({"kind": "full_factorial"}, **changes)
+
+
+def test_augment_prints_cases_for_the_study(tmp_path, capsys):
+    table = build_design(study({"kind": "central_composite"}), {}, TyreGeometry())
+    x = table[["spacing_mm", "thickness_mm", "angle_deg"]].to_numpy()
+    cases = Cases(x, x[:, 0] * 2 + x[:, 1] ** 2, tuple(table)[2:5], TERMS[:4])
+    surface = fit_model(PolynomialModel(kind="polynomial"), cases)
+    (tmp_path / "s.json").write_text(dump_models({"lca": {"polynomial": surface}}))
+    command = ["augment", "s", "--models", str(tmp_path), "--cases", "2", "--solver"]
+
+    assert main([*command, "lca"]) == 0
+    printed = capsys.readouterr().out
+    further = yaml.safe_load(printed)["further_cases"]
+    assert study({"kind": "full_factorial"}, further_cases=further).number_of_cases() == 29
+    assert "95 % interval ±" in printed
+    assert main([*command, "fe_tyre"]) == 2
+    assert "no such surface" in capsys.readouterr().err

@@ -21,10 +21,10 @@ from nptcs.config.study import Level, MeasuredRubber, Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.d_optimal import d_optimal
 from nptcs.doe.points import box_behnken, central_composite, space_filling
+from nptcs.doe.whole_plates import whole_plates
 from nptcs.errors import InputError
 from nptcs.surface.terms import parse
 
-SPACING = "spacing_mm"
 DIGITS = 6
 """Significant digits of the values of cases between the levels."""
 
@@ -75,6 +75,9 @@ def build_design(
     if not isinstance(design, FullFactorial | DOptimal) and design.whole_plates:
         points = whole_plates(points, list(levels), tyre)
     table = pd.DataFrame(points, columns=list(levels), dtype=float)
+    if study.further_cases:
+        further = pd.DataFrame(list(study.further_cases))[list(levels)]
+        table = pd.concat([table, further], ignore_index=True)
     return _numbered(table, study, rubber_c10_mpa)
 
 
@@ -88,28 +91,6 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
     points = _combinations(_levels(study, rubber_c10_mpa))
     names = [factor.name for factor in study.factors]
     return _numbered(pd.DataFrame(points, columns=names), study, rubber_c10_mpa)
-
-
-def whole_plates(points: Array, factors: list[str], tyre: TyreGeometry) -> Array:
-    """Move each spacing to the nearest pitch that gives a whole number of plates.
-
-    Raises
-    ------
-    InputError
-        When the spacing is not among the factors.
-    """
-    if SPACING not in factors:
-        raise InputError(
-            f"whole_plates moves {SPACING}, which is not a factor of this study",
-            column="design.whole_plates",
-            remedy="leave whole_plates out",
-        )
-    moved, column = points.copy(), factors.index(SPACING)
-    counts = np.arange(1, int(tyre.tread_width_mm / points[:, column].min()) + 2)
-    pitches = tyre.tread_width_mm / counts
-    nearest = np.abs(points[:, column][:, None] - pitches[None, :]).argmin(axis=1)
-    moved[:, column] = pitches[nearest]
-    return moved
 
 
 def _levels(study: Study, rubber_c10_mpa: Mapping[str, float]) -> dict[str, list[float]]:

@@ -8,8 +8,9 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.design import Design, FullFactorial, number_of_cases
-from nptcs.config.surface import SurfaceModel, name_of, needs_ply
+from nptcs.config.design import Design, DOptimal, FullFactorial, number_of_cases
+from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
+from nptcs.surface.terms import parse
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
@@ -59,6 +60,11 @@ class Study(Strict):
         description="How the cases are chosen; kinds other than full_factorial and d_optimal take "
         "the lowest and the highest level of each factor as the box",
     )
+    further_cases: tuple[dict[Name, float], ...] = Field(
+        (),
+        description="Cases after those of the design, a value for each factor; `nptcs augment` "
+        "proposes some",
+    )
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
     )
@@ -79,7 +85,7 @@ class Study(Strict):
     least_cases: int | None = Field(
         None,
         ge=2,
-        description="Solved cases of a solver below which no surface is fitted; none: two more "
+        description="Solved cases of a solver below which no surface is fitted; none: one more "
         "than `terms` has",
     )
     surfaces: tuple[SurfaceModel, ...] = Field(
@@ -144,6 +150,30 @@ class Study(Strict):
         return self
 
     @model_validator(mode="after")
+    def _further_cases_are_complete(self) -> Self:
+        names = {factor.name for factor in self.factors}
+        for number, case in enumerate(self.further_cases, start=1):
+            if set(case) != names:
+                raise ValueError(
+                    f"study {self.name}: further_cases, case {number}: give {sorted(names)}, got "
+                    f"{sorted(case)}"
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _terms_can_be_read(self) -> Self:
+        factors = [factor.name for factor in self.factors]
+        if isinstance(self.design, DOptimal):
+            parse(self.design.terms, factors)
+        if self.terms:
+            parse(self.terms, factors)
+        for model in self.surfaces:
+            terms, through_origin = own_terms(model)
+            if terms or through_origin:
+                parse(terms, factors, through_origin)
+        return self
+
+    @model_validator(mode="after")
     def _surfaces_differ(self) -> Self:
         names = [name_of(model) for model in self.surfaces]
         names += ["polynomial"] if self.terms else []
@@ -179,12 +209,13 @@ class Study(Strict):
         return self
 
     def number_of_cases(self) -> int:
-        """Return how many cases its design has."""
-        return number_of_cases(self.design, [len(factor.levels) for factor in self.factors])
+        """Return how many cases its design has, further ones included."""
+        of_design = number_of_cases(self.design, [len(factor.levels) for factor in self.factors])
+        return of_design + len(self.further_cases)
 
     def least_solved_cases(self) -> int:
         """Return the number of solved cases below which no surface is fitted."""
-        return len(self.terms) + 2 if self.least_cases is None else self.least_cases
+        return len(self.terms) + 1 if self.least_cases is None else self.least_cases
 
     def needs_ply(self) -> bool:
         """Tell whether one of its surfaces is made of the ply's constants."""

@@ -88,3 +88,18 @@ def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -
             return model.mean is not None and needs_ply(model.mean)
         case _:
             assert_never(model)
+
+
+def own_terms(
+    model: PolynomialModel | LaminationModel | GaussianProcessModel,
+) -> tuple[tuple[str, ...], bool]:
+    """Return the terms that a surface names itself, and whether it goes through the origin."""
+    match model:
+        case PolynomialModel():
+            return model.terms, model.through_origin
+        case LaminationModel():
+            return (), False
+        case GaussianProcessModel():
+            return own_terms(model.mean) if model.mean is not None else ((), False)
+        case _:
+            assert_never(model)

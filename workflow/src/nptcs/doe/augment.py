@@ -2,14 +2,40 @@
 
 from __future__ import annotations
 
+from itertools import product
+
 import numpy as np
 
 from nptcs.arrays import Array
+from nptcs.config.tyre import TyreGeometry
+from nptcs.doe.points import space_filling
+from nptcs.doe.whole_plates import whole_plates
 from nptcs.errors import InputError
-from nptcs.surface.response_surface import ResponseSurface
+from nptcs.surface.response_surface import ResponseSurface, box, inside_box
 
 ALREADY = 1e-6
 """Share of a factor's range within which a candidate counts as one of the cases."""
+
+
+CANDIDATES = 1024
+DIGITS = 6
+"""Significant digits of the candidates' values."""
+
+
+def candidates_in_box(surface: ResponseSurface, tyre: TyreGeometry | None = None) -> Array:
+    """Spread candidates over the box of a surface's cases, corners included, shape (m, n).
+
+    With a tyre, spacings are those of a whole number of plates.
+    """
+    lower, upper = box(surface.x)
+    inner = space_filling("sobol", CANDIDATES, len(lower), seed=1)
+    corners = np.array(list(product([-1.0, 1.0], repeat=len(lower))))
+    points = (lower + upper) / 2 + np.vstack([corners, inner]) * (upper - lower) / 2
+    rounded = np.vectorize(lambda value: float(f"{value:.{DIGITS}g}"))(points)
+    rounded = np.clip(rounded, lower, upper)
+    if tyre is not None:
+        rounded = whole_plates(rounded, list(surface.factors), tyre)
+    return np.unique(rounded[inside_box(surface, rounded)], axis=0)
 
 
 def augment(surface: ResponseSurface, candidates: Array, cases: int) -> tuple[Array, Array]:
