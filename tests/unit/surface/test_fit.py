@@ -30,23 +30,6 @@ def surface_of(table, factors, coefficients):
     return cases, fit(cases, cases["stiffness_n_per_mm"], factors, terms_of(coefficients))
 
 
-def exact_least_squares(matrix, y):
-    """Solve the normal equations in exact fractions."""
-    size = len(matrix[0])
-    a = [[sum(row[i] * row[j] for row in matrix) for j in range(size)] for i in range(size)]
-    b = [sum(row[i] * value for row, value in zip(matrix, y, strict=True)) for i in range(size)]
-    for pivot in range(size):
-        for row in range(pivot + 1, size):
-            factor = a[row][pivot] / a[pivot][pivot]
-            a[row] = [x - factor * p for x, p in zip(a[row], a[pivot], strict=True)]
-            b[row] -= factor * b[pivot]
-    solution = [Fraction(0)] * size
-    for row in reversed(range(size)):
-        rest = sum(a[row][k] * solution[k] for k in range(row + 1, size))
-        solution[row] = (b[row] - rest) / a[row][row]
-    return [float(value) for value in solution]
-
-
 @pytest.mark.parametrize(
     ("table", "factors", "coefficients", "r_squared"),
     [
@@ -54,7 +37,9 @@ def exact_least_squares(matrix, y):
         ("table7_rubber_doe.csv", RUBBER_FACTORS, "table8_rubber_coefficients.csv", 0.99997),
     ],
 )
-def test_coefficients_equal_the_exact_rational_solution(table, factors, coefficients, r_squared):
+def test_coefficients_equal_the_exact_rational_solution(
+    table, factors, coefficients, r_squared, exact_solution
+):
     text = pd.read_csv(PUBLISHED / table, dtype=str)
     rows = [[Fraction(value) for value in row] for row in text[factors].to_numpy()]
     exponents = parse(terms_of(coefficients), factors).exponents
@@ -62,7 +47,7 @@ def test_coefficients_equal_the_exact_rational_solution(table, factors, coeffici
         [np.prod([x**e for x, e in zip(row, powers, strict=True)]) for powers in exponents]
         for row in rows
     ]
-    exact = exact_least_squares(matrix, [Fraction(v) for v in text["stiffness_n_per_mm"]])
+    exact = exact_solution(matrix, [Fraction(v) for v in text["stiffness_n_per_mm"]])
 
     cases, surface = surface_of(table, factors, coefficients)
     quality = assess(surface)

@@ -15,23 +15,6 @@ WAMPLER_ERRORS = [759, -2048, 2048, -2048, 2523, -2048, 2048, -2048, 1838, -2048
 WAMPLER_ERRORS += WAMPLER_ERRORS[-2::-1]
 
 
-def exact_solution(rows, y):
-    """Solve the normal equations in exact fractions."""
-    size = len(rows[0])
-    a = [[sum(row[i] * row[j] for row in rows) for j in range(size)] for i in range(size)]
-    b = [sum(row[i] * value for row, value in zip(rows, y, strict=True)) for i in range(size)]
-    for pivot in range(size):
-        for row in range(pivot + 1, size):
-            factor = a[row][pivot] / a[pivot][pivot]
-            a[row] = [x - factor * p for x, p in zip(a[row], a[pivot], strict=True)]
-            b[row] -= factor * b[pivot]
-    solution = [Fraction(0)] * size
-    for row in reversed(range(size)):
-        rest = sum(a[row][k] * solution[k] for k in range(row + 1, size))
-        solution[row] = (b[row] - rest) / a[row][row]
-    return np.array([float(value) for value in solution])
-
-
 def digits(computed, exact):
     """Digits that agree, in the worst coefficient."""
     relative = np.abs(computed - exact) / np.abs(exact)
@@ -61,7 +44,7 @@ def test_the_same_digits_where_long_double_is_double(monkeypatch):
     assert digits(of_powers(x, y, 5), np.ones(6)) >= DIGITS
 
 
-def test_factors_far_from_zero_as_years_are():
+def test_factors_far_from_zero_as_years_are(exact_solution):
     rng = np.random.default_rng(3)
     year = np.arange(1947.0, 1963.0)
     other = 200_000 + 20_000 * (year - 1947) + rng.integers(-9000, 9000, len(year))
@@ -75,7 +58,7 @@ def test_factors_far_from_zero_as_years_are():
     assert digits(surface.coefficients_natural, exact) >= DIGITS
 
 
-def test_a_surface_through_the_origin_equals_the_exact_one():
+def test_a_surface_through_the_origin_equals_the_exact_one(exact_solution):
     x, y = [60, 61, 62, 63, 64], [130, 131, 133, 135, 138]
     rows = [[Fraction(value), Fraction(value) ** 2] for value in x]
     exact = exact_solution(rows, [Fraction(value) for value in y])

@@ -5,7 +5,9 @@ import pandas as pd
 import pytest
 
 from nptcs.campaign.cases import cases_table
+from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord
+from nptcs.campaign.worker import solve
 from nptcs.compare.impact import with_published
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
@@ -111,3 +113,32 @@ def test_impact_says_in_what_values_it_is_and_what_failed():
     )
     compared = with_published(impact, table_9)
     assert compared.loc[compared["factor"] == "spacing_mm", "published_impact"].notna().all()
+
+
+OWN_SOLVER = """
+from nptcs.solvers.contract import Solver, SolverResult
+
+def solve(inputs):
+    if inputs.values["spacing_mm"] > 19:
+        return SolverResult(status="diverged", message="too far")
+    return SolverResult(status="ok", vertical_stiffness_n_per_mm=250.0, displacement_mm=20.0)
+
+def realise(values, tyre):
+    return {"spacing_mm": tyre.tread_width_mm / round(tyre.tread_width_mm / values["spacing_mm"])}
+
+SOLVER = Solver("own", "1", solve, frozenset({"spacing_mm"}), about="own", realise=realise)
+"""
+
+
+def test_the_campaign_records_what_a_solver_realises_of_each_solved_case(tmp_path):
+    module = tmp_path / "own.py"
+    module.write_text(OWN_SOLVER)
+    design = pd.DataFrame({"case_id": ["a", "b"], "case": [1, 2], "spacing_mm": [15.0, 20.0]})
+    study = STUDY.model_copy(update={"name": "s"})
+    jobs = make_jobs(study, "own", {"module": str(module)}, TyreGeometry(), design, None)
+
+    solved, failed = (solve(job) for job in jobs)
+
+    assert solved.realised == {"spacing_mm": pytest.approx(215 / 14)}
+    assert failed.status == Status.DIVERGED
+    assert failed.realised == {}

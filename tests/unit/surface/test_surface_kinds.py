@@ -8,13 +8,18 @@ import pytest
 
 from nptcs.config.surface import GaussianProcessModel, LaminationModel, PolynomialModel, name_of
 from nptcs.errors import InputError
+from nptcs.surface.cases import SolvedCases
 from nptcs.surface.comparison import directions, leave_one_level_out, leave_one_out
 from nptcs.surface.diagnostics import influence
 from nptcs.surface.gaussian_process import fit_process
 from nptcs.surface.models import Cases, fit_model
 from nptcs.surface.response_surface import predict
 from nptcs.surface.stored import dump_models, load_models
+from nptcs.surface.study import StudySurfaces
+from nptcs.surface.tables import comparison_tables
+from nptcs.tables.io import check
 from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.surface import SurfaceComparison
 
 PUBLISHED = Path(__file__).parents[3] / "raw_data" / "published"
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg")
@@ -27,6 +32,7 @@ MODELS = [
     GaussianProcessModel(kind="gaussian_process"),
     GaussianProcessModel(kind="gaussian_process", mean=LAMINATION),
 ]
+SOLVED = SolvedCases(pd.DataFrame(), (), 0, 0)
 OUTSIDE = np.array([[25.0, 1.8, 45.0]])
 
 
@@ -174,3 +180,23 @@ def test_a_polynomial_chosen_by_press_predicts_at_least_as_well():
     rms = [np.sqrt(np.mean(influence(s).left_out ** 2)) for s in (every, chosen)]
     assert rms[1] <= rms[0]
     assert len(chosen.polynomial) <= len(every.polynomial)
+
+
+def test_what_cannot_be_assessed_is_not_a_number():
+    x = np.linspace(0, 1, 12)[:, None]
+    cases = Cases(x, x[:, 0] ** 2, ("x",), ["1", "x", "x^2"])
+    surface = fit_model(PolynomialModel(kind="polynomial"), cases)
+    level = leave_one_level_out(surface, 0)
+    assert np.isnan(level.largest)
+    assert level.refused == "not assessed: 12 values and no levels"
+    few = fit_model(
+        PolynomialModel(kind="polynomial"), Cases(x[:4], x[:4, 0] ** 3, ("x",), ["1", "x", "x^2"])
+    )
+    assert np.isnan(leave_one_out(few).error).all()
+    done = StudySurfaces(
+        {"s": {"polynomial": few}}, {"s": SOLVED}, {("s", "polynomial"): 0.0}, None
+    )
+    comparison, _ = comparison_tables("study", done)
+    row = check(comparison, SurfaceComparison, "comparison").iloc[0]
+    assert np.isnan(row["coverage_percent"])
+    assert row["leave_one_out_not_fitted"] == 4

@@ -15,6 +15,9 @@ CONFIDENCE = 0.95
 GRID_POINTS = 10_000
 """Points of the grid over the box on which the direction of each factor's effect is read."""
 
+MOST_LEVELS = 10
+"""A factor with more values than this has no levels that could be left out."""
+
 FLAT = 1e-9
 """Share of the response's range below which a step along a factor has no direction."""
 
@@ -74,10 +77,14 @@ def leave_one_out(surface: ResponseSurface) -> LeftOut:
 def leave_one_level_out(surface: ResponseSurface, axis: int) -> LevelError:
     """Fit the surface again without each level of a factor, and predict the cases at that level.
 
-    At the ends of the range this extrapolates: no box is checked here.
+    At the ends of the range this extrapolates: no box is checked here. A factor with many values,
+    as in a Latin hypercube, has no levels, and nothing is assessed.
     """
+    levels = np.unique(surface.x[:, axis])
+    if len(levels) > MOST_LEVELS:
+        return LevelError(np.nan, f"not assessed: {len(levels)} values and no levels")
     errors, refusals = [], []
-    for level in np.unique(surface.x[:, axis]):
+    for level in levels:
         kept = surface.x[:, axis] != level
         try:
             other = surface.refit(surface.x[kept], surface.y[kept])

@@ -115,7 +115,7 @@ def _compared(surface: ResponseSurface, levels: list[LevelError]) -> dict[str, o
         "leave_one_out_largest": float(np.abs(errors).max()) if len(errors) else np.nan,
         "leave_one_out_rms": float(np.sqrt(np.mean(errors**2))) if len(errors) else np.nan,
         "leave_one_out_not_fitted": len(surface.y) - len(errors),
-        "coverage_percent": 100 * float(left_out.covered.sum()) / max(len(errors), 1),
+        "coverage_percent": 100 * left_out.covered.sum() / len(errors) if len(errors) else np.nan,
         "level_out_largest": max(worst, default=np.nan),
         "level_out_not_fitted": ", ".join(name for name, level in names if level.refused),
         "outside_the_box": surface.outside.value,

@@ -84,7 +84,10 @@ class SurfaceComparison(pa.DataFrameModel):
         ge=0, description="Cases without which the surface cannot be fitted; not in the two before"
     )
     coverage_percent: Series[float] = pa.Field(
-        ge=0, le=100, description="Left-out cases within the 95 % prediction interval"
+        ge=0,
+        le=100,
+        nullable=True,
+        description="Left-out cases within the 95 % prediction interval; empty: not assessed",
     )
     level_out_largest: Series[float] = pa.Field(
         ge=0, nullable=True, description="N/mm, the worst of the levels left out whole"
