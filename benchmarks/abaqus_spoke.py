@@ -3,10 +3,10 @@
     python benchmarks/abaqus_spoke.py
     python benchmarks/abaqus_spoke.py --angles
 
-The deck is read back and solved by the solver of its tests (``tests/unit/fe/abaqus_spoke.py``):
+The deck is read back and solved by the solver of its tests (``tests/unit/decks/abaqus_spoke.py``):
 constant-pressure bricks, embedded shear-flexible laminates. Radial stiffness of a whole spoke.
 `--angles` gives the steps from angle to angle with bricks as wide as a plate and half as wide,
-beside those of fe_spoke with embedded and with conforming plates, and table 5's.
+next to those of fe_spoke with embedded and with conforming plates, and table 5's.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.tables.material_card import PUBLISHED_PLY
 
-TESTS = Path(__file__).parents[1] / "tests" / "unit" / "fe"
+TESTS = Path(__file__).parents[1] / "tests" / "unit" / "decks"
 PUBLISHED = Path(__file__).parents[1] / "raw_data" / "published" / "table5_plate_doe.csv"
 ANGLES = (45.0, 60.0, 75.0, 90.0)
 DESIGNS = ((15.0, 1.8, 45.0, 1.0), (15.0, 1.8, 45.0, 5.0), (10.0, 2.4, 0.0, 1.0),

@@ -3,7 +3,7 @@
     python benchmarks/fe_kernel.py
 
 Processor time of one call, the mean of ten; FElupe and pypardiso if they are installed. `--mesh`
-takes a mesh of ``fe_mesh.py``. The figures stand in ``docs/decisions/0003-fe-kernel.md``.
+takes a mesh of ``fe_mesh.py``. The figures are in ``docs/decisions/0003-fe-kernel.md``.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ def read(name: str) -> pd.DataFrame:
 
 
 def print_published(tyre: TyreGeometry) -> None:
-    """Print table 11 and table 7 beside ours."""
+    """Print tables 7 and 11 next to our results."""
     spokes = read("table10_spoke_stiffness.csv")
     rows = lca_validation(
         spokes, read("table11_lca_validation.csv"), read("figure15_load_errors.csv"), tyre

@@ -9,6 +9,8 @@ import yaml
 
 TABLES_OF_A_CASE_CHANGE = {"cases", "surface", "sensitivity", "problems", "report", "verdict"}
 
+SENSITIVITY = "workflow/src/nptcs/surface/sensitivity.py"
+
 
 def test_everything_is_there_and_a_second_run_does_nothing(finished):
     for name in ("report.html", "workbook.xlsx", "verdict.txt", "material_card.json"):
@@ -219,7 +221,7 @@ def test_a_changed_level_solves_only_what_is_new(project):
 
 
 def test_an_edited_module_reruns_what_rests_on_it(project):
-    project.edit("workflow/src/nptcs/sensitivity.py", "GRID_POINTS = 2_", "GRID_POINTS = 3_")
+    project.edit(SENSITIVITY, "GRID_POINTS = 2_", "GRID_POINTS = 3_")
     plan = project.planned()
     assert plan["sensitivity"] == 1
     assert not {"ingest", "reduce", "design", "solve", "surface", "calibrate_ply"} & set(plan)
@@ -235,7 +237,7 @@ def test_an_edited_solver_solves_its_cases_again(project):
 
 
 def test_a_comment_reruns_nothing(project):
-    project.edit("workflow/src/nptcs/sensitivity.py", "GRID_POINTS = ", "# a word\nGRID_POINTS = ")
+    project.edit(SENSITIVITY, "GRID_POINTS = ", "# a word\nGRID_POINTS = ")
     assert project.planned() == {}
 
 

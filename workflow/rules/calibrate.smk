@@ -1,20 +1,35 @@
-# Properties → the ply's nine constants; rubber curves → hyperelastic constants; one card.
-PLY_SERIES = sorted({s.series for s in SPECIMENS if not s.test.is_rubber})
+# Properties → the nine constants of each ply; rubber curves → hyperelastic constants; one card.
+PLIES = plies(SPECIMENS, CONFIG.calibration)
+
+
+def series_of_material(material):
+    return sorted({s.series for s in specimens_of_material(material)})
+
+
+def calibrate_ply_job(wildcards):
+    return {
+        "ply": wildcards.ply,
+        "specimens": [plain(s) for s in specimens_of_material(wildcards.ply)],
+        "settings": plain(CONFIG.calibration),
+        "code": code_of("calibrate_ply"),
+    }
 
 
 rule calibrate_ply:
     input:
-        properties=expand("results/2_reduce/{series}.csv", series=PLY_SERIES),
+        properties=lambda wildcards: [
+            f"results/2_reduce/{series}.csv"
+            for series in series_of_material(wildcards.ply)
+        ],
+        records=lambda wildcards: records(specimens_of_material(wildcards.ply)),
     output:
-        card="results/3_calibrate/ply.json",
+        card="results/3_calibrate/{ply}.json",
     log:
-        "results/logs/calibrate/ply.log",
+        "results/logs/calibrate/{ply}.log",
+    wildcard_constraints:
+        ply="|".join(map(re.escape, PLIES)) or "none",
     params:
-        job={
-            "specimens": [plain(s) for s in SPECIMENS if not s.test.is_rubber],
-            "settings": plain(CONFIG.calibration),
-            "code": code_of("calibrate_ply"),
-        },
+        job=calibrate_ply_job,
     script:
         "../scripts/calibrate_ply.py"
 
@@ -48,7 +63,7 @@ rule calibrate_rubber:
 
 rule material_card:
     input:
-        plies=["results/3_calibrate/ply.json"] if PLY_SERIES else [],
+        plies=expand("results/3_calibrate/{ply}.json", ply=PLIES),
         rubbers=expand("results/3_calibrate/{rubber}.json", rubber=RUBBERS),
         rubber_models=expand("results/3_calibrate/{rubber}_models.csv", rubber=RUBBERS),
         rubber_ranges=expand("results/3_calibrate/{rubber}_ranges.csv", rubber=RUBBERS),

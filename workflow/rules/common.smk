@@ -4,6 +4,7 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
+from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
@@ -14,6 +15,7 @@ from nptcs.solvers.registry import (
     load,
     model_choices,
     module_of,
+    needs_ply,
     read_options,
 )
 from nptcs.tables.catalogue import result_files
@@ -27,12 +29,22 @@ try:
         check_study(study, CONFIG.solver_options(study))
     SHEET = Path(CONFIG.lab_data.specimen_sheet)
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
+    faults, _ = check_materials(
+        [
+            (study, needs_ply(study, CONFIG.solver_options(study)))
+            for study in CONFIG.studies
+        ],
+        SPECIMENS,
+        CONFIG.calibration,
+    )
+    if faults:
+        raise faults[0]
 except InputError as error:
     raise WorkflowError(str(error)) from None
 
 SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
 SERIES = sorted({specimen.series for specimen in SPECIMENS})
-RUBBERS = sorted({s.material for s in SPECIMENS if s.test.is_rubber and s.include})
+RUBBERS = rubbers(SPECIMENS)
 STUDIES = [study.name for study in CONFIG.studies]
 SURFACE_STUDIES = [study.name for study in CONFIG.studies if study.terms]
 

@@ -1,4 +1,4 @@
-# Raw files → one tidy curve a specimen, and an account of every file in the folder.
+# Raw files → one tidy curve per specimen, and an account of every file in the folder.
 from nptcs.ingest.folder import find_file, raw_files
 
 

@@ -5,6 +5,7 @@ def reduce_job(wildcards):
     return {
         "specimens": [plain(s) for s in specimens_of_series(wildcards.series)],
         "settings": plain(CONFIG.reduction),
+        "plausible": plain(CONFIG.ingest.plausible),
         "code": code_of("reduce"),
     }
 
@@ -27,6 +28,7 @@ rule reduce:
 rule statistics:
     input:
         properties=expand("results/2_reduce/{series}.csv", series=SERIES),
+        records=records(SPECIMENS),
     output:
         specimens="results/tables/specimens.csv",
         statistics="results/tables/statistics.csv",

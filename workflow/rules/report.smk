@@ -5,7 +5,7 @@ from importlib.resources import files as package_files
 def solver_facts():
     """What the report says of each solver: what it is, and what it is given.
 
-    A solver's choices between models stand once for each study that makes them differently.
+    A solver's choices between models are listed once for each study that makes them differently.
     """
     named = {(name, study.name) for study in CONFIG.studies for name in study.solvers}
     facts = {}
@@ -24,7 +24,7 @@ def solver_facts():
 
 
 def configured_inputs():
-    """Input files that the configuration names; raw laboratory files stand in files.csv."""
+    """Input files that the configuration names; raw laboratory files are listed in files.csv."""
     check = CONFIG.lca_validation
     paths = [
         str(SHEET),

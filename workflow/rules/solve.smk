@@ -1,9 +1,12 @@
-# Design tables → one record a case. A failed case is a record too; records are kept by content.
+# Design tables → one record per case. A failed case is a record too; records are kept by content.
 
 
 def ply_card(wildcards):
     solver, _ = solver_of(wildcards.study, wildcards.solver)
-    return ["results/3_calibrate/ply.json"] if solver.needs_ply else []
+    if not solver.needs_ply:
+        return []
+    name = ply_of(CONFIG.study(wildcards.study), SPECIMENS, CONFIG.calibration)
+    return [f"results/3_calibrate/{name}.json"]
 
 
 def solver_tables(wildcards):

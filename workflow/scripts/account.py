@@ -5,7 +5,7 @@ from typing import Any
 
 from nptcs.console import clear_errors
 from nptcs.files import read_model
-from nptcs.ingest.folder import account_for_files
+from nptcs.ingest.account import account_for_files
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.files import Files
 from nptcs.tables.io import write_table

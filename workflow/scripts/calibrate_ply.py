@@ -1,22 +1,26 @@
-"""Take the nine constants of the ply from the properties of its specimens."""
+"""Make the card of one ply from the properties of its specimens."""
 
-from collections.abc import Sequence
 from typing import Any
 
 from nptcs.calibrate import calibrate_ply
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
-from nptcs.files import write_text
+from nptcs.files import read_model, write_text
+from nptcs.ingest.repeats import counted_once
+from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_tables
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 
 
-def calibrate(job: dict[str, Any], properties: Sequence[str], card: str) -> None:
-    specimens = [Specimen.model_validate(row) for row in job["specimens"]]
+def calibrate(job: dict[str, Any], properties: list[str], records: list[str], card: str) -> None:
+    sheet = [Specimen.model_validate(row) for row in job["specimens"]]
+    specimens = counted_once(sheet, (read_model(file, IngestRecord) for file in records))
     settings = CalibrationSettings.model_validate(job["settings"])
-    ply = calibrate_ply(read_tables(properties, PropertiesTable), specimens, settings)
-    write_text(card, ply.model_dump_json(indent=1))
+    table = read_tables(properties, PropertiesTable)
+    write_text(
+        card, calibrate_ply(table, specimens, settings, job["ply"]).model_dump_json(indent=1)
+    )
 
 
 if __name__ == "__main__":

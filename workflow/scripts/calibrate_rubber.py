@@ -2,10 +2,11 @@
 
 from typing import Any
 
-from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
+from nptcs.calibrate import calibrate_rubber_tables
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model, write_text
+from nptcs.ingest.repeats import counted_once
 from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import write_table
@@ -14,14 +15,13 @@ from nptcs.tables.specimens import Specimen
 
 def calibrate(job: dict[str, Any], curves: list[str], records: list[str], **output: str) -> None:
     settings = CalibrationSettings.model_validate(job["settings"])
-    specimens = [Specimen.model_validate(row) for row in job["specimens"]]
-    usable = {name: curve for name, curve in read_curves(curves).items() if len(curve)}
     outcomes = [read_model(file, IngestRecord) for file in records]
-    sources = {record.specimen: record.strain_source for record in outcomes}
-    data = (job["rubber"], usable, specimens, settings)
-    write_text(output["card"], calibrate_rubber(*data, sources).model_dump_json(indent=1))
-    write_table(output["models"], compare_models(*data), ModelComparison)
-    write_table(output["ranges"], c10_against_range(*data), RangeTable)
+    sheet = [Specimen.model_validate(row) for row in job["specimens"]]
+    data = (job["rubber"], read_curves(curves), counted_once(sheet, outcomes), settings, outcomes)
+    card, models, ranges = calibrate_rubber_tables(*data)
+    write_text(output["card"], card.model_dump_json(indent=1))
+    write_table(output["models"], models, ModelComparison)
+    write_table(output["ranges"], ranges, RangeTable)
 
 
 if __name__ == "__main__":

@@ -2,6 +2,7 @@
 
 from typing import Any
 
+from nptcs.config.ingest import Plausible
 from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model
@@ -16,10 +17,11 @@ from nptcs.tables.specimens import Specimen
 def reduce(job: dict[str, Any], curves: list[str], records: list[str], **output: str) -> None:
     specimens = [Specimen.model_validate(row) for row in job["specimens"]]
     settings = ReductionSettings.model_validate(job["settings"])
+    plausible = Plausible.model_validate(job["plausible"])
     read = {record.specimen: record for record in (read_model(f, IngestRecord) for f in records)}
-    properties, problems = reduce_series(specimens, read_curves(curves), read, settings)
-    write_table(output["properties"], properties, PropertiesTable)
-    write_table(output["problems"], problems, Problems)
+    made = reduce_series(specimens, read_curves(curves), read, settings, plausible)
+    write_table(output["properties"], made[0], PropertiesTable)
+    write_table(output["problems"], made[1], Problems)
 
 
 if __name__ == "__main__":

@@ -1,25 +1,26 @@
-"""Join the properties of all specimens and take the statistics of each group."""
+"""Join the properties of all specimens and summarise each group."""
 
-from collections.abc import Sequence
 from typing import Any
 
 from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
+from nptcs.files import read_model
+from nptcs.ingest.repeats import counted_once
 from nptcs.reduce.statistics import group_statistics
+from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_tables, write_table
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.statistics import StatisticsTable
 
 
-def summarise(
-    job: dict[str, Any], properties: Sequence[str], specimens: str, statistics: str
-) -> None:
+def summarise(job: dict[str, Any], properties: list[str], records: list[str], **out: str) -> None:
     sheet = [Specimen.model_validate(row) for row in job["specimens"]]
+    specimens = counted_once(sheet, (read_model(file, IngestRecord) for file in records))
     settings = ReductionSettings.model_validate(job["settings"])
     table = read_tables(properties, PropertiesTable)
-    write_table(specimens, table, PropertiesTable)
-    write_table(statistics, group_statistics(table, sheet, settings), StatisticsTable)
+    write_table(out["specimens"], table, PropertiesTable)
+    write_table(out["statistics"], group_statistics(table, specimens, settings), StatisticsTable)
 
 
 if __name__ == "__main__":

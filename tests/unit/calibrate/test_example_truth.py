@@ -14,7 +14,7 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.config.reduction import AstmD3039, AstmD3518, ReductionSettings
 from nptcs.example import truth
 from nptcs.ingest import Ingested, ingest_specimen, load_profiles
-from nptcs.reduce import reduce_specimen
+from nptcs.reduce import reduce_record
 from nptcs.reduce.statistics import group_statistics
 from nptcs.tables.material_card import Quantity
 from nptcs.tables.specimens import Specimen, read_sheet
@@ -34,8 +34,7 @@ class Example(NamedTuple):
         tables = []
         for specimen in self.specimens:
             done = self.ingested[specimen.specimen]
-            source, flags = done.record.strain_source, done.record.flags
-            tables.append(reduce_specimen(done.curve, specimen, settings, source, flags))
+            tables.append(reduce_record(done.curve, specimen, done.record, settings))
         return pd.concat(tables, ignore_index=True)
 
 

@@ -30,7 +30,12 @@ CASES: list[tuple[Any, list[float]]] = [
 IDS = ["neo_hookean", "mooney_rivlin", "yeoh", "ogden1", "ogden2", "ogden3"]
 STRETCH = np.array([0.6, 0.8, 0.99, 1.01, 1.15, 1.5, 2.0, 3.0])
 # forces that do work when λ grows: one, two (equibiaxial) and one
-WORKING = {"rubber_tension": 1.0, "rubber_equibiaxial": 2.0, "rubber_pure_shear": 1.0}
+WORKING = {
+    "rubber_tension": 1.0,
+    "rubber_equibiaxial": 2.0,
+    "rubber_pure_shear": 1.0,
+    "rubber_compression": 1.0,
+}
 
 
 def data(

@@ -37,6 +37,7 @@ def rows(names: Sequence[str], values: Sequence[float], **columns: Any) -> pd.Da
         "origin": "measured",
         "range_low": 0.001,
         "range_high": 0.003,
+        "origin_effect_percent": np.nan,
     }
     table = [
         {**fields, "specimen": n, "value": v, **columns} for n, v in zip(names, values, strict=True)

@@ -160,9 +160,9 @@ def test_tables_of_a_solver_are_rows_of_plain_values(tmp_path):
     ("content", "message"),
     [
         (None, "does not exist"),
-        (b"case,x\n1,2\n1,2,3\n", "no CSV table: .*line 3"),
-        (b"", "no CSV table"),
-        ("case,µ\n1,2\n".encode("utf-16"), "no CSV table"),
+        (b"case,x\n1,2\n1,2,3\n", "not a CSV table: .*line 3"),
+        (b"", "not a CSV table"),
+        ("case,µ\n1,2\n".encode("utf-16"), "not a CSV table"),
         (b"case,x\n", "no rows"),
     ],
     ids=["missing", "ragged", "empty", "not UTF-8", "header alone"],

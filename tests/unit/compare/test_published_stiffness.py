@@ -1,4 +1,4 @@
-"""Computed beside published stiffness, by hand."""
+"""Computed against published stiffness, by hand."""
 
 import numpy as np
 import pandas as pd

@@ -1,4 +1,4 @@
-"""Single spokes beside table 10, and the neutral lines of named cases."""
+"""Single spokes against table 10, and the neutral lines of named cases."""
 
 from pathlib import Path
 

@@ -41,16 +41,16 @@ def changed(path, value):
         (["studies", 0, "calibration_cases"], {"lca": [1]}, "calibration_cases for ['lca']"),
         (
             ["studies", 0, "calibration_cases"],
-            {"fe_tyre": [63, 64]},
+            {"fe_tyre_paper": [63, 64]},
             "[64] not among cases 1 to 63",
         ),
         (["studies", 1, "neutral_line_cases"], [0], "neutral_line_cases: [0] not among cases 1 to"),
         (["studies", 1, "published_spoke_stiffness"], "x.csv", "the only factor is spoke_c10_mpa"),
-        (["studies", 1, "name"], "plate", "a name is given twice"),
+        (["studies", 1, "name"], "plate", "a name is used twice"),
         (["studies"], [], "studies"),
         (["sensitivity", "rules"], ["mean"], "sensitivity.rules.0"),
-        (["tyre"], {"rim_diameter_mm": 700}, "radii must grow"),
-        (["tyre"], {"plate_width_mm": 216}, "plate_width_mm must not be above tread_width_mm"),
+        (["tyre"], {"rim_diameter_mm": 700}, "radii must increase"),
+        (["tyre"], {"plate_width_mm": 216}, "plate_width_mm must not exceed tread_width_mm"),
         (["tyre"], {"rim_width_mm": 165.1}, "tyre.rim_width_mm"),
         (["campaign"], {"batches": 0}, "campaign.batches"),
     ],
@@ -83,7 +83,7 @@ def test_default_configuration_is_sound():
 
 def test_a_solver_that_cannot_see_a_factor_refuses_it_by_name():
     with pytest.raises(InputError) as refusal:
-        checked(["studies", 0, "solvers"], ["published", "lca", "fe_tyre"])
+        checked(["studies", 0, "solvers"], ["published", "lca", "fe_tyre_paper"])
     assert "solver 'lca' cannot see angle_deg, spacing_mm, thickness_mm" in str(refusal.value)
     assert "studies.plate.solvers" in str(refusal.value)
 
@@ -133,7 +133,7 @@ def test_table_10_beside_tyres_is_refused():
 @pytest.mark.parametrize(
     ("name", "change"),
     [
-        ("plate", {"solvers": ["fe_tyre"], "solver_options": {}}),
+        ("plate", {"solvers": ["fe_tyre_paper"], "solver_options": {}}),
         ("plate", {"calibration_cases": {"published": [1]}}),
         ("spoke", {"calibration_cases": {"fe_spoke": [1]}}),
     ],
@@ -153,4 +153,4 @@ def test_calibration_cases_that_nothing_compares_are_refused(name, change):
 def test_the_calibration_cases_are_those_of_the_calibration():
     """The default study names the cases on which `nptcs fe-calibrate` fits the section."""
     plate = read_config(DEFAULT).study("plate")
-    assert set(plate.calibration_cases["fe_tyre"]) == set(CASES)
+    assert set(plate.calibration_cases["fe_tyre_paper"]) == set(CASES)

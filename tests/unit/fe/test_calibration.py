@@ -1,12 +1,14 @@
 import numpy as np
 import pytest
 
+from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe import calibration
 from nptcs.fe.calibration import (
     FREE,
     LIMITS,
     START,
+    TYRE_EXPONENTS,
     Problem,
     SpokeTarget,
     TyreTarget,
@@ -17,11 +19,12 @@ from nptcs.tables.material_card import PUBLISHED_PLY
 
 VALUES = {"thickness_mm": 1.8}
 # inside the limits of all dimensions
-INSIDE = START.model_copy(
+INSIDE = FeModel().model_copy(
     update={
-        "geometry": START.geometry.model_copy(
+        "geometry": START.model_copy(
             update={
                 "leg_thickness_mm": 3.0,
+                "block_half_length_mm": 6.5,
                 "foot_thickness_mm": 13.5,
                 "plate_foot_gap_mm": 4.0,
                 "plate_mid_gap_mm": 4.5,
@@ -32,8 +35,8 @@ INSIDE = START.model_copy(
 
 
 def problem():
-    spokes = tuple(SpokeTarget(VALUES, 30.0 + i, 13.0 + i) for i in range(2))
-    tyres = tuple(TyreTarget(VALUES | {"case": i}, 200.0 + 20.0 * i) for i in range(5))
+    spokes = tuple(SpokeTarget(VALUES | {"place": i}, 30.0 + i, 13.0 + i) for i in range(2))
+    tyres = tuple(TyreTarget(VALUES | {"place": 2 + i}, 200.0 + 20.0 * i) for i in range(5))
     return Problem(
         INSIDE, TyreGeometry(), PUBLISHED_PLY, spokes, tyres, 5000.0, prior=1e-6, damping=1e-6
     )
@@ -93,15 +96,24 @@ def test_rounds_walk_to_a_manufactured_section(monkeypatch):
     """The whole loop on a law that is a power of the dimensions, and bends a little."""
     rng = np.random.default_rng(4)
     goal = SECTION + 0.4 * np.array([0.02, 0.03, -0.04, 0.02, 0.05, 0.01, -0.03, 0.04, -0.02])
-    powers, bend = rng.normal(size=(2, 9, len(FREE)))
+    # of the spokes of all targets; a tyre's stiffness is a product of powers of its spoke's two
+    powers, bend = rng.normal(size=(2, 7, 2, len(FREE)))
     case = problem()
-    places = {id(target): i for i, target in enumerate([*case.spokes, *case.tyres])}
+
+    def moved(values, free):
+        place = int(values["place"])
+        return powers[place] @ (free - goal) + bend[place] @ (free - goal) ** 2
+
+    def spoke(problem_, job):
+        free, values = job
+        return list(moved(values, free))
 
     def computed(problem_, job):
         free, target = job
-        logarithms = TARGETS + powers @ (free - goal) + bend @ (free - goal) ** 2
-        i = places[id(target)]
-        return logarithms[2 * i : 2 * i + 2] if i < 2 else logarithms[i + 2 : i + 3]
+        place = int(target.values["place"])
+        if place < 2:
+            return list(TARGETS[2 * place : 2 * place + 2] + moved(target.values, free))
+        return [TARGETS[2 + place] + TYRE_EXPONENTS @ moved(target.values, free)]
 
     class Pool:
         def __init__(self, workers):
@@ -113,7 +125,8 @@ def test_rounds_walk_to_a_manufactured_section(monkeypatch):
         def __exit__(self, *error):
             return None
 
-    monkeypatch.setattr(calibration, "_job", lambda *job: computed(*job).tolist())
+    monkeypatch.setattr(calibration, "_job", computed)
+    monkeypatch.setattr(calibration, "_spoke_job", spoke)
     monkeypatch.setattr(calibration, "ProcessPoolExecutor", Pool)
     seen = []
     model = calibrate(case, 6, 1, seen.append)

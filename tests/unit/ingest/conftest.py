@@ -1,11 +1,15 @@
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
+from nptcs.arrays import Array
+from nptcs.config.ingest import IngestSettings
+from nptcs.ingest import Ingested, ingest_specimen
 from nptcs.ingest.reading.profiles import FormatProfile, load_profiles
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.tables.specimens import Specimen
@@ -48,3 +52,65 @@ def coupon() -> Callable[..., Specimen]:
         return Specimen(**(standard | fields))
 
     return coupon
+
+
+class Lab:
+    """Ingests small invented files as a laboratory would, and measures what came out."""
+
+    cases = ROOT / "tests" / "unit" / "labcases"
+
+    def __init__(self, profiles: Mapping[str, FormatProfile]) -> None:
+        self.profiles = profiles
+
+    def ingest(self, folder: Path, force_file: str, **fields: Any) -> Ingested:
+        """Ingest a file as a coupon of 10 mm², unless the fields say another."""
+        standard: dict[str, Any] = {
+            "specimen": "S",
+            "test": "tension",
+            "material": "m",
+            "orientation_deg": 0,
+            "width_mm": (10.0,),
+            "thickness_mm": (1.0,),
+            "force_file": force_file,
+        }
+        specimen = Specimen(**(standard | fields))
+        return ingest_specimen(specimen, folder, IngestSettings(), self.profiles)
+
+    @staticmethod
+    def modulus(done: Ingested, low: float = 0.001, high: float = 0.003) -> float:
+        """Least-squares slope of stress over strain, independent of the reduction."""
+        strain, stress = done.curve["strain_axial"], done.curve["stress_mpa"]
+        used = (strain.abs() >= low) & (strain.abs() <= high)
+        return float(np.polyfit(strain[used], stress[used], 1)[0])
+
+    @staticmethod
+    def last_strain(done: Ingested) -> float:
+        """Strain in the row of the largest force; NaN if none was measured there."""
+        row = done.curve["stress_mpa"].abs().idxmax()
+        return float(done.curve.loc[row, "strain_axial"])
+
+    @staticmethod
+    def flagged(done: Ingested, text: str) -> bool:
+        """Tell whether a flag of the record holds a text."""
+        return any(text in flag for flag in done.record.flags)
+
+    @staticmethod
+    def write(
+        path: Path,
+        columns: Mapping[str, Sequence[float] | Array],
+        delimiter: str = ",",
+        decimal: str = ".",
+        head: Sequence[str] = (),
+        encoding: str = "utf-8",
+    ) -> Path:
+        """Write columns of numbers under their names."""
+        lines = [*head, delimiter.join(columns)]
+        for row in zip(*columns.values(), strict=True):
+            lines.append(delimiter.join(f"{value:.9g}".replace(".", decimal) for value in row))
+        path.write_text("\n".join(lines) + "\n", encoding=encoding)
+        return path
+
+
+@pytest.fixture(scope="session")
+def lab(profiles: Mapping[str, FormatProfile]) -> Lab:
+    return Lab(profiles)

@@ -14,20 +14,22 @@ from nptcs.config.ingest import (
     IngestSettings,
     MissingValues,
     OriginOfStrain,
+    Signs,
 )
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.plausible import check_physics
+from nptcs.ingest.conditioning.sensors import empty_after_removal
 from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signs import orient
 from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
-    empty_after_removal,
     empty_spikes,
     mark_dead,
     zero_force,
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
-from nptcs.ingest.conditioning.strains import orient, resolve_strains
+from nptcs.ingest.conditioning.strains import resolve_strains
 
 PATH = Path("a.csv")
 FORCE = np.linspace(0, 1000, 101)
@@ -103,7 +105,7 @@ def test_compression_is_negative_whatever_the_machine_writes(coupon, force_sign,
     specimen = coupon(test="compression")
     signals, _ = resolve(specimen, strain=strain_sign * 1e-5 * FORCE)
     signals.values["force"] = force_sign * FORCE
-    orient(signals, specimen, PATH)
+    orient(signals, specimen, PATH, Signs())
     assert signals.values["force"][-1] == -1000
     assert signals.values["strain_axial"][-1] == pytest.approx(-0.01)
 
@@ -111,7 +113,7 @@ def test_compression_is_negative_whatever_the_machine_writes(coupon, force_sign,
 def test_tension_specimen_that_shortens_is_refused(coupon):
     signals, _ = resolve(coupon(), strain=-1e-5 * FORCE)
     with pytest.raises(InputError, match="falls while a tension test"):
-        orient(signals, coupon(), PATH)
+        orient(signals, coupon(), PATH, Signs())
 
 
 def conditioned(strain, force=FORCE, transverse=None):
@@ -266,13 +268,21 @@ def test_toe_is_shifted_and_cut():
 
 
 @pytest.mark.parametrize("seed", range(5))
-def test_a_clean_curve_is_not_moved_beyond_its_noise(seed):
+def test_a_clean_curve_is_not_moved_by_its_noise(seed):
     stress = np.linspace(0, 700, 400)
     noise = 2e-5 * np.random.default_rng(seed).standard_normal(400)
     signals = conditioned(stress / E_MPA + noise, 10 * stress)
     correct_origin(signals, OriginOfStrain(), rubber=False)
     numbers = signals.steps[-1].numbers
-    assert abs(numbers["shift_strain_axial"]) < 4 * numbers["standard_error"]
+    assert "shift_strain_axial" not in numbers
+    assert abs(numbers["found"]) <= 3 * np.hypot(numbers["standard_error"], numbers["model_error"])
+    assert np.array_equal(signals.values["strain_axial"], stress / E_MPA + noise)
+    # with a limit of zero the same shift is applied, and says how sure it is
+    signals = conditioned(stress / E_MPA + noise, 10 * stress)
+    correct_origin(signals, OriginOfStrain(significance=0), rubber=False)
+    shifted = signals.steps[-1].numbers
+    assert shifted["shift_strain_axial"] == pytest.approx(numbers["found"])
+    assert shifted["standard_error"] == pytest.approx(numbers["standard_error"])
 
 
 @pytest.mark.parametrize("toe", [0.0, 0.005])

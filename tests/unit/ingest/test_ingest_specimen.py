@@ -16,7 +16,8 @@ from nptcs.commands import inspect, new_sheet
 from nptcs.config.ingest import ForceZero, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
-from nptcs.ingest.folder import account_for_files, find_file, natural_key
+from nptcs.ingest.account import account_for_files
+from nptcs.ingest.folder import find_file, natural_key
 from nptcs.ingest.new_sheet import specimen_id
 from nptcs.ingest.reading.profiles import load_profiles, read_profile
 from nptcs.tables.curves import Curve, IngestRecord
@@ -297,7 +298,8 @@ def test_new_sheet_pairs_by_name_and_leaves_open_what_it_cannot_know(tmp_path, c
         ("a/T0-1_vic3d.csv", "T0-1"),
         ("Probe 3 Kraft.txt", "Probe_3"),
         ("x_raw_data.csv", "x"),
-        ("é.csv", "specimen"),
+        ("é.csv", "e"),
+        ("力.csv", "specimen"),
     ],
 )
 def test_specimen_id_from_a_file_name(name, expected):
@@ -308,7 +310,7 @@ def test_specimen_id_from_a_file_name(name, expected):
     ("text", "message"),
     [
         ("name: x\ntitle: t\ncolums: {}\n", "colums"),
-        ("name: x\ntitle: t\nunits: {force: kp}\n", "no unit of force"),
+        ("name: x\ntitle: t\nunits: {force: kpp}\n", "no unit of force"),
         ("name: x\ntitle: t\nsignature: ['(']\n", "expression"),
         ("name: x\ntitle: t\nthousands: ','\n", "thousands"),
         ("name: x\ntitle: t\ndelimiter: ','\ndecimal: ','\n", "same"),

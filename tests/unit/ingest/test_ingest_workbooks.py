@@ -12,6 +12,7 @@ from pathlib import Path
 import openpyxl
 import pytest
 
+from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.workbooks import read_workbook
 
@@ -121,14 +122,14 @@ def without_default_style(content):
 def test_warnings_of_the_library_are_notes_of_each_file(tmp_path):
     content = without_default_style(workbook(tmp_path, {"A": [NAMES, UNITS, *ROWS]}))
     for _ in range(2):
-        _, notes = read_workbook(tmp_path / "made.xlsx", content, frozenset())
+        _, notes = read_workbook(tmp_path / "made.xlsx", content, frozenset(), FileLimits())
         assert notes == ("Workbook contains no default style, apply openpyxl's default",)
 
 
 def test_other_warnings_are_left_to_the_caller(tmp_path, monkeypatch):
-    def deprecated(raw):
+    def deprecated(path, raw, limits):
         warnings.warn("old call", DeprecationWarning, stacklevel=1)
 
     monkeypatch.setattr("nptcs.ingest.reading.workbooks._xlsx", deprecated)
     with pytest.raises(DeprecationWarning, match="old call"):
-        read_workbook(tmp_path / "made.xlsx", b"PK\x03\x04", frozenset())
+        read_workbook(tmp_path / "made.xlsx", b"PK\x03\x04", frozenset(), FileLimits())

@@ -109,3 +109,42 @@ def test_section_that_is_no_rectangle():
     )
     assert specimen.area_mm2 == 19.66
     assert specimen.mean_width_mm is None
+
+
+LATER = HEAD + ",piece,properties,loading,failed,date,diameter_mm,platens"
+
+
+def test_optional_columns_of_runs_and_conditions(tmp_path):
+    rows = (
+        "A-1,tension,cfrp,0,15,0.9,a.csv,yes,,A,modulus;poisson_ratio,Last,no,2026-03-31,,",
+        "A-2,tension,cfrp,0,15,0.9,b.csv,yes,,A,strength,,,,,",
+        "D,rubber_compression,nbr,,,,d.csv,yes,,,,4,,,29.0;29.1,lubricated",
+    )
+    (run, rupture, disc), errors = read_sheet(sheet(tmp_path, *rows, head=LATER))
+    assert errors == []
+    assert run.tested_piece == rupture.tested_piece == "A"
+    assert (run.gives("modulus"), run.gives("strength")) == (True, False)
+    assert (run.loading, run.failed, rupture.failed) == ("last", False, None)
+    assert run.date.isoformat() == "2026-03-31"
+    assert disc.tested_piece == "D"
+    assert disc.area_mm2 == pytest.approx(662.8, abs=0.1)
+
+
+@pytest.mark.parametrize(
+    ("row", "column"),
+    [
+        ("A-2,tension,gfrp,0,15,0.9,b.csv,yes,,A,,,,,,", "piece"),
+        ("B,tension,cfrp,0,15,0.9,b.csv,yes,,,shear_modulus,,,,,", "properties"),
+        ("B,tension,cfrp,0,15,0.9,b.csv,yes,,,,0,,,,", "loading"),
+        ("B,tension,cfrp,0,15,0.9,b.csv,yes,,,,,perhaps,,,", "failed"),
+        ("B,tension,cfrp,0,15,0.9,b.csv,yes,,,,,,31.3.2026,,", "date"),
+        ("B,flexure,cfrp,0,15,0.9,b.csv,yes,,,,,,,,", "span_mm"),
+        ("B,rubber_compression,nbr,,,,b.csv,yes,,,,,,,29,oiled", "platens"),
+    ],
+)
+def test_a_bad_optional_cell_names_its_column(tmp_path, row, column):
+    good = "A-1,tension,cfrp,0,15,0.9,a.csv,yes,,A,,,,,,"
+    specimens, (error,) = read_sheet(sheet(tmp_path, good, row, head=LATER))
+    assert [specimen.specimen for specimen in specimens] == ["A-1"]
+    assert error.column == column
+    assert error.remedy

@@ -31,12 +31,12 @@ def test_a_table_in_and_the_same_rows_out(tmp_path, capsys):
     assert list(result["status"]) == ["ok", "bad_input", "bad_input", "beyond_model"]
     assert result["displacement_mm"][0] == pytest.approx(20.7413568, rel=1e-8)
     assert result["message"][1].startswith("tension_n_per_mm must be")
-    assert result["message"][2] == "tension_n_per_mm is no number: 'x'"
+    assert result["message"][2] == "tension_n_per_mm is not a number: 'x'"
     assert "more than the 87.97 mm" in result["message"][3]
     assert result["displacement_mm"][1:].isna().all()
     said = capsys.readouterr()
     assert "2 bad_input" in said.out
-    assert "columns carried along, not used: name" in said.err
+    assert "columns copied to the output but not used: name" in said.err
 
 
 def test_all_rows_right_is_exit_code_zero(tmp_path):
@@ -69,10 +69,10 @@ def test_senseless_arguments_are_one_clear_line(tmp_path, capsys, arguments, tex
 @pytest.mark.parametrize(
     ("content", "text"),
     [
-        ("", "no CSV table"),
+        ("", "is not a CSV table"),
         (HEADER + "\n", "the table has no rows"),
         ("shear_band_c10_mpa,load_n\n5,5000\n", "column 'tension_n_per_mm': column is missing"),
-        (HEADER + ",status\na,5,30,13,5000,fine\n", "this column is a result"),
+        (HEADER + ",status\na,5,30,13,5000,fine\n", "this column has the name of a result"),
     ],
 )
 def test_bad_tables_name_the_file(tmp_path, capsys, content, text):

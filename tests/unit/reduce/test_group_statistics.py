@@ -38,6 +38,7 @@ def properties(
             "origin": "measured",
             "range_low": 0.001,
             "range_high": 0.003,
+            "origin_effect_percent": np.nan,
         }
         | columns
         for i, value in enumerate(values, start=1)
@@ -74,20 +75,28 @@ def test_b_basis_factors_are_those_of_cmh_17_table_8_5_10(n: int, published: flo
 
 
 def test_known_sample(make_specimen: Make) -> None:
-    table = properties([1.0, 2.0, 3.0, 4.0, 10.0])
+    table = properties([21.0, 22.0, 23.0, 24.0, 30.0])
     row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
-    assert row["n"] == 5
-    assert row["mean"] == 4.0
-    assert row["median"] == 3.0
+    assert row["n"] == row["group_size"] == 5
+    assert row["mean"] == 24.0
+    assert row["median"] == 23.0
     assert row["standard_deviation"] == pytest.approx(np.sqrt(50 / 4))
-    assert row["cv_percent"] == pytest.approx(100 * np.sqrt(12.5) / 4)
+    assert row["cv_percent"] == pytest.approx(100 * np.sqrt(12.5) / 24)
     # t(0.975, 4) = 2.776
     half = 2.7764 * np.sqrt(12.5) / np.sqrt(5)
-    assert (row["ci95_low"], row["ci95_high"]) == pytest.approx((4 - half, 4 + half), abs=1e-3)
+    assert (row["ci95_low"], row["ci95_high"]) == pytest.approx((24 - half, 24 + half), abs=1e-3)
     assert row["mnr"] == pytest.approx(6 / np.sqrt(12.5))
     assert row["outlier_specimens"] == ""
-    assert row["b_basis"] == pytest.approx(4 - 3.407 * np.sqrt(12.5), abs=2e-3)
+    assert row["b_basis"] == pytest.approx(24 - 3.407 * np.sqrt(12.5), abs=1e-2)
     assert "provisional: n = 5 < 18" in row["notes"]
+
+
+def test_a_basis_value_that_would_be_negative_is_none(make_specimen: Make) -> None:
+    table = properties([1.0, 2.0, 3.0, 4.0, 10.0])
+    row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
+    assert np.isnan(row["b_basis"])
+    assert row["k_b"] > 0
+    assert "no B-basis: not above zero" in row["notes"]
 
 
 def test_outlier_is_flagged_and_stays_in(make_specimen: Make) -> None:
@@ -113,7 +122,9 @@ def test_values_not_assessed_are_named_and_empty_groups_stay(make_specimen: Make
     table = properties([1.0, np.nan, 3.0])
     row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
     assert (row["n"], row["mean"]) == (2, 2.0)
-    assert "not assessed: T-2" in row["notes"]
+    assert "assessed: 2 of 3; not assessed: T-2" in row["notes"]
+    assert row["group_size"] == 3
+    assert row["not_assessed"].startswith("T-2: ")
     table = properties([np.nan])
     row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
     assert row["n"] == 0

@@ -1,17 +1,21 @@
 """Published answers of real files; the files lie beside the repository, not in it."""
 
 from collections.abc import Callable
+from functools import partial
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pytest
 
+import nptcs.reduce
+from nptcs.config.ingest import Plausible
 from nptcs.config.reduction import AstmD3039, Iso527, ReductionSettings
-from nptcs.reduce import reduce_specimen
 from nptcs.reduce.chord import chord_slope
 
 Make = Callable[..., Any]
+# most curves here end at their largest force: the ingest saw the break
+reduce_specimen = partial(nptcs.reduce.reduce_specimen, failure_seen=True)
 LABDATA = Path(__file__).resolve().parents[3] / ".." / "shared" / "labdata"
 EPOXY = [
     ("001", "exx", "eyy", 5.30, 0.27),
@@ -67,7 +71,9 @@ def test_testxpert_states_the_same_modulus(
     settings = ReductionSettings(
         tension_standard="iso_527_4", iso_527_4=Iso527(chord_method=method)
     )
-    table = reduce_specimen(curve, specimen, settings, "extensometer")
+    # a film that stretches to three times its length, tested as a laminate
+    stretchy = Plausible(strain_composite=5.0)
+    table = reduce_specimen(curve, specimen, settings, "extensometer", plausible=stretchy)
     assert value_of(table, "modulus") == pytest.approx(modulus_mpa, abs=0.05)
     # the program states 37.9483 N/mm² at 306.402 %
     assert value_of(table, "strength") == pytest.approx(37.9483, rel=1e-4)

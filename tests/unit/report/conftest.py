@@ -380,7 +380,7 @@ def shape(solver, depth_mm):
 
 @pytest.fixture(scope="session")
 def compared(results):
-    """The run of the default studies with a made-up fe_tyre and fe_spoke beside the paper."""
+    """The run of the default studies with a made-up fe_tyre and fe_spoke to compare."""
     values = yaml.safe_load((ROOT / "config" / "config.yaml").read_text("utf-8"))
     values["studies"] = [study for study in values["studies"] if study["name"] != "tested"]
     for study in values["studies"]:

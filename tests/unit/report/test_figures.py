@@ -6,7 +6,7 @@ import pytest
 
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
-from nptcs.report.figures.lca import load_displacement, ring_neutral_line
+from nptcs.report.figures.lca import deformed_ring, load_displacement
 from nptcs.report.figures.materials import DRAWN_POINTS, hyperelastic_fit, stress_strain, thinned
 from nptcs.report.figures.style import to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
@@ -113,13 +113,13 @@ def test_impact_bars_are_the_table(results, config):
     for rule, bars in zip(rules, axes.containers, strict=True):
         widths = [bar.get_width() for bar in bars]
         np.testing.assert_allclose(widths, [table[(rule, *key)] for key in keys])
-    printed = axes.get_lines()[0].get_xdata()
-    np.testing.assert_allclose(printed, [319.83, 54.93, 38.60, 21.91, 15.97])
+    published = axes.get_lines()[0].get_xdata()
+    np.testing.assert_allclose(published, [319.83, 54.93, 38.60, 21.91, 15.97])
 
 
 def test_the_ring_stands_on_the_ground(results):
     shape = results.table(LcaNeutralLine)
-    figure = ring_neutral_line(shape, 431.8)
+    figure = deformed_ring(shape, 431.8)
     drawn = lines(figure)
     lowest = np.nanmin(drawn["contact"].get_ydata())
     assert lowest == pytest.approx(shape["y_mm"].min())

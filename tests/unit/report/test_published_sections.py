@@ -1,4 +1,4 @@
-"""Sections on the single spoke and on computed beside published stiffness."""
+"""Sections on the single spoke and on computed against published stiffness."""
 
 import re
 from dataclasses import replace
@@ -223,14 +223,14 @@ def test_curves_lines_and_printed_ends_are_drawn(compared):
 
 
 def test_the_ranking_is_compared_with_table_9(compared):
-    printed = compared.table(Impact).dropna(subset=["published_impact"])
-    words = verdicts(compared, printed)
+    published = compared.table(Impact).dropna(subset=["published_impact"])
+    words = verdicts(compared, published)
     assert len(words) == 6
     assert (
         "published, domain mean absolute, 5 factors: spoke C10 (S-C) > plate spacing S > shear "
         "band C10 (T-C) > fibre angle A > plate thickness T: the same as in table 9." in words
     )
-    table, headings = published_ranking(printed)
+    table, headings = published_ranking(published)
     assert list(table["published_rank"][:5]) == [1, 2, 3, 4, 5]
     assert list(table["published_impact"][:5]) == [319.83, 54.93, 38.60, 21.91, 15.97]
     assert str(headings["impact_fe_tyre"]) == "fe_tyre, impact [N/mm]"
@@ -246,8 +246,8 @@ def test_near_ties_are_named_with_the_ranking(compared):
 def test_another_ranking_is_said_to_be_another(compared):
     swapped = compared.table(Impact).copy()
     rows = swapped["solver"] == "fe_tyre"
-    printed = swapped.loc[rows, "published_rank"]
-    swapped.loc[rows, "rank"] = printed.map({1: 1, 2: 2, 3: 3, 4: 5, 5: 4})
+    published = swapped.loc[rows, "published_rank"]
+    swapped.loc[rows, "rank"] = published.map({1: 1, 2: 2, 3: 3, 4: 5, 5: 4})
     words = verdicts(
         replace(compared, tables={**compared.tables, "impact.csv": swapped}),
         swapped.dropna(subset=["published_impact"]),

@@ -131,7 +131,7 @@ def test_a_job_that_solves_another_model_is_not_waited_for():
 
 
 def test_accepted_warnings_are_patterns():
-    with pytest.raises(ValueError, match="no regular expression"):
+    with pytest.raises(ValueError, match="not a regular expression"):
         abaqus.AbaqusOptions(accepted_warnings=("(",))
 
 

@@ -10,7 +10,7 @@ from nptcs.config.tyre import TyreGeometry
 from nptcs.decks.calculix import complaints
 from nptcs.errors import InputError
 from nptcs.solvers import calculix, fe_spoke, fe_tyre
-from nptcs.solvers.contract import CaseInputs, Status
+from nptcs.solvers.contract import SPOKE_RESPONSES, CaseInputs, Status
 from nptcs.solvers.registry import model_choices
 from nptcs.tables.material_card import PUBLISHED_PLY
 
@@ -85,6 +85,7 @@ def test_fe_spoke_gives_curve_and_lines():
     assert len(result.curve["force_n"]) == 57
     assert result.curve["displacement_mm"][0] == -20.0
     extra = result.extra
+    assert list(extra) == list(SPOKE_RESPONSES)
     assert extra["tension_stiffness_n_per_mm"] > extra["compression_stiffness_n_per_mm"] > 0.0
     assert extra["tension_r2_centred"] < extra["tension_r2_uncentred"]
 
@@ -198,6 +199,8 @@ def test_calculix_results_are_scaled_to_the_whole_spoke(tmp_path):
     wanted = 2.0 * 15  # plates of a leg, table 4
     assert result.extra["tension_stiffness_n_per_mm"] == pytest.approx(wanted)
     assert result.extra["compression_stiffness_n_per_mm"] == pytest.approx(wanted)
+    assert list(result.extra) == list(SPOKE_RESPONSES)
+    assert result.extra["compression_r2_centred"] == pytest.approx(1.0)
 
 
 def test_complaints_are_found_at_the_start_of_a_line():

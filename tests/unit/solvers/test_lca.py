@@ -103,7 +103,7 @@ def test_load_beyond_the_wheel_is_an_error_with_a_reason():
     ("rows", "text"),
     [
         (TABLE_10[:1], "needs at least two rows"),
-        ([*TABLE_10, TABLE_10[0]], "a C10 comes twice"),
+        ([*TABLE_10, TABLE_10[0]], "a C10 is given twice"),
         ([TABLE_10[0], {"spoke_c10_mpa": 2}], "tension_stiffness_n_per_mm"),
         ([TABLE_10[0], TABLE_10[1] | {"compression_stiffness_n_per_mm": -1}], "above zero"),
     ],

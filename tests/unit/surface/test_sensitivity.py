@@ -129,7 +129,7 @@ def test_ranks_are_among_the_factors_that_have_a_printed_value():
             ],
             "rule": "domain_mean_signed",
             "gradient": 1.0,
-            # another range of the thickness: it stands beside nothing
+            # another range of the thickness: it is compared with nothing
             "range": [10.0, 2.0, 90.0, 1.0, 4.0],
             "nominal_range": [10.0, 2.0, 90.0, 1.0, 4.0],
             "values_used": "",

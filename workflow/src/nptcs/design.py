@@ -87,6 +87,21 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
     The last factor of the configuration changes fastest, so that spacing × thickness × angle
     gives the numbering of table 5 and T-C × S-C that of table 7. Parameters, result and errors
     as `build_design`.
+
+    Examples
+    --------
+    >>> from nptcs.config.study import Study
+    >>> angle = {"name": "angle_deg", "label": "A", "unit": "deg", "levels": [0, 45, 90]}
+    >>> spacing = {"name": "spacing_mm", "label": "S", "unit": "mm", "levels": [10, 20]}
+    >>> study = Study(name="plate", title="", factors=[spacing, angle], solvers=["fe_tyre"])
+    >>> print(full_factorial(study, {}).to_string(index=False))
+      case_id  case  spacing_mm  angle_deg
+    plate_001     1        10.0        0.0
+    plate_002     2        10.0       45.0
+    plate_003     3        10.0       90.0
+    plate_004     4        20.0        0.0
+    plate_005     5        20.0       45.0
+    plate_006     6        20.0       90.0
     """
     points = _combinations(_levels(study, rubber_c10_mpa))
     names = [factor.name for factor in study.factors]

@@ -26,6 +26,11 @@ class InputError(ValueError):
         Specimen id or case id.
     value : object, optional
         The offending value, quoted in the text.
+
+    Examples
+    --------
+    >>> print(InputError("not a number", "correct it", "a.csv", 12, "force", value="x"))
+    a.csv:12, column 'force': not a number (value: 'x'). Remedy: correct it
     """
 
     message: str

@@ -19,19 +19,31 @@ Model = TypeVar("Model", bound=BaseModel)
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """Give a temporary name beside `path`; rename it to `path` when the block ends well.
+    """Give a temporary name next to `path`; rename it to `path` when the block ends well.
 
     A reader sees the old file or the new one, never half of it, also after ``kill -9``.
 
     Parameters
     ----------
     path : str or Path
-        Where the finished file shall be; its folder is made.
+        Where the finished file goes; its folder is created.
 
     Yields
     ------
     Path
         The name to write to, with the same suffix.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> with TemporaryDirectory() as folder:
+    ...     target = Path(folder) / "table.csv"
+    ...     with atomic_path(target) as temporary:
+    ...         _ = temporary.write_text("a,b")
+    ...         print(target.exists())
+    ...     print(target.exists())
+    False
+    True
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
@@ -80,7 +92,7 @@ def read_model(path: str | Path, model: type[Model]) -> Model:
     except (ValidationError, UnicodeDecodeError) as error:
         first = str(error).splitlines()
         raise InputError(
-            f"this file does not hold a {model.__name__}: {' '.join(first[:3])}", remedy, file=path
+            f"this file is not a sound {model.__name__}: {' '.join(first[:3])}", remedy, file=path
         ) from None
 
 
@@ -91,5 +103,11 @@ def sha256_of_file(path: str | Path) -> str:
 
 
 def sha256_of_text(text: str) -> str:
-    """SHA-256 of a text's UTF-8 bytes, as 64 hexadecimal digits."""
+    """SHA-256 of a text's UTF-8 bytes, as 64 hexadecimal digits.
+
+    Examples
+    --------
+    >>> sha256_of_text("nptcs")[:12]
+    'dc31111c47cb'
+    """
     return hashlib.sha256(text.encode("utf-8")).hexdigest()

@@ -26,6 +26,14 @@ def rotated_stiffness(ply: Mapping[str, float], angle_deg: float | Array) -> Arr
     """Plane-stress stiffness Q̄ with the fibres at an angle from the plate's axis, MPa.
 
     Shape (3, 3) for one angle, (m, 3, 3) for m angles.
+
+    Examples
+    --------
+    Across the fibres a ply is as stiff as its matrix lets it be:
+
+    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> rotated_stiffness(PUBLISHED_PLY, 90)[0, 0].round(0).item()
+    8878.0
     """
     c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
     # strains of the plate's axes to those of the fibre, engineering shear
@@ -48,6 +56,17 @@ def abd(ply: Mapping[str, float], angle_deg: float | Array, thickness_mm: float 
 
     Shape (6, 6) for one plate, (m, 6, 6) for m angles and thicknesses. A in N/mm, B in N, D in
     N mm; strains and curvatures in the order 11, 22, 12.
+
+    Examples
+    --------
+    Fibres along the plate: no coupling, and D11 = Q11 t³/12:
+
+    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> stiffness = abd(PUBLISHED_PLY, angle_deg=0, thickness_mm=1.2)
+    >>> bool(np.allclose(stiffness[:3, 3:], 0))
+    True
+    >>> round(float(stiffness[3, 3] / reduced_stiffness(PUBLISHED_PLY)[0, 0] / 1.2**3 * 12), 6)
+    1.0
     """
     half = np.asarray(thickness_mm)[..., None, None] / 2.0
     below = rotated_stiffness(ply, angle_deg)

@@ -1,4 +1,4 @@
-"""What code a result rests on, as a hash: Snakemake sees scripts, but not the package.
+"""The code that a result depends on, as a hash: Snakemake sees scripts, but not the package.
 
 The hash covers a script or module and all modules of this package that it imports, directly or
 not, also inside functions. It is taken of the compiled code without docstrings and line numbers,
@@ -38,7 +38,7 @@ def code_hash(*modules: str) -> str:
 
 
 def imported_modules(*modules: str) -> set[str]:
-    """Name the modules of this package that `modules` rest on, themselves included."""
+    """Name the modules of this package that `modules` depend on, themselves included."""
     return {
         ".".join((PACKAGE, *file.relative_to(_ROOT).with_suffix("").parts)).removesuffix(
             ".__init__"
@@ -54,7 +54,7 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
     waiting = [_file(module) for module in modules]
     if None in waiting:
         missing = modules[waiting.index(None)]
-        raise ModuleNotFoundError(f"{missing} is no module of {PACKAGE} and no file")
+        raise ModuleNotFoundError(f"{missing} is neither a module of {PACKAGE} nor a file")
     while waiting:
         file = waiting.pop()
         if file is None or file in found:
@@ -65,7 +65,7 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
 
 
 def _file(module: str) -> Path | None:
-    """Find the file of a module of this package; None for what is none."""
+    """Find the file of a module of this package; None if there is none."""
     if module.endswith(".py"):
         return Path(module).resolve() if Path(module).is_file() else None
     parts = module.split(".")
@@ -87,7 +87,7 @@ def _read(file: Path) -> tuple[tuple[str, ...], bytes]:
 
 
 def _imports(tree: ast.Module) -> Iterator[str]:
-    """Yield all names that may be imported modules, wherever the statement stands."""
+    """Yield all names that may be imported modules, wherever the statement is."""
     statements: list[ast.AST] = [tree]
     while statements:
         node = statements.pop()

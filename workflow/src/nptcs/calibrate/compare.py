@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 
 import pandas as pd
 import pandera.pandas as pa
@@ -11,10 +12,17 @@ from nptcs.calibrate.drucker import instabilities
 from nptcs.calibrate.fit import Model, fit_model
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.models import model_named
-from nptcs.calibrate.observations import Observation, observations, observe
+from nptcs.calibrate.observations import (
+    STRAIN_ENDS,
+    Observation,
+    observations,
+    observe,
+    specimens_in_fit,
+)
 from nptcs.calibrate.rubber import unit_of
 from nptcs.config.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
+from nptcs.reduce.origin import Origin
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.specimens import Specimen
 
@@ -28,12 +36,13 @@ def compare_models(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
+    origins: Mapping[str, Origin] | None = None,
 ) -> pd.DataFrame:
     """Fit each model of the settings to the same points of a rubber.
 
     Parameters
     ----------
-    name, curves, specimens, settings
+    name, curves, specimens, settings, origins
         As for `nptcs.calibrate.rubber.calibrate_rubber`. ``comparison_range`` sets the strain
         range, or else the card's.
 
@@ -44,7 +53,7 @@ def compare_models(
     """
     rubber = settings.rubber
     low, high = rubber.comparison_range or rubber.strain_range
-    data, remarks = observations(name, curves, specimens, rubber, (low, high))
+    data, remarks = observations(name, curves, specimens, rubber, (low, high), origins)
     rows = []
     for model_name in rubber.compare:
         model = model_named(model_name, rubber.ogden_terms)
@@ -119,12 +128,13 @@ def c10_against_range(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
+    origins: Mapping[str, Origin] | None = None,
 ) -> pd.DataFrame:
     """Neo-Hookean C10 for a sequence of strain ranges, of each specimen and of all together.
 
     Parameters
     ----------
-    name, curves, specimens, settings
+    name, curves, specimens, settings, origins
         As for `nptcs.calibrate.rubber.calibrate_rubber`; ``range_highs`` are the upper ends,
         the card's own is added.
 
@@ -135,8 +145,7 @@ def c10_against_range(
     """
     rubber = settings.rubber
     low, own = rubber.strain_range
-    included = [s for s in specimens if s.material == name and s.include and s.test.is_rubber]
-    chosen = [s for s in included if rubber.only_specimen in (None, s.specimen)]
+    chosen = specimens_in_fit(name, specimens, rubber.only_specimen)
     rows = []
     for high in sorted({own, *(h for h in rubber.range_highs if h > low)}):
         common = {
@@ -145,7 +154,10 @@ def c10_against_range(
             "strain_high": high,
             "in_card": high == own,
         }
-        rows += [{**common, **row} for row in _range_rows(curves, chosen, rubber, (low, high))]
+        rows += [
+            {**common, **row}
+            for row in _range_rows(curves, chosen, rubber, (low, high), origins or {})
+        ]
     return RangeTable.validate(_ordered(rows, RangeTable))
 
 
@@ -154,6 +166,7 @@ def _range_rows(
     specimens: Sequence[Specimen],
     settings: RubberSettings,
     strain_range: tuple[float, float],
+    origins: Mapping[str, Origin],
 ) -> list[dict[str, object]]:
     """Rows of one range: a row a specimen, and one for those that reach its end."""
     rows, together = [], []
@@ -165,11 +178,13 @@ def _range_rows(
         except InputError as error:
             rows.append(_empty_range_row(specimen.specimen, error.message))
             continue
-        if remarks:
+        observation = replace(observation, origin=origins.get(specimen.specimen, Origin()))
+        if any(STRAIN_ENDS in text for text in remarks):
             rows.append(_empty_range_row(specimen.specimen, "; ".join(remarks)))
             continue
         together.append(observation)
-        rows.append(_range_row(specimen.specimen, [observation], settings))
+        row = _range_row(specimen.specimen, [observation], settings)
+        rows.append(row | {"remarks": "; ".join(remarks)})
     if not together:
         return [*rows, _empty_range_row("all", "no specimen covers this range")]
     return [*rows, _range_row("all", together, settings)]

@@ -33,6 +33,16 @@ def instabilities(model: Model, constants: Array, largest_strain: float) -> list
         Its constants.
     largest_strain : float
         Upper end of the nominal strain range.
+
+    Examples
+    --------
+    A Mooney–Rivlin rubber with a negative C01 softens in equibiaxial tension:
+
+    >>> from nptcs.calibrate.invariants import MOONEY_RIVLIN, NEO_HOOKEAN
+    >>> instabilities(NEO_HOOKEAN, np.array([1.18]), 1.0)
+    []
+    >>> instabilities(MOONEY_RIVLIN, np.array([1.0, -0.2]), 1.0)
+    ['equibiaxial tension from strain 0.642', 'equibiaxial compression from strain -0.332']
     """
     found = []
     for words, mode in PATHS.items():

@@ -98,7 +98,17 @@ def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> 
     Fit
         The covariance is the delete-one jackknife over specimens within each mode,
         Σ_h (n_h - 1)/n_h Σ_i (c_hi - c̄_h)(c_hi - c̄_h)ᵀ, which is s²/n for a mean; with a
-        single specimen in some mode it is the regression's (HC1), and says so.
+        single specimen in some mode it is the regression's (HC1), and says so. The errors of the
+        strain origins are added: with scatter between specimens their common part alone.
+
+    Examples
+    --------
+    >>> from nptcs.calibrate.invariants import NEO_HOOKEAN
+    >>> stretch = np.linspace(1.01, 1.15, 8)
+    >>> stress = 2 * 1.18 * (stretch - stretch**-2)
+    >>> data = [Observation("R75-1", "rubber_tension", stretch, stress, np.ones(8))]
+    >>> fit_model(NEO_HOOKEAN, data, error_floor=0.1).constants.round(6).tolist()
+    [1.18]
     """
     constants = model.solve(data)
     stress = np.concatenate([o.stress for o in data])
@@ -124,10 +134,43 @@ def _residuals(model: Model, data: Sequence[Observation], constants: Array) -> A
 def _covariance(model: Model, data: Sequence[Observation], constants: Array) -> tuple[Array, str]:
     counts = Counter(o.mode for o in data)
     if min(counts.values()) > 1:
-        return _jackknife(model, data, constants), SCATTER.format(n=len(data))
+        covariance, rule = _jackknife(model, data, constants), SCATTER.format(n=len(data))
+        # each specimen's own error of the origin is in their scatter; the common one is not
+        steps = [o.origin.model_error for o in data]
+        moved = _change(model, data, constants, steps)
+        added = np.outer(moved, moved)
+        return covariance + added, _origin_rule(rule, steps)
     jacobian = np.concatenate([model.jacobian(o.mode, o.stretch, constants) for o in data])
     weight = np.concatenate([o.weight for o in data])
-    return robust_covariance(jacobian, _residuals(model, data, constants), weight), REGRESSION
+    covariance = robust_covariance(jacobian, _residuals(model, data, constants), weight)
+    errors = [o.origin.error for o in data]
+    for index, error in enumerate(errors):
+        alone = [error if i == index else 0.0 for i in range(len(data))]
+        moved = _change(model, data, constants, alone)
+        covariance = covariance + np.outer(moved, moved)
+    return covariance, _origin_rule(REGRESSION, errors)
+
+
+def _origin_rule(rule: str, errors: Sequence[float]) -> str:
+    if not any(errors):
+        return rule
+    return f"{rule}, and strain origins ± {max(errors):.2g}"
+
+
+def _change(
+    model: Model, data: Sequence[Observation], constants: Array, strains: Sequence[float]
+) -> Array:
+    """Half the change of the constants from strains added to those subtracted, shape (k,)."""
+    if not any(strains):
+        return np.zeros(len(constants))
+    ends = [
+        model.solve(
+            [o.moved(sign * strain) for o, strain in zip(data, strains, strict=True)],
+            start=constants,
+        )
+        for sign in (1.0, -1.0)
+    ]
+    return (ends[0] - ends[1]) / 2
 
 
 def _jackknife(model: Model, data: Sequence[Observation], constants: Array) -> Array:

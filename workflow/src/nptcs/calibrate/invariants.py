@@ -7,6 +7,8 @@ Elasticity, chapter 10):
     uniaxial      P = 2 (λ - λ⁻²) (W1 + W2/λ)
     equibiaxial   P = 2 (λ - λ⁻⁵) (W1 + λ² W2)
     pure shear    P = 2 (λ - λ⁻³) (W1 + W2)
+
+Compression of a lubricated disc is uniaxial with λ < 1 and P < 0.
 """
 
 from __future__ import annotations
@@ -20,19 +22,34 @@ from nptcs.arrays import Array
 from nptcs.calibrate.linear import solve_linear
 from nptcs.calibrate.observations import Observation, undetermined
 
-MODES = ("rubber_tension", "rubber_equibiaxial", "rubber_pure_shear")
+MODES = ("rubber_tension", "rubber_equibiaxial", "rubber_pure_shear", "rubber_compression")
 # λ2 = λ^a in each mode, and λ3 = 1/(λ λ2)
-SECOND_STRETCH = {"rubber_tension": -0.5, "rubber_equibiaxial": 1.0, "rubber_pure_shear": 0.0}
+SECOND_STRETCH = {
+    "rubber_tension": -0.5,
+    "rubber_equibiaxial": 1.0,
+    "rubber_pure_shear": 0.0,
+    "rubber_compression": -0.5,
+}
 # P = 2 (λ - λ^b)(W1 + λ^c W2)
 EXPONENTS = {
     "rubber_tension": (-2.0, -1.0),
     "rubber_equibiaxial": (-5.0, 2.0),
     "rubber_pure_shear": (-3.0, 0.0),
+    "rubber_compression": (-2.0, -1.0),
 }
 
 
 def stretches(mode: str, stretch: Array) -> tuple[Array, Array, Array]:
-    """Principal stretches (λ1, λ2, λ3) of a mode; λ1 is in the loading direction."""
+    """Principal stretches (λ1, λ2, λ3) of a mode; λ1 is in the loading direction.
+
+    Examples
+    --------
+    An equibiaxial stretch of 2 thins the sheet to a quarter:
+
+    >>> import numpy as np
+    >>> stretches("rubber_equibiaxial", np.array(2.0))[2].item()
+    0.25
+    """
     second = stretch ** SECOND_STRETCH[mode]
     return stretch, second, 1.0 / (stretch * second)
 
@@ -49,6 +66,17 @@ class InvariantModel:
         Names of the constants c_k, MPa.
     powers : tuple of (int, int)
         (p_k, q_k) of each term.
+
+    Examples
+    --------
+    P = 2 C10 (λ - λ⁻²) at 15 % strain, with the paper's C10 of rubber 75A:
+
+    >>> import numpy as np
+    >>> stress = NEO_HOOKEAN.stress("rubber_tension", np.array([1.15]), np.array([1.18]))
+    >>> stress.round(4).tolist()
+    [0.9295]
+    >>> NEO_HOOKEAN.initial_shear_modulus(np.array([1.18]))
+    2.36
     """
 
     name: str

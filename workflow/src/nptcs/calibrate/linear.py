@@ -28,6 +28,14 @@ def solve_linear(design: Array, target: Array, weight: Array) -> tuple[Array, in
         Of minimum norm where the rank is below k: the caller decides what that means.
     rank : int
         Rank of the scaled design.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> design = np.array([[1.0, 0.0], [1.0, 1.0], [1.0, 2.0]])
+    >>> coefficients, rank = solve_linear(design, np.array([1.0, 3.0, 5.0]), np.ones(3))
+    >>> coefficients.round(6).tolist(), rank
+    ([1.0, 2.0], 2)
     """
     root = np.sqrt(weight)
     weighted = design * root[:, None]

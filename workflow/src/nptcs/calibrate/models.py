@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import assert_never
+
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.invariants import MOONEY_RIVLIN, NEO_HOOKEAN, YEOH
 from nptcs.calibrate.ogden import ogden
@@ -10,7 +12,14 @@ from nptcs.config.calibration import ModelName
 
 def model_named(name: ModelName, ogden_terms: int) -> Model:
     """Return a hyperelastic model; `ogden_terms` is the number of terms of Ogden's."""
-    if name == "ogden":
-        return ogden(ogden_terms)
-    models: dict[str, Model] = {m.name: m for m in (NEO_HOOKEAN, MOONEY_RIVLIN, YEOH)}
-    return models[name]
+    match name:
+        case "neo_hookean":
+            return NEO_HOOKEAN
+        case "mooney_rivlin":
+            return MOONEY_RIVLIN
+        case "yeoh":
+            return YEOH
+        case "ogden":
+            return ogden(ogden_terms)
+        case _:
+            assert_never(name)

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+from collections import Counter
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import assert_never
 
 import numpy as np
 import pandas as pd
@@ -11,10 +13,15 @@ import pandas as pd
 from nptcs.arrays import Array
 from nptcs.config.calibration import RubberSettings
 from nptcs.errors import InputError
-from nptcs.reduce.rows import finite_pair, loading_branch
+from nptcs.mechanical_tests import HYPERELASTIC_FIT
+from nptcs.reduce.branch import loading_branch
+from nptcs.reduce.origin import Origin
+from nptcs.reduce.rows import finite_pair
+from nptcs.reduce.rubber_compression import UNIFORM
 from nptcs.tables.specimens import Specimen
 
 SMALLEST_NUMBER_OF_POINTS = 3
+STRAIN_ENDS = "strain ends at"
 
 
 @dataclass(frozen=True)
@@ -29,6 +36,8 @@ class Observation:
         λ and nominal stress (MPa).
     weight : ndarray, shape (n,)
         Factor of each squared residual.
+    origin : Origin
+        What was added to the strain before it came here, and the error of the strain's origin.
     """
 
     specimen: str
@@ -36,6 +45,11 @@ class Observation:
     stretch: Array
     stress: Array
     weight: Array
+    origin: Origin = Origin()
+
+    def moved(self, strain: float) -> Observation:
+        """Return the same points with a strain added, positive in tension."""
+        return replace(self, stretch=self.stretch + strain)
 
 
 def undetermined(model: str, constants: int, rank: int, data: Sequence[Observation]) -> InputError:
@@ -54,6 +68,7 @@ def observations(
     specimens: Sequence[Specimen],
     settings: RubberSettings,
     strain_range: tuple[float, float],
+    origins: Mapping[str, Origin] | None = None,
 ) -> tuple[list[Observation], list[str]]:
     """Points of the included specimens of a rubber, and remarks on what is missing.
 
@@ -69,22 +84,27 @@ def observations(
         Weights, and whether one specimen alone is fitted.
     strain_range : (float, float)
         Nominal strain, from and to.
+    origins : mapping of str to Origin, optional
+        Strain origins by specimen id, as the ingest found them.
 
     Raises
     ------
     InputError
         If no specimen is left, or one has fewer than three points in the range.
     """
-    chosen = _chosen(name, specimens, settings.only_specimen)
+    chosen = specimens_in_fit(name, specimens, settings.only_specimen)
     remarks = [
         f"{s.specimen}: no curve, not in the fit" for s in chosen if s.specimen not in curves
     ]
+    remarks += [*_platen_words(name, specimens), *_run_words(chosen)]
     found = []
     for specimen in chosen:
         if specimen.specimen in curves:
             observation, words = observe(
                 specimen, curves[specimen.specimen], settings, strain_range
             )
+            origin = (origins or {}).get(specimen.specimen, Origin())
+            observation = replace(observation, origin=origin)
             found.append(observation)
             remarks += words
     if not found:
@@ -97,8 +117,20 @@ def observations(
     return found, remarks
 
 
-def _chosen(name: str, specimens: Sequence[Specimen], only: str | None) -> list[Specimen]:
-    chosen = [s for s in specimens if s.material == name and s.include and s.test.is_rubber]
+def specimens_in_fit(name: str, specimens: Sequence[Specimen], only: str | None) -> list[Specimen]:
+    """Specimens of a rubber that the sheet takes into the fit, or the one that is fitted alone.
+
+    A disc between dry or bonded platens barrels: its curve is not that of a uniform stress, and
+    it does not enter.
+
+    Raises
+    ------
+    InputError
+        If the one specimen is not among them.
+    """
+    chosen = [s for s in specimens if s.material == name and s.test.is_rubber]
+    chosen = [s for s in chosen if s.platens in ("", UNIFORM)]
+    chosen = [s for s in chosen if s.gives(HYPERELASTIC_FIT)]
     if only is None:
         return chosen
     alone = [s for s in chosen if s.specimen == only]
@@ -110,6 +142,31 @@ def _chosen(name: str, specimens: Sequence[Specimen], only: str | None) -> list[
             value=only,
         )
     return alone
+
+
+def _platen_words(name: str, specimens: Sequence[Specimen]) -> list[str]:
+    """Say which discs are not in the fit, and which may carry friction."""
+    included = [s for s in specimens if s.material == name and s.include and s.test.is_rubber]
+    discs = [s for s in included if s.test.load_sign < 0]
+    barrelled = [s.specimen for s in discs if s.platens not in ("", UNIFORM)]
+    unknown = [s.specimen for s in discs if not s.platens]
+    words = []
+    if barrelled:
+        words.append(f"not in the fit, dry or bonded platens: {', '.join(barrelled)}")
+    if unknown:
+        words.append(f"warning: lubrication of the platens not stated: {', '.join(unknown)}")
+    return words
+
+
+def _run_words(chosen: Sequence[Specimen]) -> list[str]:
+    """Say which pieces are in the fit with several runs, as if they were several specimens."""
+    counts = Counter(s.tested_piece for s in chosen)
+    return [
+        f"warning: {count} runs of {piece} are in the fit and count as specimens; let the sheet "
+        f"take {HYPERELASTIC_FIT} from one of them"
+        for piece, count in counts.items()
+        if count > 1
+    ]
 
 
 def observe(
@@ -126,7 +183,8 @@ def observe(
         If fewer than three points lie in the range, or none has a tensile stress.
     """
     low, high = strain_range
-    strain, stress = finite_pair(loading_branch(curve, specimen), "strain_axial", "stress_mpa")
+    branch = loading_branch(curve, specimen)
+    strain, stress = finite_pair(branch.rows, "strain_axial", "stress_mpa")
     inside = (strain >= low) & (strain <= high)
     if inside.sum() < SMALLEST_NUMBER_OF_POINTS:
         raise InputError(
@@ -137,25 +195,30 @@ def observe(
         )
     if not stress[inside].max() > 0:
         raise InputError(
-            f"no tensile stress in the strain range {low:g} to {high:g}",
+            f"no stress in the direction of the test in the strain range {low:g} to {high:g}",
             "check the curve's strain origin, or leave the specimen out",
             specimen=specimen.specimen,
             column="stress_mpa",
             value=float(stress[inside].max()),
         )
-    words = []
+    words = [f"{specimen.specimen}: {text}" for text in branch.words]
     if strain.max() < high:
-        words.append(f"{specimen.specimen}: strain ends at {strain.max():.4g}, before {high:g}")
-    stretch, stress = 1.0 + strain[inside], stress[inside]
+        words.append(f"{specimen.specimen}: {STRAIN_ENDS} {strain.max():.4g}, before {high:g}")
+    sign = specimen.test.load_sign
+    stretch, stress = 1.0 + sign * strain[inside], sign * stress[inside]
     weight = _weight(stress, settings)
     return Observation(specimen.specimen, specimen.test.value, stretch, stress, weight), words
 
 
 def _weight(stress: Array, settings: RubberSettings) -> Array:
-    if settings.weights == "points":
-        return np.ones_like(stress)
-    if settings.weights == "specimens":
-        return np.full_like(stress, 1.0 / len(stress))
-    # below the floor a relative residual is noise over nearly nothing
-    scale = np.maximum(np.abs(stress), settings.relative_error_floor * np.abs(stress).max())
-    return 1.0 / (len(stress) * scale**2)
+    match settings.weights:
+        case "points":
+            return np.ones_like(stress)
+        case "specimens":
+            return np.full_like(stress, 1.0 / len(stress))
+        case "relative":
+            # below the floor a relative residual is noise over nearly nothing
+            floor = settings.relative_error_floor * np.abs(stress).max()
+            return 1.0 / (len(stress) * np.maximum(np.abs(stress), floor) ** 2)
+        case _:
+            assert_never(settings.weights)

@@ -19,7 +19,12 @@ from nptcs.arrays import Array
 from nptcs.calibrate.linear import solve_linear
 from nptcs.calibrate.observations import Observation, undetermined
 
-RATIO = {"rubber_tension": 0.5, "rubber_equibiaxial": 2.0, "rubber_pure_shear": 1.0}
+RATIO = {
+    "rubber_tension": 0.5,
+    "rubber_equibiaxial": 2.0,
+    "rubber_pure_shear": 1.0,
+    "rubber_compression": 0.5,
+}
 LARGEST_EXPONENT = 30.0
 # exponents that published rubbers have: the starts of the search, tried one after the other
 STARTS = {

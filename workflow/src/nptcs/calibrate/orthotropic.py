@@ -25,6 +25,13 @@ def compliance_matrix(values: Mapping[str, float]) -> Array:
     ----------
     values : mapping of str to float
         `nptcs.tables.material_card.PLY_CONSTANTS`.
+
+    Examples
+    --------
+    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> matrix = compliance_matrix(PUBLISHED_PLY)
+    >>> matrix.shape, round(1 / float(matrix[0, 0]), 6)
+    ((6, 6), 128000.0)
     """
     e1, e2, e3 = (values[f"e{i}_mpa"] for i in (1, 2, 3))
     s12, s13, s23 = -values["nu12"] / e1, -values["nu13"] / e1, -values["nu23"] / e2
@@ -58,6 +65,14 @@ def check_ply(values: Mapping[str, float], material: str, tolerance_percent: flo
     InputError
         If a modulus is not positive or the compliance is not positive definite: no material
         has such constants.
+
+    Examples
+    --------
+    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> for finding in check_ply(PUBLISHED_PLY, "cfrp", tolerance_percent=5):
+    ...     print(finding)
+    compliance matrix is positive definite
+    warning: orthotropic, not transversely isotropic: G23 = 2300 MPa, E2/(2(1+nu23)) = 3259 MPa ...
     """
     for name, value in values.items():
         if name.endswith("_mpa") and not value > 0:

@@ -11,13 +11,14 @@ from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
 from nptcs.errors import InputError
+from nptcs.mechanical_tests import COMPOSITE_TESTS
+from nptcs.reduce.counted import counted
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
 from nptcs.tables.specimens import Specimen
 
 MEASURED = ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")
 UNITS = {name: "MPa" if name.endswith("_mpa") else "1" for name in PLY_CONSTANTS}
-COMPOSITE_TESTS = ("tension", "compression", "shear")
 
 
 def calibrate_ply(
@@ -53,8 +54,8 @@ def calibrate_ply(
         If a source has no value, or the constants are thermodynamically impossible.
     """
     material = material or only_ply(specimens)
-    included = {s.specimen: s for s in specimens if s.include and s.material == material}
-    table = properties[properties["specimen"].isin(list(included))]
+    sheet = {s.specimen: s for s in specimens if s.material == material}
+    table = counted(properties[properties["specimen"].isin(list(sheet))], sheet)
     sources: dict[str, ConstantSource] = {name: getattr(settings.ply, name) for name in MEASURED}
     samples = {name: sample(table, source, name, material) for name, source in sources.items()}
     constants = {
@@ -68,13 +69,14 @@ def calibrate_ply(
     nu21 = rows_of(table, across)["value"].dropna()
     return PlyCard(
         name=material,
-        synthetic=any(included[name].origin == "synthetic" for name in used),
+        synthetic=any(s.origin == "synthetic" for s in specimens if s.tested_piece in used),
         constants=constants,
         covariance=covariance_of_means(samples, UNITS),
         checks=(
             *check_ply(values, material, settings.ply.isotropy_tolerance_percent),
             check_reciprocity(constants, nu21),
             *_few_specimens(samples),
+            *_origin_words(samples, sources, table),
             *_crosshead(samples, sources, table),
         ),
     )
@@ -165,6 +167,23 @@ def _crosshead(
         found = with_crosshead_strain(rows[rows["specimen"].isin(samples[name].index)])
         if found:
             words.append(f"warning: {name} rests on {CROSSHEAD}: {', '.join(found)}")
+    return words
+
+
+def _origin_words(
+    samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
+) -> list[str]:
+    """Say what the correction of the strain origin did to the values behind each constant."""
+    words = []
+    for name, source in sources.items():
+        rows = rows_of(table, source)
+        effect = rows.loc[rows["specimen"].isin(samples[name].index), "origin_effect_percent"]
+        if not effect.isna().all():
+            low, high = effect.min(), effect.max()
+            words.append(
+                f"{name}: the strain origin was corrected in {effect.notna().sum()} of "
+                f"{len(effect)} specimens, which changed the values by {low:+.2g} to {high:+.2g} %"
+            )
     return words
 
 

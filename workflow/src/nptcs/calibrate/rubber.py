@@ -8,12 +8,13 @@ import numpy as np
 import pandas as pd
 
 from nptcs.calibrate.drucker import instabilities
-from nptcs.calibrate.fit import Fit, fit_model
+from nptcs.calibrate.fit import Fit, Model, fit_model
 from nptcs.calibrate.models import model_named
-from nptcs.calibrate.observations import observations
+from nptcs.calibrate.observations import Observation, observations
 from nptcs.calibrate.toe import toe_words
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.reduce.deviations import CROSSHEAD
+from nptcs.reduce.origin import Origin
 from nptcs.tables.material_card import Covariance, Quantity, RubberCard
 from nptcs.tables.specimens import Specimen
 
@@ -24,6 +25,7 @@ def calibrate_rubber(
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
     strain_sources: Mapping[str, str] | None = None,
+    origins: Mapping[str, Origin] | None = None,
 ) -> RubberCard:
     """Fit the card's model to the included specimens of a rubber.
 
@@ -40,6 +42,9 @@ def calibrate_rubber(
     strain_sources : mapping of str to str, optional
         Where each specimen's strain came from, as the ingest records say; the card says which
         specimens have crosshead strain.
+    origins : mapping of str to Origin, optional
+        Strain origins as the ingest found them: their errors enter those of the constants, and
+        the card says what their correction did.
 
     Returns
     -------
@@ -54,11 +59,11 @@ def calibrate_rubber(
     """
     rubber = settings.rubber
     model = model_named(rubber.model, rubber.ogden_terms)
-    data, remarks = observations(name, curves, specimens, rubber, rubber.strain_range)
+    data, remarks = observations(name, curves, specimens, rubber, rubber.strain_range, origins)
     fit = fit_model(model, data, rubber.relative_error_floor)
     unstable = instabilities(model, fit.constants, rubber.strain_range[1])
     used = tuple(o.specimen for o in data)
-    origins = {s.specimen: s.origin for s in specimens}
+    synthetic = {s.specimen for s in specimens if s.origin == "synthetic"}
     sources = strain_sources or {}
     crosshead = [
         f"warning: {name}: {CROSSHEAD}" for name in used if sources.get(name) == "crosshead"
@@ -71,7 +76,7 @@ def calibrate_rubber(
     )
     return RubberCard(
         name=name,
-        synthetic=any(origins[specimen] == "synthetic" for specimen in used),
+        synthetic=not synthetic.isdisjoint(used),
         model=model.name,
         constants=_quantities(model.constants, fit, rule, used),
         covariance=_covariance(model.constants, fit, used),
@@ -87,10 +92,25 @@ def calibrate_rubber(
             *model.remarks(fit.constants),
             *_stability_words(unstable, high),
             *toe_words(data),
+            *_origin_words(model, data, fit),
             *crosshead,
             *remarks,
         ),
     )
+
+
+def _origin_words(model: Model, data: Sequence[Observation], fit: Fit) -> list[str]:
+    """Say what the correction of the strain origin did to the first constant."""
+    shifted = [o for o in data if o.origin.axial]
+    if not shifted:
+        return []
+    raw = model.solve([o.moved(-o.origin.axial) for o in data], start=fit.constants)
+    largest = max(shifted, key=lambda o: abs(o.origin.axial)).origin
+    return [
+        f"strain origin: corrected in {len(shifted)} of {len(data)} specimens, by up to "
+        f"{100 * largest.axial:+.3g} % ± {100 * largest.error:.2g} %; without it "
+        f"{model.constants[0]} would be {raw[0]:.4g}, not {fit.constants[0]:.4g}"
+    ]
 
 
 def unit_of(constant: str) -> str:

@@ -28,6 +28,23 @@ def sample_constants(card: PlyCard | RubberCard, draws: int, seed: int) -> pd.Da
     -------
     DataFrame
         `draws` rows, a column a constant in the order of the card, units of the card.
+
+    Examples
+    --------
+    >>> from nptcs.tables.material_card import Covariance, Quantity, RubberCard
+    >>> c10 = Quantity(value=1.18, unit="MPa", standard_error=0.02, origin="measured", rule="")
+    >>> scatter = Covariance(names=("c10_mpa",), units=("MPa",), rule="", matrix=((0.0004,),))
+    >>> card = RubberCard(
+    ...     name="rubber_75A",
+    ...     synthetic=False,
+    ...     constants={"c10_mpa": c10},
+    ...     covariance=scatter,
+    ...     strain_range=(0, 0.15),
+    ...     fit_quality={},
+    ... )
+    >>> draws = sample_constants(card, draws=10_000, seed=1)["c10_mpa"]
+    >>> round(float(draws.mean()), 2), round(float(draws.std()), 2)
+    (1.18, 0.02)
     """
     table = {name: np.full(draws, quantity.value) for name, quantity in card.constants.items()}
     if card.covariance is not None:

@@ -11,7 +11,7 @@ from nptcs.tables.cases import RESPONSES, realised_column
 
 
 def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
-    """Lay records out as the table `Cases`.
+    """Write records as the table `Cases`.
 
     Parameters
     ----------

@@ -42,7 +42,7 @@ def make_jobs(
     Returns
     -------
     list of CaseJob
-        One a row of `design`.
+        One per row of `design`.
     """
     module = module_of(solver_name, options)
     solver = load(module)

@@ -35,7 +35,7 @@ class CaseJob(BaseModel):
     tyre: dict[str, Any]
     ply: dict[str, float] | None
     options: dict[str, Any]
-    without_effect: tuple[str, ...] = Field(description="Options that are no part of the key")
+    without_effect: tuple[str, ...] = Field(description="Options that are not part of the key")
     tables: dict[str, list[dict[str, Any]]]
 
     @property
@@ -84,7 +84,7 @@ def make_record(job: CaseJob, result: SolverResult, wall_time_s: float) -> CaseR
 
 
 class RecordStore:
-    """A folder with one JSON file a solved case, named by the case's key."""
+    """A folder with one JSON file per solved case, named by the case's key."""
 
     def __init__(self, folder: str | Path) -> None:
         self.folder = Path(folder)
@@ -114,7 +114,7 @@ class RecordStore:
 
 
 def read_records(paths: list[str]) -> list[CaseRecord]:
-    """Read batch files: one record a line."""
+    """Read batch files: one record per line."""
     return [
         CaseRecord.model_validate_json(line)
         for path in paths
@@ -123,7 +123,7 @@ def read_records(paths: list[str]) -> list[CaseRecord]:
 
 
 def write_records(path: str | Path, records: list[CaseRecord]) -> None:
-    """Write a batch file, atomically: one record a line."""
+    """Write a batch file, atomically: one record per line."""
     write_text(path, "".join(record.model_dump_json() + "\n" for record in records))
 
 
@@ -133,7 +133,7 @@ def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
     Raises
     ------
     InputError
-        For a file that is missing, is no CSV table or has no rows.
+        For a file that is missing, is not a CSV table or has no rows.
     """
     return {name: _read_rows(name, path) for name, path in paths.items()}
 
@@ -150,7 +150,7 @@ def _read_rows(name: str, path: str) -> list[dict[str, Any]]:
         rows = pd.read_csv(path, comment="#").to_dict("records")
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
         raise InputError(
-            f"this table of a solver is no CSV table: {str(error).strip()}",
+            f"this table of a solver is not a CSV table: {str(error).strip()}",
             "save it as CSV (UTF-8), a header and as many values in each row, or correct the path "
             "in the solver's options",
             file=path,

@@ -1,4 +1,4 @@
-"""Run solver cases side by side, one process a case, so that none can harm another."""
+"""Run solver cases side by side, one process per case, so that none can harm another."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def run_cases(
     Returns
     -------
     list of CaseRecord
-        One a job, in the order of `jobs`.
+        One per job, in the order of `jobs`.
     """
     records: dict[int, CaseRecord] = {}
 

@@ -1,4 +1,4 @@
-"""``nptcs check``: find faults of the configuration and the specimen sheet before a run."""
+"""``nptcs check``: find faults in the configuration and the specimen sheet before a run."""
 
 from __future__ import annotations
 
@@ -26,21 +26,22 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what is planned, or every fault; exit code 1 if there is one."""
-    import yaml
-
+    from nptcs.calibrate.plan import check_materials
     from nptcs.campaign.times import seconds_per_case, time_in_words
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
-    from nptcs.solvers.registry import check_study
+    from nptcs.ingest.reading.profiles import load_profiles
+    from nptcs.ingest.repeats import repeats_in_sheet
+    from nptcs.solvers.registry import check_study, needs_ply
     from nptcs.tables.specimens import read_sheet
+    from nptcs.yaml_files import read_yaml
 
     path = Path(arguments.config)
     if not path.is_file():
         raise InputError("this file does not exist", file=path, remedy="name a configuration file")
-    try:
-        values = yaml.safe_load(path.read_text(encoding="utf-8")) or {}
-    except yaml.YAMLError as error:
-        raise InputError(f"not YAML: {error}", file=path, remedy="correct the syntax") from None
+    values = read_yaml(path) or {}
+    if not isinstance(values, dict):
+        raise InputError("is not a configuration", "write 'key: value' lines", path)
     config = read_config(values, str(path))
     seconds = seconds_per_case(Path(arguments.cases))
     for study in config.studies:
@@ -56,13 +57,21 @@ def run(arguments: argparse.Namespace) -> int:
             "this raw file does not exist",
             file=folder / name,
             specimen=specimen.specimen,
-            remedy="correct the file name in the specimen sheet, or put the file there",
+            remedy="correct the file name in the specimen sheet, or copy the file into its folder",
         )
         for specimen in specimens
         for name in specimen.files
         if not (folder / name).is_file()
     ]
+    profiles = load_profiles(config.lab_data.formats)
+    sheet = Path(config.lab_data.specimen_sheet)
+    again = repeats_in_sheet(specimens, folder, profiles, sheet, config.ingest.limits)
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
-    for fault in [*errors, *missing]:
+    studies = [(study, needs_ply(study, config.solver_options(study))) for study in config.studies]
+    materials, notes = check_materials(studies, specimens, config.calibration)
+    for note in notes:
+        print(note)
+    faults = [*errors, *missing, *again, *materials]
+    for fault in faults:
         print(f"nptcs: {fault}", file=sys.stderr)
-    return 1 if errors or missing else 0
+    return 1 if faults else 0

@@ -1,4 +1,4 @@
-"""``nptcs deck``: write a case's input deck for a solver that the user has."""
+"""``nptcs deck``: write the input deck of a case for a solver that you have."""
 
 from __future__ import annotations
 
@@ -43,7 +43,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         ("thickness", "plates' thickness (mm)"),
         ("angle", "plates' fibre angle (degrees)"),
     ):
-        parser.add_argument(f"--{name}", type=float, help=f"{what}, where the table has none")
+        parser.add_argument(
+            f"--{name}", type=float, help=f"{what}, where the table has no such column"
+        )
     parser.set_defaults(run=run)
 
 
@@ -80,7 +82,7 @@ def _calculix(inputs: CaseInputs) -> str:
 
 
 def _inputs(arguments: argparse.Namespace) -> CaseInputs:
-    """Collect what a solver may know of the case."""
+    """Collect what a solver is given for the case."""
     from nptcs.solvers.contract import CaseInputs
     from nptcs.solvers.registry import MODULES, load, read_options
 
@@ -109,13 +111,15 @@ def _configuration(file: str | None, solver: str) -> tuple[TyreGeometry, Mapping
     try:
         content = yaml.safe_load(Path(file).read_text(encoding="utf-8"))
     except (OSError, yaml.YAMLError) as error:
-        raise InputError(f"no YAML file: {error}", "name a configuration", file=file) from error
+        raise InputError(
+            f"is not a YAML file: {error}", "give the name of a configuration file", file=file
+        ) from error
     config = read_config(content, file)
     return config.tyre, config.solvers.get(solver, {})
 
 
 def _values(arguments: argparse.Namespace) -> dict[str, float]:
-    """Factor values of the case, completed by the command line."""
+    """Factor values of the case; values that the table lacks come from the command line."""
     import pandas as pd
 
     from nptcs.errors import InputError
@@ -124,13 +128,13 @@ def _values(arguments: argparse.Namespace) -> dict[str, float]:
         table = pd.read_csv(arguments.design, dtype={"case_id": str})
     except (OSError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
         raise InputError(
-            f"no CSV table: {error}", "name a design table", file=arguments.design
+            f"is not a CSV table: {error}", "give the name of a design table", file=arguments.design
         ) from error
     found = table[table["case_id"] == arguments.case] if "case_id" in table else table.iloc[:0]
     if len(found) != 1:
         raise InputError(
             f"{len(found)} rows have this case_id",
-            "name one case of the table",
+            "choose a case_id that the table has once",
             file=arguments.design,
             column="case_id",
             value=arguments.case,
@@ -158,10 +162,13 @@ def _ply(path: Path, name: str) -> dict[str, float]:
         card = MaterialCard.model_validate_json(path.read_text(encoding="utf-8"))
     except (OSError, ValidationError) as error:
         raise InputError(
-            f"no material card: {error}", "name the card's JSON file", file=path
+            f"is not a material card: {error}", "give the name of the card's JSON file", file=path
         ) from error
     if name not in card.plies:
         raise InputError(
-            "the card has no such ply", f"name one of {', '.join(card.plies)}", path, value=name
+            "the card does not have this ply",
+            f"choose one of {', '.join(card.plies)}",
+            path,
+            value=name,
         )
     return card.plies[name].values()

@@ -1,4 +1,4 @@
-"""``nptcs example``: write the synthetic example data of a seed."""
+"""``nptcs example``: write the synthetic example data for a seed."""
 
 from __future__ import annotations
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import argparse
-from typing import TYPE_CHECKING
+from pathlib import Path
+from typing import TYPE_CHECKING, get_args
+
+from nptcs.config.fe import RingKind
 
 if TYPE_CHECKING:
     import pandas
@@ -30,22 +33,44 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="fit the finite element spoke's section to published stiffness",
         description="Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
         "and 5) and to at most five named cases of table 5. Prints what each round gives against "
-        "what was asked for, and the section as JSON for solvers.fe_tyre.geometry.",
+        "its targets, and ring and section as JSON for the options of fe_tyre and fe_spoke.",
     )
-    parser.add_argument("table10", metavar="TABLE10.csv", help="spoke stiffness")
-    parser.add_argument("table5", metavar="TABLE5.csv", help="tyre stiffness by plate")
+    parser.add_argument(
+        "table10", metavar="TABLE10.csv", help="the paper's table 10: stiffness of single spokes"
+    )
+    parser.add_argument(
+        "table5",
+        metavar="TABLE5.csv",
+        help="the paper's table 5: stiffness of tyres by plate design",
+    )
     parser.add_argument(
         "--cases", type=int, nargs="+", default=CASES, help="cases of table 5, at most five"
     )
     parser.add_argument(
         "--rounds", type=int, default=2, help="Gauss–Newton steps (default: %(default)s)"
     )
-    parser.add_argument("--workers", type=int, default=2, help="processes")
+    parser.add_argument("--workers", type=int, default=2, help="processes (default: %(default)s)")
     parser.add_argument(
-        "--band-c10", type=float, default=5.0, help="band's C10 in table 5, which does not say"
+        "--band-c10",
+        type=float,
+        default=5.0,
+        help="C10 of the band in table 5, which does not state it (MPa; default: %(default)s)",
     )
     parser.add_argument(
-        "--spoke-c10", type=float, default=1.04, help="spokes' C10 in table 5, which does not say"
+        "--spoke-c10",
+        type=float,
+        default=1.04,
+        help="C10 of the spokes in table 5, which does not state it (MPa; default: %(default)s)",
+    )
+    parser.add_argument(
+        "--ring",
+        choices=get_args(RingKind),
+        default="converged",
+        help="ring of the tyres; the section makes up for it and belongs to it (default: "
+        "%(default)s)",
+    )
+    parser.add_argument(
+        "--spoke-cache", type=Path, help="folder in which runs share the tables of equal spokes"
     )
     parser.set_defaults(run=run)
 
@@ -58,7 +83,7 @@ def run(arguments: argparse.Namespace) -> int:
     model = calibrate(
         problem, arguments.rounds, arguments.workers, lambda state: _report(problem, state)
     )
-    print(model.geometry.model_dump_json(indent=2))
+    print(model.model_dump_json(include={"ring", "geometry"}, indent=2))
     return 0
 
 
@@ -70,6 +95,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     InputError
         If a table lacks a column or a case, or more than five cases are named.
     """
+    from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
     from nptcs.errors import InputError
     from nptcs.fe.calibration import START, Problem, SpokeTarget, TyreTarget
@@ -85,12 +111,12 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     spokes = _read(arguments.table10, COLUMNS["table10"]).set_index("spoke_c10_mpa")
     tyres = _read(arguments.table5, COLUMNS["table5"]).set_index("case")
     for file, table, wanted, remedy in (
-        (arguments.table5, tyres, arguments.cases, "name other --cases"),
+        (arguments.table5, tyres, arguments.cases, "choose other --cases"),
         (arguments.table10, spokes, C10_MPA, "give a table with these spokes"),
     ):
         if missing := sorted(set(wanted) - set(table.index)):
             raise InputError(
-                "these rows are not in the tables",
+                "the table does not have these rows",
                 remedy,
                 file=file,
                 column=str(table.index.name),
@@ -99,8 +125,9 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
     k_t, k_c = (spokes[name].astype(float).to_dict() for name in COLUMNS["table10"][1:])
     rubbers = {"shear_band_c10_mpa": arguments.band_c10, "spoke_c10_mpa": arguments.spoke_c10}
+    start = START.model_copy(update={"calibrated_with": arguments.ring})
     return Problem(
-        START,
+        FeModel(ring=arguments.ring).model_copy(update={"geometry": start}),
         TyreGeometry(),
         PUBLISHED_PLY,
         tuple(
@@ -119,6 +146,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
             for case in arguments.cases
         ),
         5000.0,
+        arguments.spoke_cache,
     )
 
 
@@ -130,7 +158,9 @@ def _read(path: str, columns: tuple[str, ...]) -> pandas.DataFrame:
     try:
         table = pd.read_csv(path)
     except (OSError, pd.errors.ParserError, pd.errors.EmptyDataError) as error:
-        raise InputError(f"no CSV table: {error}", "name a published table", file=path) from error
+        raise InputError(
+            f"is not a CSV table: {error}", "give the name of a published table", file=path
+        ) from error
     lacking = [name for name in columns if name not in table.columns]
     if lacking:
         raise InputError(

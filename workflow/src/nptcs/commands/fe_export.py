@@ -20,7 +20,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "spoke.pvd, whose time is the band's radial displacement in mm. Needs the extra "
         "nptcs[paraview]. The defaults are the published fiducial design.",
     )
-    parser.add_argument("folder", metavar="FOLDER", type=Path, help="is made if absent")
+    parser.add_argument(
+        "folder", metavar="FOLDER", type=Path, help="output folder, created if needed"
+    )
     add_design(parser)
     parser.set_defaults(run=run)
 

@@ -83,7 +83,7 @@ def design_of(arguments: argparse.Namespace) -> SpokeDesign:
 
 @contextmanager
 def solvable() -> Iterator[None]:
-    """Say in one line that a spoke or a tyre finds no equilibrium, and how far it came.
+    """Report in one line that a spoke or a tyre found no equilibrium, and how far it got.
 
     Raises
     ------

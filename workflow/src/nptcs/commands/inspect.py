@@ -1,4 +1,4 @@
-"""``nptcs inspect``: show what detection makes of a raw file."""
+"""``nptcs inspect``: show how a raw file is read."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def register(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the inspection; 0 if the file was understood."""
+    """Print the inspection; 0 if the file can be used."""
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.inspect import describe, draft_profile, inspect_file
@@ -37,7 +37,7 @@ def run(arguments: argparse.Namespace) -> int:
     if arguments.write_profile is not None:
         target = arguments.write_profile
         if target.exists():
-            raise InputError("file exists already", "choose another name", target)
+            raise InputError("this file exists already", "choose another name", target)
         write_text(target, draft_profile(inspection, target.stem))
         print(f"\nprofile written to {target}: check every line of it")
-    return 0 if inspection.tests and inspection.problem is None else 1
+    return 0 if inspection.usable else 1

@@ -1,4 +1,4 @@
-"""``nptcs lca``: the load-bearing model for a table of designs, or a drawing of one of them."""
+"""``nptcs lca``: the load-bearing model for a table of designs, or a figure of one of them."""
 
 from __future__ import annotations
 
@@ -22,9 +22,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "columns shear_band_c10_mpa, tension_n_per_mm, compression_n_per_mm (of one spoke) and "
         "load_n. Any dimension of the tyre (band_radius_mm, spoke_count, wire_pitch_mm, ...) and "
         "axial_stiffness_n, shear_stiffness_n, bending_stiffness_n_mm2, radius_mm, width_mm may "
-        "stand in further columns. Rows that fail are marked; exit code 1 says that there are any.",
+        "be given in further columns. Rows that fail are marked; the exit code is then 1.",
     )
-    parser.add_argument("table", metavar="TABLE.csv", help="designs, a row each")
+    parser.add_argument("table", metavar="TABLE.csv", help="designs, one per row")
     parser.add_argument("-o", "--output", metavar="OUT.csv", help="the same rows with results")
     parser.add_argument(
         "--section",
@@ -33,10 +33,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="section of the shear band: the physical one, or the one that the paper prints",
     )
     parser.add_argument(
-        "--plot", metavar="FIGURE", help="draw the deformed ring of a row (.svg, .png or .pdf)"
+        "--plot", metavar="FIGURE", help="draw the deformed ring of one row (.svg, .png or .pdf)"
     )
     parser.add_argument(
-        "--row", type=int, default=1, help="row to draw, the first being 1 (default: %(default)s)"
+        "--row", type=int, default=1, help="row to draw, counted from 1 (default: %(default)s)"
     )
     parser.set_defaults(run=run)
 
@@ -66,7 +66,9 @@ def _solve(arguments: argparse.Namespace) -> int:
     tyre = TyreGeometry()
     result = solve_table(table, tyre, arguments.section)
     if spare := [str(name) for name in table if name not in known_columns()]:
-        print(f"nptcs: columns carried along, not used: {', '.join(spare)}", file=sys.stderr)
+        print(
+            f"nptcs: columns copied to the output but not used: {', '.join(spare)}", file=sys.stderr
+        )
     if arguments.output is not None:
         with atomic_path(arguments.output) as temporary:
             result.to_csv(temporary, index=False, lineterminator="\n")
@@ -94,7 +96,7 @@ def _check_figure(arguments: argparse.Namespace, rows: int) -> None:
     if Path(arguments.plot).suffix not in FORMATS:
         raise InputError(
             "unknown kind of figure",
-            remedy=f"let the name end in {', '.join(FORMATS)}",
+            remedy=f"use a name that ends in {', '.join(FORMATS)}",
             column="--plot",
             value=arguments.plot,
         )
@@ -117,18 +119,22 @@ def read_designs(path: Path) -> pandas.DataFrame:
     Raises
     ------
     InputError
-        The file is missing, empty or no table.
+        The file is missing, empty or not a table.
     """
     import pandas as pd
 
     from nptcs.errors import InputError
 
     if not path.is_file():
-        raise InputError("this file does not exist", file=path, remedy="name a CSV table")
+        raise InputError(
+            "this file does not exist", file=path, remedy="give the name of a CSV table"
+        )
     try:
         table = pd.read_csv(path)
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
-        raise InputError(f"no CSV table: {error}", file=path, remedy="save it as CSV") from error
+        raise InputError(
+            f"is not a CSV table: {error}", file=path, remedy="save it as CSV"
+        ) from error
     if table.empty:
         raise InputError("the table has no rows", file=path, remedy="give at least one design")
     return table

@@ -20,7 +20,7 @@ def register(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write ``specimens.csv`` into the folder, unless there is one."""
+    """Write ``specimens.csv`` into the folder, unless it has one."""
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.new_sheet import propose_sheet
@@ -28,13 +28,15 @@ def run(arguments: argparse.Namespace) -> int:
 
     folder = arguments.folder
     if not folder.is_dir():
-        raise InputError("is not a folder", "name the folder with the raw files", folder)
+        raise InputError("is not a folder", "give the folder with the raw files", folder)
     sheet = folder / "specimens.csv"
     if sheet.exists():
-        raise InputError("sheet exists already", "move it away first", sheet)
+        raise InputError("this sheet exists already", "move or rename it first", sheet)
     proposal = propose_sheet(folder, load_profiles(arguments.formats))
     write_text(sheet, proposal.text())
-    print(f"{sheet}: {len(proposal.rows)} specimens proposed; fill in what the remarks name")
+    print(f"{sheet}: {len(proposal.rows)} specimens proposed")
+    wanted = ", ".join(f"{name} ({rows} rows)" for name, rows in proposal.open_cells().items())
+    print(f"  to be filled in: {wanted}" if wanted else "  nothing left to fill in; check the rest")
     for name, reason in proposal.left.items():
         print(f"  not in the sheet: {name}: {reason}")
     return 0

@@ -15,9 +15,9 @@ TABLES_PAGE = Path("docs/tables.md")
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
     parser = subparsers.add_parser(
-        "schema", help="write the configuration's schema and the reference pages in docs/ anew"
+        "schema", help="rewrite the configuration schema and the reference pages in docs/"
     )
-    parser.add_argument("--root", default=".", help="the project's folder (default: this one)")
+    parser.add_argument("--root", default=".", help="the project folder (default: the current one)")
     parser.set_defaults(run=run)
 
 

@@ -9,7 +9,7 @@ import pandas as pd
 from nptcs.surface.terms import parse
 
 
-def by_powers(printed: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:
-    """Map the powers of each printed term (`PublishedCoefficients`) to its coefficient."""
-    powers = parse(list(printed["term"]), factors).exponents
-    return dict(zip(powers, printed["coefficient"], strict=True))
+def by_powers(published: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:
+    """Map the powers of each published term (`PublishedCoefficients`) to its coefficient."""
+    powers = parse(list(published["term"]), factors).exponents
+    return dict(zip(powers, published["coefficient"], strict=True))

@@ -9,7 +9,7 @@ from nptcs.tables.impact import Impact
 
 
 def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
-    """Set the printed values of table 9 next to ours.
+    """Join the published values of table 9.
 
     Parameters
     ----------
@@ -22,13 +22,13 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
     Returns
     -------
     DataFrame
-        As `Impact`. A printed value stands next to ours only where the levels' range is the same;
+        As `Impact`. A published value is given only where the range of the levels is the same;
         only these factors are ranked, over all studies, for each solver and rule.
     """
-    printed = published.rename(
+    table_9 = published.rename(
         columns={"gradient": "published_gradient", "impact": "published_impact"}
     )
-    table = impact.merge(printed, how="left", on=["study", "factor"], suffixes=("", "_published"))
+    table = impact.merge(table_9, how="left", on=["study", "factor"], suffixes=("", "_published"))
     other_range = ~np.isclose(table["nominal_range"], table.pop("range_published").astype(float))
     table.loc[other_range, ["published_gradient", "published_impact"]] = np.nan
     table["difference_percent"] = 100 * (table["impact"].abs() / table["published_impact"] - 1)

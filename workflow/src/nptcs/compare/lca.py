@@ -1,4 +1,4 @@
-"""The published results beside ours: table 11, the loads of figure 15, the FE values of table 7.
+"""The load-bearing model compared with table 11, the loads of figure 15 and table 7's FE values.
 
 Published numbers come in as tables. Of figure 15's FE results the paper prints no numbers but the
 largest error of its model at each load, so away from table 11's load ours can stand beside that
@@ -8,17 +8,16 @@ error only.
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Literal
 
 import numpy as np
 import pandas as pd
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
+from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
 from nptcs.lca.single import design_row, solve
 from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
-from nptcs.lca.state import LcaState
 
 TABLE_11_SHEAR_BAND_C10_MPA = 5.0
 _COMPARED = {
@@ -28,19 +27,18 @@ _COMPARED = {
     "stiffness_n_per_mm": "lca_stiffness_n_per_mm",
 }
 """Our column → column of table 11."""
-_OURS_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
+_COMPUTED_ALONE = ("contact_length_mm", "mean_pressure_mpa", "balance_residual")
 
 
 def _solve_cases(
-    cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: str
+    cases: pd.DataFrame, spoke_table: pd.DataFrame, tyre: TyreGeometry, section: SectionKind
 ) -> pd.DataFrame:
     """Solve rows of shear_band_c10_mpa, spoke_c10_mpa and load_n; returns the model's columns."""
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
-    kind: Literal["sandwich", "printed"] = "sandwich" if section == "sandwich" else "printed"
     designs = pd.DataFrame(
         [
             design_row(
-                RingSection.from_tyre(tyre, band, kind), spokes.spokes(spoke, tyre.spoke_count)
+                RingSection.from_tyre(tyre, band, section), spokes.spokes(spoke, tyre.spoke_count)
             )
             for band, spoke in zip(cases["shear_band_c10_mpa"], cases["spoke_c10_mpa"], strict=True)
         ]
@@ -53,9 +51,9 @@ def _solve_cases(
     return solved.assign(contact_length_mm=2 * designs["radius_mm"] * angle)
 
 
-def _percent(ours: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
+def _percent(computed: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
     """Difference of ours from the published value, in percent of the latter."""
-    return 100 * (ours / published - 1)
+    return 100 * (computed / published - 1)
 
 
 def lca_validation(
@@ -63,7 +61,7 @@ def lca_validation(
     table_11: pd.DataFrame,
     load_errors: pd.DataFrame,
     tyre: TyreGeometry,
-    sections: Sequence[str] = SECTION_KINDS,
+    sections: Sequence[SectionKind] = SECTION_KINDS,
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
 ) -> pd.DataFrame:
     """Return the rows of ``lca_validation.csv`` (`nptcs.tables.lca_validation.LcaValidation`).
@@ -79,7 +77,7 @@ def lca_validation(
         Figure 15: load_n, largest_relative_error_percent of the paper's model.
     tyre : TyreGeometry
         The tyre.
-    sections : sequence of str
+    sections : sequence of {"sandwich", "printed"}
         Sections to solve with.
     shear_band_c10_mpa : float
         C10 of the band in table 11 and figure 15 (MPa).
@@ -97,22 +95,22 @@ def lca_validation(
         solved = _solve_cases(
             cases.assign(shear_band_c10_mpa=shear_band_c10_mpa), spoke_table, tyre, section
         )
-        part = pd.concat([cases, solved[[*_COMPARED, *_OURS_ALONE]]], axis=1)
+        part = pd.concat([cases, solved[[*_COMPARED, *_COMPUTED_ALONE]]], axis=1)
         part.insert(0, "section", section)
         parts.append(part)
-    compared = _beside_table_11(pd.concat(parts, ignore_index=True), table_11)
+    compared = _with_table_11(pd.concat(parts, ignore_index=True), table_11)
     last = "published_largest_error_percent"
     return compared[[*compared.columns.drop(last), last]]
 
 
-def _beside_table_11(ours: pd.DataFrame, table_11: pd.DataFrame) -> pd.DataFrame:
+def _with_table_11(computed: pd.DataFrame, table_11: pd.DataFrame) -> pd.DataFrame:
     """Join table 11 where C10 and load agree, and take the differences."""
-    names = {theirs: f"published_{name}" for name, theirs in _COMPARED.items()}
+    names = {column: f"published_{name}" for name, column in _COMPARED.items()}
     names["fem_stiffness_n_per_mm"] = "published_fem_stiffness_n_per_mm"
     published = table_11.rename(columns=names | {"lca_force_n": "load_n"})
     keys = ["spoke_c10_mpa", "load_n"]
     published = published[[*keys, *names.values()]].astype(float)
-    joined = ours.merge(published, on=keys, how="left", validate="many_to_one")
+    joined = computed.merge(published, on=keys, how="left", validate="many_to_one")
     for name in _COMPARED:
         quantity = name.removesuffix("_deg").removesuffix("_mm").removesuffix("_n_per_mm")
         quantity = "stiffness" if name == "stiffness_n_per_mm" else quantity
@@ -129,10 +127,10 @@ def lca_against_fem(
     spoke_table: pd.DataFrame,
     table_7: pd.DataFrame,
     tyre: TyreGeometry,
-    sections: Sequence[str] = SECTION_KINDS,
+    sections: Sequence[SectionKind] = SECTION_KINDS,
     load_n: float = 5000.0,
 ) -> pd.DataFrame:
-    """Return the model beside the FE stiffness of table 7 (`LcaAgainstFem`).
+    """Compare the model with the FE stiffness of table 7 (`LcaAgainstFem`).
 
     Parameters
     ----------
@@ -142,7 +140,7 @@ def lca_against_fem(
         Table 7: case, shear_band_c10_mpa, spoke_c10_mpa, stiffness_n_per_mm.
     tyre : TyreGeometry
         The tyre.
-    sections : sequence of str
+    sections : sequence of {"sandwich", "printed"}
         Sections to solve with.
     load_n : float
         Load of the FE results (N).
@@ -163,34 +161,6 @@ def lca_against_fem(
     return pd.concat(parts, ignore_index=True)
 
 
-def ring_neutral_line(state: LcaState, points: int = 721) -> pd.DataFrame:
-    """Return the deformed middle line of the band, as figure 14 draws it.
-
-    Parameters
-    ----------
-    state : LcaState
-        A solved design.
-    points : int
-        Points around the whole ring.
-
-    Returns
-    -------
-    DataFrame
-        ``theta_deg``, ``region``, ``x_mm``, ``y_mm`` (deformed, the hub at the origin, y up) and
-        ``x_undeformed_mm``, ``y_undeformed_mm``.
-    """
-    shape = state.at(np.linspace(-180.0, 180.0, points))
-    angle = np.radians(shape["theta_deg"].to_numpy())
-    radius = state.section.radius_mm
-    radial = radius + shape["u_r_mm"].to_numpy()
-    along = shape["u_theta_mm"].to_numpy()
-    shape["x_mm"] = radial * np.sin(angle) + along * np.cos(angle)
-    shape["y_mm"] = -radial * np.cos(angle) + along * np.sin(angle)
-    shape["x_undeformed_mm"] = radius * np.sin(angle)
-    shape["y_undeformed_mm"] = -radius * np.cos(angle)
-    return shape[["theta_deg", "region", "x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]]
-
-
 def ring_neutral_lines(
     spoke_table: pd.DataFrame,
     table_11: pd.DataFrame,
@@ -199,7 +169,7 @@ def ring_neutral_lines(
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
     points: int = 721,
 ) -> pd.DataFrame:
-    """Return the ring shapes of table 11's designs under its loads (contract `LcaNeutralLine`).
+    """Return the neutral lines of table 11's designs under its loads (contract `LcaNeutralLine`).
 
     Parameters
     ----------
@@ -216,12 +186,12 @@ def ring_neutral_lines(
     """
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
     ring = RingSection.from_tyre(tyre, shear_band_c10_mpa, section)
-    shapes = []
+    lines = []
     for c10, load in zip(table_11["spoke_c10_mpa"], table_11["lca_force_n"], strict=True):
         state = solve(ring, spokes.spokes(float(c10), tyre.spoke_count), load_n=float(load))
-        shape = ring_neutral_line(state, points)
+        line = neutral_line(state, points)
         for name, value in (("load_n", load), ("spoke_c10_mpa", c10)):
-            shape.insert(0, name, float(value))
-        shape.insert(0, "section", section)
-        shapes.append(shape)
-    return pd.concat(shapes, ignore_index=True)
+            line.insert(0, name, float(value))
+        line.insert(0, "section", section)
+        lines.append(line)
+    return pd.concat(lines, ignore_index=True)

@@ -43,7 +43,7 @@ class Comparison:
 
 
 def compare_published(cases: pd.DataFrame, studies: Mapping[str, Comparison]) -> pd.DataFrame:
-    """Set each computed stiffness beside the published one, as `StiffnessAgainstPublished`.
+    """Compare each computed stiffness with the published one, as `StiffnessAgainstPublished`.
 
     Parameters
     ----------

@@ -13,7 +13,8 @@ from nptcs.config.fe import LayerlessGeometry, SpokeGeometry
 class AbaqusMesh(Strict):
     """Numbers of linear elements; the defaults give the counts of table 4.
 
-    Of the meshes of a spoke with 3612 bricks, two across a leg and many along it bend best.
+    Of the spoke meshes with 3612 bricks, those with two across a leg and many along it are the best
+    in bending.
     """
 
     rows: tuple[int, int, int, int, int, int] = Field(
@@ -38,7 +39,7 @@ class AbaqusMesh(Strict):
 
 
 class AbaqusModel(Strict):
-    """Everything of the Abaqus model that does not vary from case to case."""
+    """Everything in the Abaqus model that is the same for all cases."""
 
     geometry: LayerlessGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     mesh: AbaqusMesh = Field(default_factory=AbaqusMesh, description="Mesh of the whole tyre")

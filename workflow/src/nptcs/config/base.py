@@ -1,4 +1,4 @@
-"""What every part of the configuration has in common: nothing unknown, nothing changed later."""
+"""What all configuration sections share: unknown keys are refused, values are frozen."""
 
 from pydantic import BaseModel, ConfigDict
 

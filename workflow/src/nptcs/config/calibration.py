@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field
 
 from nptcs.config.base import Strict
 from nptcs.config.reduction import Interval
+from nptcs.mechanical_tests import COMPOSITE_TESTS, TestType
 
 ModelName = Literal["neo_hookean", "mooney_rivlin", "yeoh", "ogden"]
 
@@ -18,14 +19,21 @@ def _from_zero(interval: tuple[float, float]) -> tuple[float, float]:
     return interval
 
 
+def _of_composites(test: TestType) -> TestType:
+    if test.is_rubber:
+        raise ValueError(f"use a test of composites: {', '.join(COMPOSITE_TESTS)}")
+    return test
+
+
 StrainRange = Annotated[Interval, AfterValidator(_from_zero)]
 
 
 class ConstantSource(Strict):
     """The specimens and the property that a measured constant comes from."""
 
-    tests: tuple[Literal["tension", "compression", "shear"], ...] = Field(
-        min_length=1, description="Tests whose specimens are taken together"
+    tests: tuple[Annotated[TestType, AfterValidator(_of_composites)], ...] = Field(
+        min_length=1,
+        description="Tests whose specimens are taken together: " + ", ".join(COMPOSITE_TESTS),
     )
     orientation_deg: float = Field(description="Fibre angle of those specimens")
     property: str = Field(description="Property in the property table")
@@ -45,17 +53,19 @@ class PlySettings(Strict):
     """Sources and assumptions of the ply's nine constants."""
 
     e1_mpa: ConstantSource = Field(
-        ConstantSource(tests=("tension",), orientation_deg=0, property="modulus"), description="E1"
+        ConstantSource(tests=(TestType.TENSION,), orientation_deg=0, property="modulus"),
+        description="E1",
     )
     e2_mpa: ConstantSource = Field(
-        ConstantSource(tests=("tension",), orientation_deg=90, property="modulus"), description="E2"
+        ConstantSource(tests=(TestType.TENSION,), orientation_deg=90, property="modulus"),
+        description="E2",
     )
     nu12: ConstantSource = Field(
-        ConstantSource(tests=("tension",), orientation_deg=0, property="poisson_ratio"),
+        ConstantSource(tests=(TestType.TENSION,), orientation_deg=0, property="poisson_ratio"),
         description="ν12",
     )
     g12_mpa: ConstantSource = Field(
-        ConstantSource(tests=("shear",), orientation_deg=45, property="shear_modulus"),
+        ConstantSource(tests=(TestType.SHEAR,), orientation_deg=45, property="shear_modulus"),
         description="G12",
     )
     assumptions: PlyAssumptions = Field(

@@ -1,4 +1,4 @@
-"""Faults of a configuration in words that a user can act on."""
+"""Faults in a configuration, in words that a user can act on."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pydantic import BaseModel, ValidationError
 
 
 def describe(error: ValidationError, model: type[BaseModel]) -> str:
-    """Turn a validation error into one line a fault: key path, what is wrong, a near key."""
+    """Turn a validation error into one line per fault: key path, fault, nearest known key."""
     lines = []
     for fault in error.errors():
         path = ".".join(str(part) for part in fault["loc"]) or "(top level)"

@@ -2,35 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from math import cos, radians
-from typing import Annotated, Literal, Self
+from typing import Annotated, Any, Literal, Self, assert_never
 
-from pydantic import AfterValidator, Field, model_validator
+from pydantic import AfterValidator, Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
 
 PlateCoupling = Literal["embedded", "conforming"]
+RingKind = Literal["converged", "paper_mesh"]
+AxialFreedom = Literal["free_edges", "plane_strain"]
 
 
 class SpokeGeometry(Strict):
     """The '<' spoke's section, symmetric about its mid-height; lengths along the radius.
 
     The paper only draws it (figure 6e): the defaults are calibrated by ``nptcs fe-calibrate`` on
-    table 10 and five cases of table 5.
+    table 10 and five cases of table 5 with the ring ``paper_mesh``; ``fe_tyre`` and ``fe_spoke``
+    take the section that was calibrated with their own ``ring`` (`SECTIONS`).
     """
 
-    leg_angle_deg: float = Field(29.55, gt=0, lt=60, description="Leg's angle from the radius")
+    leg_angle_deg: float = Field(29.5, gt=0, lt=60, description="Leg's angle from the radius")
     height_mm: float = Field(84.1, gt=0, description="From the rim to the band")
     leg_thickness_mm: float = Field(2.5, gt=0, description="Normal to the leg")
     block_thickness_mm: float = Field(
-        12.526, gt=0, description="Rubber block at mid-height, normal to the leg"
+        12.251, gt=0, description="Rubber block at mid-height, normal to the leg"
     )
-    block_half_length_mm: float = Field(6.001, gt=0, description="Half the block's height")
-    block_ramp_mm: float = Field(4.654, gt=0, description="Height of the ramp from leg to block")
+    block_half_length_mm: float = Field(5.8, gt=0, description="Half the block's height")
+    block_ramp_mm: float = Field(4.558, gt=0, description="Height of the ramp from leg to block")
     foot_thickness_mm: float = Field(
-        12.031, gt=0, description="At the rim and the band, normal to the leg"
+        13.053, gt=0, description="At the rim and the band, normal to the leg"
     )
-    foot_taper_mm: float = Field(10.346, gt=0, description="Height of the taper from foot to leg")
+    foot_taper_mm: float = Field(10.299, gt=0, description="Height of the taper from foot to leg")
     plate_foot_gap_mm: float = Field(5.0, gt=0, description="Plate's end above the rim")
     plate_mid_gap_mm: float = Field(5.5, gt=0, description="Plate's end short of mid-height")
     plate_layer_mm: float = Field(
@@ -38,6 +42,12 @@ class SpokeGeometry(Strict):
         gt=0,
         description="Thickness of the mesh layer that carries the plate; its stiffness is that of "
         "the true plies, as with a shell embedded in the rubber",
+    )
+    calibrated_with: RingKind | None = Field(
+        None,
+        description="Ring of the tyres that the section was calibrated with, as `nptcs "
+        "fe-calibrate` prints it: no other ring takes it; null for a section that was drawn or "
+        "measured",
     )
 
     @model_validator(mode="after")
@@ -160,34 +170,92 @@ class EnergyTableOptions(Strict):
 
 
 class TyreMesh(Strict):
-    """Mesh of the band and tread; quadratic quadrilaterals."""
+    """Mesh of the converged ring: quadratic quadrilaterals that end at the spokes' feet."""
 
     foot_elements: int = Field(1, ge=1, description="Along the circumference under a spoke's foot")
     gap_elements: int = Field(1, ge=1, description="Along the circumference between two feet")
+    cover_rows: int = Field(
+        1, ge=1, description="Across the rubber inside the inner wires and outside the outer ones"
+    )
     band_rows: int = Field(1, ge=1, description="Across the shear band between its wire layers")
     tread_rows: int = Field(1, ge=1, description="Across the tread outside the band")
+    wire_row_mm: float = Field(
+        0.05,
+        gt=0,
+        le=0.2,
+        description="Depth of the rows of elements that the wires bend in; it takes its part from "
+        "the rubber between the wires, which shears the less, so it must stay thin",
+    )
     first_spoke_deg: float = Field(
         0.0, description="Angle of a spoke's feet from the middle of the contact"
     )
+
+
+# columns of the ring of table 4: 270 × (2 + 2) rows × 31 across the width are its 33,480 bricks
+PAPER_COLUMNS = 270
+
+
+class PaperMesh(Strict):
+    """Mesh of the ring as table 4 counts it: quadrilaterals of four nodes with one pressure each.
+
+    Two rows in the band and two in the tread; the wires are membranes embedded in them, and the
+    ground is felt at the nodes.
+    """
+
+    around: int = Field(PAPER_COLUMNS, ge=120, description="Elements around the circumference")
+    first_spoke_deg: float = Field(
+        0.0, description="Angle of a spoke's feet from a node in the middle of the contact"
+    )
+
+    @field_validator("around")
+    @classmethod
+    def _coarse_enough(cls, around: int) -> int:
+        if around > PAPER_COLUMNS:
+            raise ValueError(
+                f"at most {PAPER_COLUMNS} elements: the wires are membranes, which wrinkle in the "
+                "compressed layer at the length of the elements, so that a finer ring gets softer "
+                "without a limit; refine the ring `converged`, whose wires bend"
+            )
+        return around
 
 
 class GroundContact(Strict):
     """Contact of the tread with the rigid plane: a smoothed penalty and Coulomb friction."""
 
     friction: float = Field(0.3, ge=0, lt=2, description="Coefficient of friction, section 3.2")
-    penalty_mpa_per_mm: float = Field(50.0, gt=0, description="Pressure per mm of penetration")
+    penalty_mpa_per_mm: float = Field(500.0, gt=0, description="Pressure per mm of penetration")
     smoothing_mm: float = Field(
-        0.1, gt=0, description="Penetration below which the pressure grows quadratically"
+        0.002,
+        gt=0,
+        description="Penetration below which the pressure grows quadratically; it counts as "
+        "displacement of the tyre",
     )
     tangential_mpa_per_mm: float = Field(
         10.0, gt=0, description="Shear traction per mm of elastic slip"
     )
 
 
+SECTIONS: Mapping[RingKind, SpokeGeometry] = {
+    "paper_mesh": SpokeGeometry(calibrated_with="paper_mesh"),
+    "converged": SpokeGeometry(calibrated_with="converged"),
+}
+"""Sections that `nptcs fe-calibrate` has found with each ring."""
+
+
 class FeSpokeModel(Strict):
     """What a single spoke depends on and does not vary from case to case."""
 
-    geometry: SpokeGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
+    ring: RingKind = Field(
+        "converged",
+        description="Ring of the tyre, and with it the section of the spoke that was calibrated "
+        "with it. converged: wires that bend, results that do not depend on the mesh; paper_mesh: "
+        "the ring as table 4 of the paper counts it, of membranes in coarse elements, to compare "
+        "with the paper",
+    )
+    geometry: SpokeGeometry = Field(
+        default_factory=SpokeGeometry,
+        description="The spoke; what is not given is that of the section calibrated with `ring`",
+    )
     spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
     plate_coupling: PlateCoupling = Field(
         "embedded",
@@ -196,13 +264,86 @@ class FeSpokeModel(Strict):
         "rubber and may bow",
     )
 
+    @model_validator(mode="before")
+    @classmethod
+    def _section_of_the_ring(cls, values: Any) -> Any:
+        """Complete the section by that of the ring, calibrated only if nothing is changed."""
+        if not isinstance(values, dict):
+            return values
+        section = SECTIONS.get(values.get("ring", cls.model_fields["ring"].default))
+        given = values.get("geometry", {})
+        if section is None or not isinstance(given, Mapping):
+            return values
+        kept = section.model_dump(exclude=set() if not given else {"calibrated_with"})
+        return {**values, "geometry": {**kept, **given}}
+
+    @model_validator(mode="after")
+    def _section_fits_the_ring(self) -> Self:
+        dimensions = self.geometry.model_dump(exclude={"calibrated_with"})
+        found = self.geometry.calibrated_with
+        for ring, section in SECTIONS.items():
+            if found is None and section.model_dump(exclude={"calibrated_with"}) == dimensions:
+                found = None if ring == self.ring else ring
+        if found not in (None, self.ring):
+            raise ValueError(
+                f"the section was calibrated with the ring '{found}', on which it makes up for "
+                f"that ring's own stiffness: choose `ring: {found}`, leave `geometry` out, or "
+                f"calibrate again with `nptcs fe-calibrate --ring {self.ring}`"
+            )
+        return self
+
+
+AXIAL_BULK_TO_SHEAR = 10.0
+"""κ/2C10 with which a ring in plane strain is as soft as one 215 mm wide with free edges: a slice
+of bricks, whose wires are stiff along the circumference only, is 0.4 to 0.9 % softer on ground with
+the friction of 0.3 than a ring held along its axis (docs/methods/fe.md)."""
+
 
 class FeModel(FeSpokeModel):
     """Everything of the finite element route that does not vary from case to case."""
 
+    axial: AxialFreedom = Field(
+        "free_edges",
+        description="Freedom of band and tread along the axis. free_edges: of a tyre as wide as "
+        "the paper's, by a bulk to shear ratio of 10 in plane strain; plane_strain: none, nearly "
+        "incompressible",
+    )
     table: EnergyTableOptions = Field(
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
     )
-    tyre_mesh: TyreMesh = Field(default_factory=TyreMesh, description="Mesh of band and tread")
+    tyre_mesh: TyreMesh = Field(
+        default_factory=TyreMesh, description="Mesh of band and tread, ring `converged`"
+    )
+    paper_mesh: PaperMesh = Field(
+        default_factory=PaperMesh, description="Mesh of band and tread, ring `paper_mesh`"
+    )
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")
+
+    @model_validator(mode="after")
+    def _mesh_of_the_ring(self) -> Self:
+        unused = {"converged": "paper_mesh", "paper_mesh": "tyre_mesh"}[self.ring]
+        mesh = getattr(self, unused)
+        if mesh != type(mesh)():
+            raise ValueError(f"{unused} has no effect with `ring: {self.ring}`: leave it out")
+        return self
+
+    def ring_mesh(self) -> TyreMesh | PaperMesh:
+        """Return the mesh of the chosen ring."""
+        match self.ring:
+            case "converged":
+                return self.tyre_mesh
+            case "paper_mesh":
+                return self.paper_mesh
+            case _:
+                assert_never(self.ring)
+
+    def band_bulk_to_shear(self) -> float:
+        """Return κ/2C10 of band and tread."""
+        match self.axial:
+            case "free_edges":
+                return AXIAL_BULK_TO_SHEAR
+            case "plane_strain":
+                return self.spoke_mesh.bulk_to_shear_ratio
+            case _:
+                assert_never(self.axial)

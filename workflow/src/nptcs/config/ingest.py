@@ -50,6 +50,13 @@ class ExtensometerRemoval(Strict):
     stuck_force_share: float = Field(
         0.05, gt=0, lt=1, description="Strain stands still while the force grows by this share"
     )
+    largest_return: float = Field(
+        0.05,
+        gt=0,
+        lt=1,
+        description="Strain that goes back by more than this share of what it had reached, while "
+        "the force is higher than ever, is no longer measured on the specimen",
+    )
 
 
 class OriginOfStrain(Strict):
@@ -67,6 +74,9 @@ class OriginOfStrain(Strict):
         (0.01, 0.10), description="Strain window of the fit, rubber tests"
     )
     smallest_points: int = Field(8, ge=4, description="Fewer points: not corrected, flagged")
+    significance: float = Field(
+        3.0, ge=0, description="A shift within so many of its standard errors is not applied"
+    )
     worst_r_squared: float = Field(
         0.98, gt=0, lt=1, description="Poorer fit: not corrected, flagged"
     )
@@ -86,6 +96,24 @@ class ForceZero(Strict):
         False, description="Subtract the force before loading; off: preload is a real force"
     )
     readings: int = Field(10, ge=1, description="Readings before loading whose mean is taken")
+
+
+class Signs(Strict):
+    """Tension positive: which part of a record is the test, where force has both signs."""
+
+    smallest_share: float = Field(
+        0.05,
+        gt=0,
+        lt=1,
+        description="Force of the other sign up to this share of the largest is a disturbance; "
+        "beyond, the part is left out and named",
+    )
+    clear_share: float = Field(
+        0.25,
+        gt=0,
+        lt=1,
+        description="A part below this share of the other one is not the test, whatever its sign",
+    )
 
 
 class MachineCompliance(Strict):
@@ -113,6 +141,16 @@ class Pairing(Strict):
     )
 
 
+class FileLimits(Strict):
+    """Largest file that is read; a larger one is refused before it takes time and memory."""
+
+    file_mb: float = Field(500.0, gt=0, description="Size of a raw file in MB")
+    unpacked_mb: float = Field(1000.0, gt=0, description="Size of a workbook when unpacked, in MB")
+    rows: int = Field(2_000_000, gt=0, description="Lines of a text or rows of a sheet")
+    columns: int = Field(2_000, gt=0, description="Columns of a table")
+    line_length: int = Field(100_000, gt=0, description="Characters of a line")
+
+
 class Plausible(Strict):
     """What physics allows; outside, a unit or an area must be wrong and the specimen stops."""
 
@@ -134,10 +172,12 @@ class Plausible(Strict):
 class IngestSettings(Strict):
     """How raw files become curves."""
 
+    limits: FileLimits = FileLimits()
     missing_values: MissingValues = MissingValues()
     end_of_test: EndOfTest = EndOfTest()
     extensometer: ExtensometerRemoval = ExtensometerRemoval()
     force_zero: ForceZero = ForceZero()
+    signs: Signs = Signs()
     strain_origin: OriginOfStrain = OriginOfStrain()
     compliance: MachineCompliance = MachineCompliance()
     pairing: Pairing = Pairing()

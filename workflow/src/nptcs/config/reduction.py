@@ -8,11 +8,12 @@ were not read in a public source, are marked "check against your copy of the sta
 
 from __future__ import annotations
 
-from typing import Annotated, ClassVar, Literal
+from typing import Annotated, ClassVar, Literal, assert_never
 
 from pydantic import AfterValidator, Field
 
 from nptcs.config.base import Strict
+from nptcs.mechanical_tests import TestType
 
 ChordMethod = Literal["nearest_points", "interpolated", "least_squares"]
 
@@ -81,12 +82,20 @@ class TensionRules(ChordRules):
     low_ultimate_fractions: Interval = Field(
         (0.25, 0.5), description="Those fractions of the ultimate strain"
     )
+    short_run_range: Interval | None = Field(
+        None,
+        description="Strain range of the chord, flagged, where the strain ends before chord_range "
+        "does and the ultimate strain is not known; null: not assessed then",
+    )
 
 
 class AstmD3039(TensionRules):
     """ASTM D3039: tensile properties of polymer matrix composites."""
 
     title: ClassVar[str] = "ASTM D3039"
+    short_run_range: Interval | None = Field(
+        (0.0005, 0.0025), description="Chord of a modulus run that ends before chord_range does"
+    )
     low_ultimate_strain: float | None = Field(
         0.006, gt=0, description="Ultimate strain below which fractions of it bound the chord"
     )
@@ -208,6 +217,103 @@ class Iso37(RubberRules):
     )
 
 
+class FlexureRules(ChordRules):
+    """Rules of a bending test at three or four points."""
+
+    span_to_thickness: Interval | None = Field(
+        None, description="Span over thickness that the standard lets expect; null: any"
+    )
+    loading_spans: tuple[float, ...] = Field(
+        (0.0,), description="Loading span over span that the standard has; 0: three points"
+    )
+    large_deflection: tuple[float, float] | None = Field(
+        None,
+        description="a and b of the factor 1 + a (D/L)² + b (h/L)(D/L) on the stress at three "
+        "points where the deflection D is above a tenth of the span; null: no correction",
+    )
+
+
+class AstmD7264(FlexureRules):
+    """ASTM D7264: flexure of polymer matrix composites."""
+
+    title: ClassVar[str] = "ASTM D7264"
+    span_to_thickness: Interval | None = Field(
+        (28.0, 36.0), description="Span over thickness (32 within some 12 %)"
+    )
+    loading_spans: tuple[float, ...] = Field(
+        (0.0, 0.5), description="Procedure A: three points; B: rollers half the span apart"
+    )
+
+
+class AstmD790(FlexureRules):
+    """ASTM D790: flexure of plastics at three points."""
+
+    title: ClassVar[str] = "ASTM D790"
+    span_to_thickness: Interval | None = Field(
+        (15.0, 60.0), description="Span over thickness (16, or more for laminates)"
+    )
+    large_deflection: tuple[float, float] | None = Field(
+        (6.0, -4.0), description="Factors of equation 4; null: no correction"
+    )
+
+
+class Iso14125(FlexureRules):
+    """ISO 14125: flexure of fibre-reinforced plastics."""
+
+    title: ClassVar[str] = "ISO 14125"
+    chord_range: Interval = Field((0.0005, 0.0025), description="Strain range of the chord")
+    time_to_failure_min: Interval | None = Field(
+        None, description="Time to failure that the standard asks for, minutes; null: none"
+    )
+    span_to_thickness: Interval | None = Field(
+        (16.0, 45.0), description="Span over thickness (16 to 40 by class of material)"
+    )
+    loading_spans: tuple[float, ...] = Field(
+        (0.0, 1 / 3), description="Method A: three points; B: rollers a third of the span apart"
+    )
+    large_deflection: tuple[float, float] | None = Field(
+        (6.0, -3.0), description="Factors for large deflections; null: no correction"
+    )
+
+
+class RubberCompressionRules(Rules):
+    """Rules of the compression of a rubber disc."""
+
+    minimum_specimens: int = Field(3, ge=1, description="Number of specimens asked for")
+    reported_statistic: Literal["mean", "median"] = Field(
+        "median", description="Statistic that the standard reports for a group"
+    )
+    compressions_percent: tuple[float, ...] = Field(
+        (10.0, 20.0), description="Compressions at which stress and modulus are given, percent"
+    )
+    loadings: int = Field(
+        1, ge=1, description="Loadings of which the last is measured, after conditioning"
+    )
+    disc_mm: tuple[Interval, Interval] = Field(
+        ((1.0, 1000.0), (1.0, 1000.0)), description="Recommended diameter and height, mm"
+    )
+
+
+class Iso7743(RubberCompressionRules):
+    """ISO 7743: compression of vulcanised rubber."""
+
+    title: ClassVar[str] = "ISO 7743"
+    loadings: int = Field(4, ge=1, description="Three for conditioning, the fourth is measured")
+    disc_mm: tuple[Interval, Interval] = Field(
+        ((28.5, 29.5), (12.0, 13.0)), description="Diameter and height of test piece A, mm"
+    )
+
+
+class AstmD575(RubberCompressionRules):
+    """ASTM D575: compression of rubber."""
+
+    title: ClassVar[str] = "ASTM D575"
+    loadings: int = Field(3, ge=1, description="Two for conditioning, the third is measured")
+    disc_mm: tuple[Interval, Interval] = Field(
+        ((28.5, 28.7), (12.0, 13.0)), description="Diameter and height, mm"
+    )
+
+
 class StatisticsSettings(Strict):
     """Statistics of a group of specimens."""
 
@@ -244,6 +350,12 @@ class ReductionSettings(Strict):
     rubber_standard: Literal["astm_d412", "iso_37"] = Field(
         "astm_d412", description="Standard of the rubber tests"
     )
+    flexure_standard: Literal["astm_d7264", "astm_d790", "iso_14125"] = Field(
+        "astm_d7264", description="Standard of the bending tests"
+    )
+    rubber_compression_standard: Literal["iso_7743", "astm_d575"] = Field(
+        "iso_7743", description="Standard of the compression of rubber discs"
+    )
     astm_d3039: AstmD3039 = Field(AstmD3039(), description="Tension, ASTM")
     iso_527_4: Iso527 = Field(Iso527(), description="Tension, ISO")
     astm_d6641: AstmD6641 = Field(AstmD6641(), description="Compression")
@@ -251,28 +363,81 @@ class ReductionSettings(Strict):
     iso_14129: Iso14129 = Field(Iso14129(), description="In-plane shear, ISO")
     astm_d412: AstmD412 = Field(AstmD412(), description="Rubber, ASTM")
     iso_37: Iso37 = Field(Iso37(), description="Rubber, ISO")
+    astm_d7264: AstmD7264 = Field(AstmD7264(), description="Flexure, ASTM, composites")
+    astm_d790: AstmD790 = Field(AstmD790(), description="Flexure, ASTM, plastics")
+    iso_14125: Iso14125 = Field(Iso14125(), description="Flexure, ISO")
+    iso_7743: Iso7743 = Field(Iso7743(), description="Compression of rubber, ISO")
+    astm_d575: AstmD575 = Field(AstmD575(), description="Compression of rubber, ASTM")
     statistics: StatisticsSettings = Field(
         StatisticsSettings(), description="Statistics of the groups"
     )
 
     def tension(self) -> TensionRules:
         """Rules in force for tension tests."""
-        return self.astm_d3039 if self.tension_standard == "astm_d3039" else self.iso_527_4
+        match self.tension_standard:
+            case "astm_d3039":
+                return self.astm_d3039
+            case "iso_527_4":
+                return self.iso_527_4
+            case _:
+                assert_never(self.tension_standard)
 
     def shear(self) -> ShearRules:
         """Rules in force for ±45° tension tests."""
-        return self.astm_d3518 if self.shear_standard == "astm_d3518" else self.iso_14129
+        match self.shear_standard:
+            case "astm_d3518":
+                return self.astm_d3518
+            case "iso_14129":
+                return self.iso_14129
+            case _:
+                assert_never(self.shear_standard)
 
     def rubber(self) -> RubberRules:
         """Rules in force for rubber tests."""
-        return self.astm_d412 if self.rubber_standard == "astm_d412" else self.iso_37
+        match self.rubber_standard:
+            case "astm_d412":
+                return self.astm_d412
+            case "iso_37":
+                return self.iso_37
+            case _:
+                assert_never(self.rubber_standard)
 
-    def rules(self, test: str) -> Rules:
+    def flexure(self) -> FlexureRules:
+        """Rules in force for bending tests."""
+        match self.flexure_standard:
+            case "astm_d7264":
+                return self.astm_d7264
+            case "astm_d790":
+                return self.astm_d790
+            case "iso_14125":
+                return self.iso_14125
+            case _:
+                assert_never(self.flexure_standard)
+
+    def rubber_compression(self) -> RubberCompressionRules:
+        """Rules in force for the compression of rubber discs."""
+        match self.rubber_compression_standard:
+            case "iso_7743":
+                return self.iso_7743
+            case "astm_d575":
+                return self.astm_d575
+            case _:
+                assert_never(self.rubber_compression_standard)
+
+    def rules(self, test: TestType) -> Rules:
         """Rules in force for a test type of the specimen sheet."""
-        if test == "tension":
-            return self.tension()
-        if test == "compression":
-            return self.astm_d6641
-        if test == "shear":
-            return self.shear()
-        return self.rubber()
+        match test:
+            case TestType.TENSION:
+                return self.tension()
+            case TestType.COMPRESSION:
+                return self.astm_d6641
+            case TestType.SHEAR:
+                return self.shear()
+            case TestType.FLEXURE:
+                return self.flexure()
+            case TestType.RUBBER_COMPRESSION:
+                return self.rubber_compression()
+            case TestType.RUBBER_TENSION | TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+                return self.rubber()
+            case _:
+                assert_never(test)

@@ -34,18 +34,20 @@ class Campaign(Strict):
     """How solver cases are run."""
 
     batches: int = Field(
-        1, ge=1, description="Jobs that a study is cut into for each solver (for clusters)"
+        1,
+        ge=1,
+        description="Jobs into which each solver's cases of a study are divided (for clusters)",
     )
     cores_per_batch: int = Field(
         2,
         ge=1,
-        description="Cores that a batch asks for, no more than `-j` allows; divided by those of a "
-        "case (one, or the solver's `cpus`) they are the cases that it solves at a time",
+        description="Cores that a batch asks for, at most those of `-j`; divided by the cores of "
+        "one case (one, or the solver's `cpus`) they give the number of cases solved at a time",
     )
 
 
 class LcaValidation(Strict):
-    """The published numbers that the load-bearing model is checked against."""
+    """Published values against which the load-bearing model is checked."""
 
     spoke_stiffness: str = Field(
         "raw_data/published/table10_spoke_stiffness.csv", description="Table 10 of the paper"
@@ -64,7 +66,7 @@ class LcaValidation(Strict):
 
 
 class ReportSettings(Strict):
-    """What stands at the head of the report."""
+    """What the head of the report says."""
 
     title: str = Field("Load-bearing study of a non-pneumatic tyre with composite spokes")
     laboratory: str = Field("", description="Name of the laboratory, shown under the title")
@@ -78,7 +80,9 @@ class Config(Strict):
     reduction: ReductionSettings = ReductionSettings()
     calibration: CalibrationSettings = CalibrationSettings()
     tyre: TyreGeometry = TyreGeometry()
-    studies: tuple[Study, ...] = Field(min_length=1, description="Studies, each on its own")
+    studies: tuple[Study, ...] = Field(
+        min_length=1, description="Studies, independent of each other"
+    )
     solvers: dict[str, dict[str, Any]] = Field(
         default_factory=dict, description="Options of each solver, by its name"
     )
@@ -91,7 +95,7 @@ class Config(Strict):
     def _study_names_differ(self) -> Self:
         names = [study.name for study in self.studies]
         if len(set(names)) < len(names):
-            raise ValueError(f"studies: a name is given twice: {names}")
+            raise ValueError(f"studies: a name is used twice: {names}")
         return self
 
     @model_validator(mode="after")
@@ -106,7 +110,7 @@ class Config(Strict):
         return next(study for study in self.studies if study.name == name)
 
     def solver_options(self, study: Study) -> dict[str, dict[str, Any]]:
-        """Return the options of each solver of a study: its own laid over the general ones."""
+        """Return the options of each solver of a study: the study overrides the general ones."""
         return {
             name: {**self.solvers.get(name, {}), **study.solver_options.get(name, {})}
             for name in study.solvers
@@ -131,6 +135,12 @@ def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> 
     ------
     InputError
         All faults in one message: the key's path, the value, and the nearest known key.
+
+    Examples
+    --------
+    >>> read_config({"studys": []}, "mine.yaml")
+    Traceback (most recent call last):
+    nptcs.errors.InputError: ...studys: unknown key; did you mean 'studies'?...
     """
     try:
         return Config.model_validate(values)

@@ -73,6 +73,11 @@ class Study(Strict):
         gt=0,
         description="Vertical load of the secant stiffness; without effect on single spokes",
     )
+    ply: str | None = Field(
+        None,
+        description="Composite of the specimen sheet whose card the solvers take; null: the only "
+        "one that the sheet gives",
+    )
     solvers: tuple[Name, ...] = Field(min_length=1, description="Solvers that run this study")
     solver_options: dict[Name, dict[str, Any]] = Field(
         default_factory=dict, description="Options of a solver for this study only"

@@ -37,7 +37,13 @@ class TyreGeometry(Strict):
     wire_poisson_ratio: float = Field(0.3, gt=-1, lt=0.5, description="Poisson's ratio of the wire")
 
     def plates_across(self, spacing_mm: float) -> int:
-        """Plates of one leg: as many as lie inside the width at this spacing (table 4: 15)."""
+        """Return how many plates of a leg fit into the width at this spacing (table 4: 15).
+
+        Examples
+        --------
+        >>> [TyreGeometry().plates_across(spacing) for spacing in (10, 15, 20)]
+        [22, 15, 11]
+        """
         return floor((self.tread_width_mm - self.plate_width_mm) / spacing_mm + 1e-9) + 1
 
     @model_validator(mode="after")
@@ -50,14 +56,14 @@ class TyreGeometry(Strict):
             "outer_diameter_mm / 2": self.outer_diameter_mm / 2,
         }
         if sorted(radii.values()) != list(radii.values()):
-            raise ValueError(f"radii must grow from rim to tread, got {radii}")
+            raise ValueError(f"radii must increase from rim to tread, got {radii}")
         return self
 
     @model_validator(mode="after")
     def _plates_fit(self) -> Self:
         if self.plate_width_mm > self.tread_width_mm:
             raise ValueError(
-                f"plate_width_mm must not be above tread_width_mm ({self.tread_width_mm:g}), got "
+                f"plate_width_mm must not exceed tread_width_mm ({self.tread_width_mm:g}), got "
                 f"{self.plate_width_mm:g}"
             )
         return self

@@ -1,4 +1,4 @@
-"""Input decks of one spoke for CalculiX, and reading its answers.
+"""Input decks of one spoke for CalculiX, and reading its results.
 
 CalculiX ignores ``*EMBEDDED ELEMENT`` and ``*REBAR LAYER`` with a warning only, so the plies are
 meshed, at their true thickness, with one C3D20R brick each through the thickness.
@@ -9,6 +9,7 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, replace
+from typing import assert_never
 
 import numpy as np
 
@@ -153,18 +154,29 @@ def deck(design: SpokeDesign, mesh: BrickMesh, element: str, u_r_mm: Sequence[fl
     for far, near in mesh.pairs:
         for axis in (1, 2, 3):
             lines += ["*EQUATION", "2", f"{far}, {axis}, 1., {near}, {axis}, -1."]
-    if design.plate_coupling == "embedded":
-        lines.append("** the plates' mid-surface stays straight across their width")
-        for node, (first, last, part) in mesh.between.items():
-            for axis in (1, 2, 3):
-                ends = f"{first}, {axis}, {part - 1.0:.9g}, {last}, {axis}, {-part:.9g}"
-                lines += ["*EQUATION", "3", f"{node}, {axis}, 1., {ends}"]
+    lines += _plate_coupling(design, mesh)
     lines += ["*BOUNDARY", "NBOTTOM, 1, 3", "NTOP, 1, 2"]
     for u_r in u_r_mm:
         lines += ["*STEP, NLGEOM, INC=500", "*STATIC", "0.25, 1., 1e-4, 0.5"]
         lines += ["*BOUNDARY", f"NTOP, 3, 3, {u_r:.9g}"]
         lines += ["*NODE PRINT, NSET=NTOP, TOTALS=ONLY, FREQUENCY=1000", "RF", "*END STEP"]
     return "\n".join(lines) + "\n"
+
+
+def _plate_coupling(design: SpokeDesign, mesh: BrickMesh) -> list[str]:
+    """Equations that hold the plates' mid-surface straight, where the design couples it so."""
+    match design.plate_coupling:
+        case "conforming":
+            return []
+        case "embedded":
+            lines = ["** the plates' mid-surface stays straight across their width"]
+        case _:
+            assert_never(design.plate_coupling)
+    for node, (first, last, part) in mesh.between.items():
+        for axis in (1, 2, 3):
+            ends = f"{first}, {axis}, {part - 1.0:.9g}, {last}, {axis}, {-part:.9g}"
+            lines += ["*EQUATION", "3", f"{node}, {axis}, 1., {ends}"]
+    return lines
 
 
 def _node_set(name: str, nodes: Iterable[int]) -> list[str]:
@@ -205,7 +217,7 @@ def _materials(design: SpokeDesign, plies: Sequence[str]) -> list[str]:
 def total_forces(dat_text: str) -> Array:
     """Read the printed total forces of the band, array (steps, 3), N for one period.
 
-    There is a row for each step that was completed; CalculiX leaves the file empty if none was.
+    There is one row per completed step; CalculiX leaves the file empty if none was.
     """
     number = r"([-+0-9.Ee]+)"
     pattern = rf"total force \(fx,fy,fz\) for set NTOP.*\n\s*\n\s*{number}\s+{number}\s+{number}"
@@ -216,7 +228,8 @@ def complaints(output: str) -> str:
     """Return the warnings and errors about the model in what CalculiX printed, or an empty text.
 
     CalculiX ignores keywords that it does not know with a warning and exit code 0, so a warning
-    means that another model was solved. That an iteration got no further is not about the model.
+    means that another model was solved. A failure to converge is not about
+    the model.
     """
     lines = [line.strip() for line in output.splitlines()]
     starts = [

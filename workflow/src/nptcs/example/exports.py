@@ -1,4 +1,4 @@
-"""Export files as machines and cameras write them: one function a format."""
+"""Export files as machines and cameras write them: one function per format."""
 
 from __future__ import annotations
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import csv
 import io
 from pathlib import Path
+from typing import assert_never
 
 import numpy as np
 
@@ -16,18 +17,19 @@ from nptcs.example.tests import (
     draw,
     from_preload,
     load_to_break,
+    not_simulated,
     with_noise,
     with_toe,
 )
 from nptcs.example.truth import Series
 from nptcs.files import atomic_path, write_text
-from nptcs.tables.specimens import TestType
+from nptcs.mechanical_tests import TestType
 
 SEED = 20240529
 CAMERA_NOISE = 1.5e-5
 GAUGE_NOISE = 4e-6
 EXTENSOMETER_NOISE_MM = 0.004
-COMPRESSION_FORMAT = "testxpert-de-dms"
+FORCE_FORMATS = {TestType.COMPRESSION: "testxpert-de-dms"}  # the others are detected
 SHEET_COLUMNS = (
     "specimen",
     "test",
@@ -75,7 +77,7 @@ def generate(folder: Path, seed: int = SEED) -> None:
     Parameters
     ----------
     folder : Path
-        Is made; files of the same name are replaced.
+        Created if needed; files of the same name are replaced.
     seed : int
         Equal seeds give equal files.
     """
@@ -97,15 +99,26 @@ def _files(
     series: Series, specimen: Draw, number: int, random: np.random.Generator
 ) -> dict[str, bytes]:
     """Raw files of one specimen: name → content; the force file first."""
-    if series.test is TestType.RUBBER_TENSION:
-        return _rubber(series, specimen, random)
-    if series.test is TestType.COMPRESSION:
-        return _compression(series, specimen, random)
-    if series.test is TestType.SHEAR:
-        return _shear(series, specimen, random)
-    if series.orientation_deg == 0:
-        return _tension_0(series, specimen, number, random)
-    return _tension_90(series, specimen, random)
+    match series.test:
+        case TestType.RUBBER_TENSION:
+            return _rubber(series, specimen, random)
+        case TestType.COMPRESSION:
+            return _compression(series, specimen, random)
+        case TestType.SHEAR:
+            return _shear(series, specimen, random)
+        case TestType.TENSION:
+            if series.orientation_deg == 0:
+                return _tension_0(series, specimen, number, random)
+            return _tension_90(series, specimen, random)
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
+            raise not_simulated(series.test)
+        case _:
+            assert_never(series.test)
 
 
 def _tension_0(
@@ -213,7 +226,7 @@ def _sheet_row(series: Series, specimen: Draw, files: list[str]) -> dict[str, st
         "thickness_mm": ";".join(f"{station:.3f}" for station in specimen.thickness_mm),
         "gauge_length_mm": f"{series.gauge_length_mm:g}",
         "force_file": files[0],
-        "force_format": COMPRESSION_FORMAT if series.test is TestType.COMPRESSION else "",
+        "force_format": FORCE_FORMATS.get(series.test, ""),
         "strain_file": files[1] if len(files) > 1 else "",
         "include": "no" if left_out else "yes",
         "reason": left_out,

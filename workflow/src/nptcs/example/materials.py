@@ -36,7 +36,7 @@ def yeoh_stress(strain: Array, c10_mpa: float) -> Array:
 
 
 def yeoh_c10(neo_hookean_c10_mpa: float) -> float:
-    """Yeoh C10 whose neo-Hookean fit over `FIT_RANGE` gives the wanted value.
+    """Yeoh C10 whose neo-Hookean fit over `FIT_RANGE` gives the requested value.
 
     The fit is the closed form C10 = Σ fP / Σ f², f = 2(λ - λ⁻²), over evenly spread strains;
     P is proportional to C10, so one division does.

@@ -1,8 +1,9 @@
-"""Simulated tests: a specimen drawn from its series, loaded to its end, and measured."""
+"""Simulated tests: a specimen drawn from its series, loaded to its end and measured."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 
@@ -10,7 +11,7 @@ from nptcs.arrays import Array
 from nptcs.example import truth
 from nptcs.example.materials import POISSON_45, shear_stress, yeoh_c10, yeoh_stress
 from nptcs.example.truth import Series
-from nptcs.tables.specimens import TestType
+from nptcs.mechanical_tests import TestType
 
 POISSON_CV = 0.03
 LOAD_CELL_NOISE = 2e-4
@@ -67,31 +68,58 @@ def draw(series: Series, number: int, random: np.random.Generator) -> Draw:
     )
 
 
+def not_simulated(test: TestType) -> ValueError:
+    """Error for a test of which the example has no series."""
+    return ValueError(f"the example simulates no {test} test")
+
+
 def _mean_modulus(series: Series) -> float:
-    if series.test is TestType.SHEAR:
-        return truth.G12_MPA
-    if series.test is TestType.RUBBER_TENSION:
-        return truth.C10_MPA[series.material]
-    return truth.E1_MPA if series.orientation_deg == 0 else truth.E2_MPA
+    match series.test:
+        case TestType.SHEAR:
+            return truth.G12_MPA
+        case TestType.RUBBER_TENSION:
+            return truth.C10_MPA[series.material]
+        case TestType.TENSION | TestType.COMPRESSION:
+            return truth.E1_MPA if series.orientation_deg == 0 else truth.E2_MPA
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
+            raise not_simulated(series.test)
+        case _:
+            assert_never(series.test)
 
 
 def _mean_poisson(series: Series) -> float:
-    if series.test is TestType.SHEAR:
-        return POISSON_45
-    if series.test is TestType.RUBBER_TENSION:
-        return 0.5
-    return truth.NU12 if series.orientation_deg == 0 else truth.NU21
+    match series.test:
+        case TestType.SHEAR:
+            return POISSON_45
+        case TestType.RUBBER_TENSION:
+            return 0.5
+        case TestType.TENSION | TestType.COMPRESSION:
+            return truth.NU12 if series.orientation_deg == 0 else truth.NU21
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
+            raise not_simulated(series.test)
+        case _:
+            assert_never(series.test)
 
 
 def load_to_break(series: Series, specimen: Draw, rate_hz: float) -> Readings:
-    """Load a specimen at constant strain rate until it breaks, and record on after that."""
+    """Load a specimen at constant strain rate until it breaks, and keep recording after that."""
     strain = np.linspace(0, _largest_strain(series), 20_001)
     stress, axial, transverse = _response(series, specimen, strain)
     broken = stress >= specimen.strength_mpa
     end = int(np.argmax(broken)) if broken.any() else len(strain) - 1
     time = np.arange(0, series.duration_s * 1.03, 1 / rate_hz)
     at = strain[end] * time / series.duration_s
-    sign = -1.0 if series.test is TestType.COMPRESSION else 1.0
+    sign = float(series.test.load_sign)
     force = sign * np.interp(at, strain[: end + 1], stress[: end + 1]) * specimen.area_mm2
     force[at > strain[end]] *= 0.04
     return Readings(
@@ -103,20 +131,44 @@ def load_to_break(series: Series, specimen: Draw, rate_hz: float) -> Readings:
 
 
 def _largest_strain(series: Series) -> float:
-    if series.test is TestType.RUBBER_TENSION:
-        return 1.6
-    return 0.09 if series.test is TestType.SHEAR else 0.03
+    match series.test:
+        case TestType.RUBBER_TENSION:
+            return 1.6
+        case TestType.SHEAR:
+            return 0.09
+        case TestType.TENSION | TestType.COMPRESSION:
+            return 0.03
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
+            raise not_simulated(series.test)
+        case _:
+            assert_never(series.test)
 
 
 def _response(series: Series, specimen: Draw, strain: Array) -> tuple[Array, Array, Array]:
     """Stress, axial strain and transverse contraction over the strain that drives the test."""
-    if series.test is TestType.SHEAR:
-        axial = strain / (1 + specimen.poisson)
-        return 2 * shear_stress(strain, specimen.modulus), axial, specimen.poisson * axial
-    if series.test is TestType.RUBBER_TENSION:
-        contraction = 1 - (1 + strain) ** -0.5
-        return yeoh_stress(strain, yeoh_c10(specimen.modulus)), strain, contraction
-    return specimen.modulus * strain, strain, specimen.poisson * strain
+    match series.test:
+        case TestType.SHEAR:
+            axial = strain / (1 + specimen.poisson)
+            return 2 * shear_stress(strain, specimen.modulus), axial, specimen.poisson * axial
+        case TestType.RUBBER_TENSION:
+            contraction = 1 - (1 + strain) ** -0.5
+            return yeoh_stress(strain, yeoh_c10(specimen.modulus)), strain, contraction
+        case TestType.TENSION | TestType.COMPRESSION:
+            return specimen.modulus * strain, strain, specimen.poisson * strain
+        case (
+            TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+            | TestType.RUBBER_COMPRESSION
+            | TestType.FLEXURE
+        ):
+            raise not_simulated(series.test)
+        case _:
+            assert_never(series.test)
 
 
 def with_noise(readings: Array, deviation: float, random: np.random.Generator) -> Array:

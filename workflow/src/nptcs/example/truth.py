@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nptcs.tables.specimens import TestType
+from nptcs.mechanical_tests import TestType
 
 E1_MPA = 128_000.0
 E2_MPA = 8_800.0

@@ -30,7 +30,8 @@ def spoke_design(
     """
     plates = tyre.plates_across(values["spacing_mm"])
     return SpokeDesign(
-        geometry=model.geometry,
+        # what it was calibrated with changes nothing: both rings share the tables of equal spokes
+        geometry=model.geometry.model_copy(update={"calibrated_with": None}),
         mesh=model.spoke_mesh,
         pitch_mm=tyre.tread_width_mm / plates,
         plate_width_mm=tyre.plate_width_mm,
@@ -58,8 +59,8 @@ def tyre_model(
         table,
         model.geometry.foot_width_mm(),
         band_c10_mpa,
-        model.spoke_mesh.bulk_to_shear_ratio,
-        model.tyre_mesh,
+        model.band_bulk_to_shear(),
+        model.ring_mesh(),
         model.contact,
     )
 

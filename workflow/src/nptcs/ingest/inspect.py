@@ -11,7 +11,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.dialect import Dialect
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
-from nptcs.ingest.reading.quantities import Test, tests_in
+from nptcs.ingest.reading.quantities import NEEDS, Test, tests_in, unit_of
 from nptcs.ingest.reading.raw_file import OpenedFile, header_labels, matching, open_file, sources_of
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, factor
 
@@ -36,6 +36,35 @@ class Inspection:
             return -1
         return max((len(test.quantities) for test in self.tests), default=0)
 
+    @property
+    def usable(self) -> bool:
+        """Tell whether a table holds a load, or strains for one, and its units are known."""
+        return self.obstacle() == ""
+
+    def obstacle(self) -> str:
+        """Return why no table of the file can be used; empty if one can."""
+        if self.problem is not None:
+            return self.problem.message
+        serving = [test for test in self.tests if any(test.serves(role) for role in NEEDS)]
+        if not serving:
+            seen = [c.name for test in self.tests for c in test.block.columns if c.name]
+            names = ", ".join(f"'{name}'" for name in dict.fromkeys(seen)) or "none"
+            return f"no column is a load or a strain; columns: {names}"
+        reasons = [self.no_unit(test) for test in serving]
+        return "" if "" in reasons else reasons[0]
+
+    def no_unit(self, test: Test) -> str:
+        """Name the first column of a table whose unit cannot be told."""
+        stated = any(column.unit for column in test.block.columns)
+        for quantity, column in test.quantities.items():
+            if quantity == "force" and "strain_xx" in test.quantities and not column.unit:
+                continue  # told from the machine's own file
+            try:
+                unit_of(quantity, column, self.profile, stated, self.opened.path, 0)
+            except InputError as error:
+                return f"{error.message} ('{column.name}')"
+        return ""
+
 
 def inspect_file(
     path: Path, profiles: Mapping[str, FormatProfile], declared: FormatProfile | None = None
@@ -49,19 +78,25 @@ def inspect_file(
     """
     opened = open_file(path, profiles, declared or profiles[PLAIN])
     if declared is not None:
-        return _inspect(opened, declared, "named on the command line")
+        return _inspect(opened, declared, "named on the command line", profiles[PLAIN])
     fitting, reason = matching(opened, profiles)
-    inspections = [_inspect(opened, profile, reason) for profile in fitting]
-    return max(inspections, key=lambda inspection: inspection.understood)
+    for plain in (None, profiles[PLAIN]):
+        inspections = [_inspect(opened, profile, reason, plain) for profile in fitting]
+        best = max(inspections, key=lambda inspection: inspection.understood)
+        if best.usable:
+            break
+    return best
 
 
-def _inspect(opened: OpenedFile, profile: FormatProfile, reason: str) -> Inspection:
+def _inspect(
+    opened: OpenedFile, profile: FormatProfile, reason: str, plain: FormatProfile | None
+) -> Inspection:
     result = Inspection(opened, profile.for_head(opened.head), reason)
     try:
         sources, result.dialect = sources_of(opened, result.profile)
         for source in sources:
             blocks = find_tables(source, opened.path, profile.unnamed_columns)
-            result.tests += tests_in(source, blocks, profile, opened.path)
+            result.tests += tests_in(source, blocks, profile, opened.path, plain)
     except InputError as error:
         result.problem = error
     return result
@@ -86,6 +121,8 @@ def describe(inspection: Inspection) -> str:
         lines += ["", f"problem    {inspection.problem}"]
     elif not inspection.tests:
         lines += ["", "problem    no table of five rows or more"]
+    elif not inspection.usable:
+        lines += ["", f"problem    {inspection.obstacle()}"]
     return "\n".join(lines)
 
 

@@ -5,24 +5,38 @@ from __future__ import annotations
 import csv
 import io
 import re
-from collections.abc import Mapping
+from collections import Counter
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
 from nptcs.errors import InputError
+from nptcs.ingest.dimension_tables import Dimensions, read_dimensions
+from nptcs.ingest.file_names import (
+    proposed_angle,
+    proposed_material,
+    proposed_test,
+    specimen_id,
+    tokens,
+    unique_ids,
+)
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
 from nptcs.ingest.reading.labels import LabelValue
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.quantities import LOADS, STRAINS, Test
-from nptcs.ingest.reading.raw_file import header_labels
+from nptcs.ingest.reading.raw_file import head_lines, header_labels
+from nptcs.mechanical_tests import TestType
 from nptcs.tables.specimens import COLUMNS
 
-_ROLE_WORDS = re.compile(
-    r"(?i)[ _.-]+(vic-?[23]d|vic|dic|aramis|gom|strain|strains|dehnung|force|load|kraft|wdw|mts|"
-    r"instron|bluehill|zwick|shimadzu|machine|raw|rawdata|data|camera|extensometer)$"
-)
+__all__ = ["Proposal", "propose_sheet", "specimen_id"]
+
 _DIMENSIONS = {"width": "width_mm", "thickness": "thickness_mm", "gauge_length": "gauge_length_mm"}
+_SUMMARY = re.compile(
+    r"(?i)summar|result|ergebnis|hit.?list|statisti|report|protokoll|r[ée]sum|resultad|risultat|"
+    r"overview|übersicht|bericht|evaluat|auswertung|notes?\b|notiz"
+)
+_ROWS_OF_A_SUMMARY = 40
 
 
 @dataclass
@@ -40,14 +54,36 @@ class Proposal:
         writer.writerows(self.rows)
         return out.getvalue()
 
+    def open_cells(self) -> dict[str, int]:
+        """Count the rows in which a person still has to fill in each column."""
+        wanted: Counter[str] = Counter()
+        for row in self.rows:
+            wanted.update(_open_cells(row))
+        return dict(wanted)
+
+
+@dataclass
+class _Found:
+    """What the files of a folder hold: tests with a force, strains alone, dimensions."""
+
+    tests: list[tuple[str, Test, Inspection, bool]] = field(default_factory=list)
+    copies: dict[str, str] = field(default_factory=dict)
+    strains: list[str] = field(default_factory=list)
+    dimensions: list[Dimensions] = field(default_factory=list)
+
+
+_ANGLES = {TestType.SHEAR.value: "45"}  # no other test has one of its own
+
 
 def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Proposal:
     """Look into every file of a folder and propose a row for each test with a force.
 
-    A file of strains only goes with the force file of the same name, role words such as
-    ``_vic3d`` apart. Dimensions come from the files' headers. Test, material and fibre angle
-    cannot be known from a file and stay empty: the sheet is refused until they are filled in.
-    A README is a note and is passed over.
+    A camera's file goes with the machine's file whose names, folders included, say the same
+    specimen: ``DIC/DIC_UD_1.csv`` with ``MTS/MTS_UD_1.csv``. Dimensions come from the heads of
+    the files, or from tables of dimensions in the folder. Test, material and fibre angle are
+    proposed where names or heads hold a word for them, and marked in the remarks; where none
+    does, they stay empty and the sheet is refused until a person fills them in. Notes and
+    summaries are left out with the reason; a copy of another file is proposed as left out.
 
     Raises
     ------
@@ -55,7 +91,31 @@ def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Propos
         If no file of the folder holds a test.
     """
     proposal = Proposal()
-    strains: dict[str, str] = {}
+    found = _look(folder, profiles, proposal)
+    proposal.rows = [_row(*test) for test in found.tests]
+    for row in proposal.rows:
+        if row["force_file"] in found.copies:
+            first = found.copies[row["force_file"]]
+            row |= {"include": "no", "reason": f"the same bytes as {first}"}
+    _pair_cameras(proposal, found.strains)
+    _add_dimensions(proposal, found.dimensions)
+    names = {
+        number: (row["specimen"], row["force_file"]) for number, row in enumerate(proposal.rows)
+    }
+    for number, own in unique_ids(names).items():
+        proposal.rows[number]["specimen"] = own
+        _remark(proposal.rows[number])
+    if not proposal.rows:
+        raise InputError(
+            "no file holds a test", "look at one file with: nptcs inspect FILE", folder
+        )
+    return proposal
+
+
+def _look(folder: Path, profiles: Mapping[str, FormatProfile], proposal: Proposal) -> _Found:
+    """Read every file once and sort it."""
+    found = _Found()
+    seen: dict[str, str] = {}
     for name, path in raw_files(folder).items():
         if is_note(name):
             continue
@@ -64,33 +124,54 @@ def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Propos
         except InputError as error:
             proposal.left[name] = error.message
             continue
-        loaded = [test for test in inspection.tests if set(LOADS) & set(test.quantities)]
-        loaded = [test for test in loaded if _has_strain_or_travel(test)] or loaded
-        if loaded:
-            proposal.rows += [_row(name, test, inspection, len(loaded) > 1) for test in loaded]
-        elif any(set(STRAINS) & set(test.quantities) for test in inspection.tests):
-            strains[name] = specimen_id(name)
-        else:
-            problem = inspection.problem
-            proposal.left[name] = problem.message if problem else "no force and no strain found"
-    _add_strain_files(proposal, strains)
-    if not proposal.rows:
-        raise InputError(
-            "no file holds a test", "look at one file with: nptcs inspect FILE", folder
-        )
-    return proposal
+        first = seen.setdefault(inspection.opened.sha256, name)
+        if first != name:
+            found.copies[name] = first
+        _sort(name, path, inspection, profiles, found, proposal)
+    return found
 
 
-def specimen_id(name: str) -> str:
-    """Specimen id from a file name: without folder, suffix and role words."""
-    stem = Path(name).stem
-    while _ROLE_WORDS.search(stem):
-        stem = _ROLE_WORDS.sub("", stem)
-    return re.sub(r"[^A-Za-z0-9._-]+", "_", stem).strip("_") or "specimen"
+def _sort(
+    name: str,
+    path: Path,
+    inspection: Inspection,
+    profiles: Mapping[str, FormatProfile],
+    found: _Found,
+    proposal: Proposal,
+) -> None:
+    """Put a file with the tests, the strains or the dimensions, or leave it with the reason."""
+    loaded = [test for test in inspection.tests if set(LOADS) & set(test.quantities)]
+    loaded = [test for test in loaded if _has_strain_or_travel(test)] or loaded
+    dimensions = [] if loaded else read_dimensions(name, path, profiles)
+    if any(_is_camera(test) for test in inspection.tests):
+        found.strains.append(name)
+    elif dimensions:
+        found.dimensions += dimensions
+        proposal.left[name] = f"a table of dimensions of {len(dimensions)} specimens"
+    elif loaded and _is_summary(name, loaded):
+        proposal.left[name] = "a summary of results by its name and size, not a test"
+    elif loaded:
+        found.tests += [(name, test, inspection, len(loaded) > 1) for test in loaded]
+    elif any(set(STRAINS) & set(test.quantities) for test in inspection.tests):
+        found.strains.append(name)
+    else:
+        proposal.left[name] = inspection.obstacle()
 
 
 def _has_strain_or_travel(test: Test) -> bool:
     return bool({*STRAINS, "displacement"} & set(test.quantities))
+
+
+def _is_camera(test: Test) -> bool:
+    """Tell whether a table is a camera's: in-plane strains, with or without an analog force."""
+    return bool({"strain_xx", "strain_yy"} & set(test.quantities)) and "displacement" not in (
+        test.quantities
+    )
+
+
+def _is_summary(name: str, tests: Sequence[Test]) -> bool:
+    longest = max(len(test.block.rows_of_data) for test in tests)
+    return bool(_SUMMARY.search(name)) and longest < _ROWS_OF_A_SUMMARY
 
 
 def _row(name: str, test: Test, inspection: Inspection, several: bool) -> dict[str, str]:
@@ -102,29 +183,95 @@ def _row(name: str, test: Test, inspection: Inspection, several: bool) -> dict[s
         "force_part": test.label if several else "",
         "include": "yes",
         "origin": "measured",
-        "remarks": "proposed: fill in test, material, orientation_deg"
-        + _missing_dimensions(labels),
     }
     for label, column in _DIMENSIONS.items():
         found = labels.get(label)
         if found is not None and found.value is not None:
             row[column] = f"{found.value:g}"
+    columns = [column.name for column in test.quantities.values()]
+    row |= {
+        "test": proposed_test(name, [*head_lines(test), *columns]),
+        "material": proposed_material(name),
+    }
+    rubber = row["test"].startswith("rubber")
+    row["orientation_deg"] = "" if rubber else proposed_angle(name) or _angle_of(row["test"])
+    row["remarks"] = _obstacle(test, inspection, labels)
     return row
 
 
-def _missing_dimensions(labels: Mapping[str, LabelValue]) -> str:
-    missing = [
-        column
-        for label, column in _DIMENSIONS.items()
-        if label not in labels or labels[label].value is None
-    ]
-    return "".join(f", {column}" for column in missing)
+def _angle_of(test: str) -> str:
+    return _ANGLES.get(test, "")
 
 
-def _add_strain_files(proposal: Proposal, strains: dict[str, str]) -> None:
-    for name, own in strains.items():
-        rows = [row for row in proposal.rows if row["specimen"].casefold() == own.casefold()]
-        if len(rows) == 1 and not rows[0].get("strain_file"):
-            rows[0]["strain_file"] = name
+def _obstacle(test: Test, inspection: Inspection, labels: Mapping[str, LabelValue]) -> str:
+    """Say which unit is missing, and which strain."""
+    told = [inspection.no_unit(test)]
+    if not _has_strain_or_travel(test):
+        told.append("no strain in this file")
+    unread = [name for name, label in labels.items() if name in _DIMENSIONS and not label.value]
+    told += [f"{name} in the head is '{labels[name].text}' without a known unit" for name in unread]
+    return "; ".join(text for text in told if text)
+
+
+def _pair_cameras(proposal: Proposal, strains: Sequence[str]) -> None:
+    """Give each strain file to the one machine file of the same specimen."""
+    machines = {number: tokens(row["force_file"]) for number, row in enumerate(proposal.rows)}
+    chosen: dict[str, int] = {}
+    for name in strains:
+        own = tokens(name)
+        equal = [number for number, words in machines.items() if words == own]
+        near = equal or [number for number, words in machines.items() if _says_the_same(words, own)]
+        if len(near) == 1:
+            chosen[name] = near[0]
         else:
-            proposal.left[name] = f"strains of '{own}', but {len(rows)} force files of that name"
+            files = ", ".join(proposal.rows[number]["force_file"] for number in near[:3])
+            proposal.left[name] = f"strains that fit {len(near)} force files by name: {files}"
+            if not near:
+                proposal.left[name] = "strains without a force file of the same specimen"
+    for name, number in chosen.items():
+        rivals = [other for other, place in chosen.items() if place == number]
+        if len(rivals) == 1:
+            proposal.rows[number]["strain_file"] = name
+        else:
+            proposal.left[name] = f"one of {len(rivals)} strain files of the same specimen"
+
+
+def _says_the_same(words: Counter[str], others: Counter[str]) -> bool:
+    """Tell whether two names agree: equal numbers, and the words of one among the other's."""
+    numbers = Counter({w: n for w, n in words.items() if w.isdigit()})
+    if numbers != Counter({w: n for w, n in others.items() if w.isdigit()}) or not numbers:
+        return False
+    return words <= others or others <= words
+
+
+def _add_dimensions(proposal: Proposal, dimensions: Sequence[Dimensions]) -> None:
+    """Fill in the dimensions whose row names one test, and is named by no other row."""
+    for number, row in enumerate(proposal.rows):
+        words = tokens(row["force_file"]) + tokens(row["force_part"] + ".x")
+        fitting = [one for one in dimensions if one.words and one.words <= words]
+        most = max((sum(one.words.values()) for one in fitting), default=0)
+        fitting = [one for one in fitting if sum(one.words.values()) == most]
+        if len(fitting) != 1:
+            continue
+        proposal.rows[number] |= fitting[0].cells
+        note = f"dimensions from {fitting[0].file}"
+        row["remarks"] = "; ".join(text for text in (row["remarks"], note, fitting[0].note) if text)
+
+
+def _open_cells(row: Mapping[str, str]) -> list[str]:
+    """Columns that a person has to fill in before the sheet is accepted."""
+    needed = ["test", "material", "width_mm", "thickness_mm"]
+    if not row.get("test", "").startswith("rubber"):
+        needed.insert(2, "orientation_deg")
+    return [column for column in needed if not row.get(column)]
+
+
+def _remark(row: dict[str, str]) -> None:
+    """Say what is a proposal and what is to be filled in."""
+    proposed = [name for name in ("test", "material", "orientation_deg") if row.get(name)]
+    parts = [
+        f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
+        f"fill in {', '.join(_open_cells(row))}" if _open_cells(row) else "",
+        row["remarks"],
+    ]
+    row["remarks"] = "; ".join(part for part in parts if part)

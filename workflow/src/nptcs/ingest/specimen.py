@@ -12,23 +12,27 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
+from nptcs.ingest.conditioning.declared_test import require_declared_test
+from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
+from nptcs.ingest.conditioning.sensors import empty_after_removal, empty_lost_channels
 from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.conditioning.signs import orient
 from nptcs.ingest.conditioning.steps import (
     cut_end,
     drop_empty_rows,
-    empty_after_removal,
     empty_spikes,
     mark_dead,
     zero_force,
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
-from nptcs.ingest.conditioning.strains import orient, resolve_strains
-from nptcs.ingest.folder import find_file
-from nptcs.ingest.reading.profiles import FormatProfile, choose
-from nptcs.ingest.reading.raw_file import RawFile, read_raw
-from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.ingest.conditioning.strains import resolve_strains
+from nptcs.ingest.read_tables import read_tables
+from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.raw_file import RawFile
+from nptcs.ingest.repeats import data_digest
+from nptcs.tables.curves import CURVE_COLUMNS, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
 FEWEST_ROWS = 5
@@ -64,35 +68,44 @@ def ingest_specimen(
     Returns
     -------
     Ingested
-        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive, and
-        ``record``.
+        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive (the contract
+        is checked where it is written), and ``record``.
 
     Raises
     ------
     InputError
         If a file cannot be read with certainty, or physics contradicts it.
     """
-    tables = _read(specimen, Path(folder), profiles)
+    tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
+    digest = data_digest(tables)
+    factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
+    signals.flags += factors
+    for table, name in zip(tables, (specimen.force_file, specimen.strain_file), strict=False):
+        require_declared_test(signals, specimen, table, name)
     mark_dead(signals, settings.missing_values)
     empty_spikes(signals, settings.missing_values)
     _flag_time(signals)
     _require_force(signals, specimen, load)
     check_machine_area(signals, specimen, load, settings.plausible)
+    empty_lost_channels(
+        signals, settings.extensometer, specimen.test.is_rubber, specimen.gauge_length_mm
+    )
+    specimen = _with_gauge_length(specimen, tables, signals)
     source = resolve_strains(
         signals,
         specimen,
         strain.columns,
-        strain.profile.strain_source,
+        strain.strain_source,
         settings.compliance.compliance_mm_per_n,
         strain.path,
     )
     drop_empty_rows(signals, settings.missing_values)
     _require_rows(signals, specimen, strain)
-    orient(signals, specimen, strain.path)
+    orient(signals, specimen, strain.path, settings.signs, source)
     zero_force(signals, settings.force_zero)
-    signals.values["stress"] = signals.values["force"] / specimen.area_mm2
+    signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)
     _require_rows(signals, specimen, strain)
     empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
@@ -100,47 +113,38 @@ def ingest_specimen(
     check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
-    return Ingested(_curve(signals), _record(specimen, tables, signals, source))
+    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest))
 
 
-def _read(
-    specimen: Specimen, folder: Path, profiles: Mapping[str, FormatProfile]
-) -> tuple[RawFile, ...]:
-    """Read the force file, and the strain file if there is one."""
-    wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
-    if specimen.strain_file:
-        wanted.append(
-            (specimen.strain_file, specimen.strain_format, specimen.strain_part, "strain")
-        )
-    tables = []
-    for name, format_name, part, role in wanted:
-        declared = choose(format_name, profiles, specimen.specimen) if format_name else None
-        try:
-            table = read_raw(
-                find_file(folder, name),
-                profiles,
-                declared=declared,
-                part=part,
-                specimen=specimen.specimen,
-                role=role if len(wanted) > 1 else "force and strain",
-            )
-        except InputError as error:
-            error.specimen = specimen.specimen
-            raise
-        tables.append(table)
-    return tuple(tables)
+def _with_gauge_length(
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals
+) -> Specimen:
+    """Take the gauge length of the file's head where the sheet has none and it is needed."""
+    needed = not {"strain", "strain_xx", "strain_yy", "stretch"} & set(signals.values)
+    found = next((t.labels["gauge_length"] for t in tables if "gauge_length" in t.labels), None)
+    if specimen.gauge_length_mm is not None or not needed or found is None or not found.value:
+        return specimen
+    signals.flags.append(f"gauge length {found.value:g} mm from the file's head, none in the sheet")
+    return specimen.model_copy(update={"gauge_length_mm": found.value})
 
 
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
     if len(tables) == 1:
         return Signals(dict(tables[0].values))
-    return pair(tables[0], tables[1], specimen.time_offset_s, settings.pairing, specimen.specimen)
+    return pair(
+        tables[0],
+        tables[1],
+        specimen.time_offset_s,
+        settings.pairing,
+        specimen.specimen,
+        settings.end_of_test.force_drop,
+    )
 
 
 def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:
     """Make sure of a force: the file's own, or its stress times the sheet's area."""
     if "force" not in signals.values:
-        signals.values["force"] = signals.values["stress"] * specimen.area_mm2
+        signals.values["force"] = signals.values["stress"] * specimen.force_per_stress_mm2
         signals.flags.append("stress as the file gives it; its area could not be checked")
     force = signals.values["force"]
     if np.isnan(force).all() or not np.nanmax(np.abs(force)):
@@ -174,7 +178,7 @@ def _require_rows(signals: Signals, specimen: Specimen, table: RawFile) -> None:
 def _curve(signals: Signals) -> pd.DataFrame:
     values = signals.values
     nothing = np.full(len(signals), np.nan)
-    frame = pd.DataFrame(
+    return pd.DataFrame(
         {
             "time_s": values.get("time", nothing),
             "force_n": values["force"],
@@ -182,11 +186,10 @@ def _curve(signals: Signals) -> pd.DataFrame:
             **{name: values[name] for name in CURVE_COLUMNS[3:]},
         }
     )
-    return Curve.validate(frame)
 
 
 def _record(
-    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str
+    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str, digest: str
 ) -> IngestRecord:
     roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
         ("force", "strain") if len(tables) > 1 else ("force and strain",)
@@ -218,10 +221,13 @@ def _record(
             mean_width_mm=specimen.mean_width_mm,
             mean_thickness_mm=specimen.mean_thickness_mm,
             area_mm2=specimen.area_mm2,
+            area_rule=specimen.area_rule,
             width_stations=len(specimen.width_mm),
             thickness_stations=len(specimen.thickness_mm),
         ),
+        data_sha256=digest,
         strain_source=source,
+        failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),
         flags=tuple(dict.fromkeys(signals.flags)),
     )

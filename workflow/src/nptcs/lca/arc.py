@@ -28,7 +28,7 @@ being real and imaginary part, do not."""
 
 @dataclass(frozen=True)
 class Foundation:
-    """Arcs on foundations `a`, one a design.
+    """Arcs on foundations `a`, one per design.
 
     Parameters
     ----------

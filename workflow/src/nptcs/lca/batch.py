@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -43,7 +44,7 @@ RESULT_COLUMNS = (
     "lowest_pressure_mpa",
     "balance_residual",
 )
-_TARGETS: dict[str, Target] = {
+TARGETS: dict[str, Target] = {
     "load_n": "force",
     "displacement_mm": "sinking",
     "theta_c_deg": "contact_angle",
@@ -82,7 +83,7 @@ def solve_batch(
     largest_displacement_mm : array-like, optional
         Displacement at which the band meets the rim; without it the radius R.
     workers : int
-        Threads among which the table is shared out.
+        Threads among which the table is divided.
 
     Returns
     -------
@@ -93,6 +94,24 @@ def solve_batch(
     ------
     InputError
         A column is missing, or not exactly one target is given.
+
+    Examples
+    --------
+    >>> designs = {
+    ...     "axial_stiffness_n": 2.711e7,
+    ...     "shear_stiffness_n": 30100,
+    ...     "bending_stiffness_n_mm2": 1.0554e9,
+    ...     "radius_mm": 303.875,
+    ...     "width_mm": 215,
+    ...     "tension_n_per_mm": [30.2, -1],
+    ...     "compression_n_per_mm": 13.26,
+    ...     "spoke_count": 60,
+    ... }
+    >>> batch = solve_batch(designs, load_n=5000)
+    >>> batch.status.tolist(), batch.columns["stiffness_n_per_mm"].round(1).tolist()
+    (['ok', 'bad_input'], [241.1, nan])
+    >>> batch.message[1]
+    'tension_n_per_mm must be a finite number above zero, got -1'
     """
     name, value = only_target(load_n, displacement_mm, theta_c_deg)
     table = columns(designs, value, largest_displacement_mm)
@@ -184,22 +203,29 @@ def scaled(table: Mapping[str, Floating]) -> Ring:
 
 def _scaled_target(table: dict[str, Floating], target: str) -> Floating:
     """Return F/GA, δ/R or θc in radians."""
-    if target == "theta_c_deg":
-        return np.radians(table["target"])
-    return table["target"] / table["shear_stiffness_n" if target == "load_n" else "radius_mm"]
+    kind = TARGETS[target]
+    match kind:
+        case "force":
+            return table["target"] / table["shear_stiffness_n"]
+        case "sinking":
+            return table["target"] / table["radius_mm"]
+        case "contact_angle":
+            return np.radians(table["target"])
+        case _:
+            assert_never(kind)
 
 
 def _by_hardness(table: dict[str, Floating], target: str, rows: Rows) -> Rows:
     """Put rows in the order of their contact regions' difficulty, the easy ones first."""
     part = {column: values[rows] for column, values in table.items()}
     ring = scaled(part)
-    angle = start_angle(ring, _TARGETS[target], _scaled_target(part, target))
+    angle = start_angle(ring, TARGETS[target], _scaled_target(part, target))
     return rows[np.argsort(hardness(ring.kappa2, angle), kind="stable")]
 
 
 @dataclass(frozen=True)
 class Piece:
-    """Some rows of a table, solved.
+    """Solved rows of a table.
 
     Parameters
     ----------
@@ -208,7 +234,7 @@ class Piece:
     numbers : dict of str to array
         Columns `RESULT_COLUMNS`.
     status, message : array of str, list of str
-        One a row.
+        One per row.
     ring, arcs, joined : Ring, Arcs, Joined
         The scaled designs and their solutions.
     """
@@ -223,7 +249,7 @@ class Piece:
 
 
 def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
-    """Solve rows that are known to be well formed; the stubborn ones make a second piece.
+    """Solve well-formed rows; those that Newton's method does not solve form a second piece.
 
     Parameters
     ----------
@@ -232,7 +258,7 @@ def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
     name : str
         What the target is: ``load_n``, ``displacement_mm`` or ``theta_c_deg``.
     """
-    ring, target = scaled(table), _TARGETS[name]
+    ring, target = scaled(table), TARGETS[name]
     arcs, value = Arcs.of(ring), _scaled_target(table, name)
     angles = newton(ring, arcs, target, value, start_angle(ring, target, value))
     quick, rest = np.flatnonzero(angles.found), np.flatnonzero(~angles.found)

@@ -22,7 +22,7 @@ from numpy.polynomial import legendre
 from nptcs.arrays import Floating
 
 STAGES = 6
-"""Gauss points an element: the order at the elements' ends is 12."""
+"""Gauss points per element: the order at the ends of the elements is 12."""
 
 
 @dataclass(frozen=True)

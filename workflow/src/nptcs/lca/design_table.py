@@ -1,4 +1,4 @@
-"""A table of designs as a laboratory writes it: rubbers, spokes, loads; the tyre gives the rest."""
+"""A table of designs as a laboratory writes it; what it leaves out comes from the tyre."""
 
 from __future__ import annotations
 
@@ -79,7 +79,9 @@ def solve_table(
             raise InputError("column is missing", remedy=f"add {column}", column=column)
     for column in RESULTS:
         if column in table:
-            raise InputError("this column is a result", remedy="rename or drop it", column=column)
+            raise InputError(
+                "this column has the name of a result", remedy="rename or drop it", column=column
+            )
     values = {name: _numbers(table, name) for name in known_columns() if name in table}
     designs, largest = _designs(values, tyre, kind, len(table))
     batch = solve_batch(
@@ -104,7 +106,7 @@ def solve_row(
     table, tyre, kind
         As in `solve_table`.
     row : int
-        Row, the first being 0.
+        Row, counted from 0.
 
     Raises
     ------
@@ -126,17 +128,17 @@ def solve_row(
 
 
 def _numbers(table: pd.DataFrame, column: str) -> Floating:
-    """Return a column as floats, NaN where a cell is empty or no number."""
+    """Return a column as floats, NaN where a cell is empty or not a number."""
     return np.asarray(pd.to_numeric(table[column], errors="coerce"), dtype=float)
 
 
 def _unreadable(table: pd.DataFrame, values: dict[str, Floating]) -> Floating:
-    """Return, for each row, the first cell that is filled but no number, or an empty text."""
+    """Return, for each row, the first cell that is filled but not a number, or an empty text."""
     texts = np.full(len(table), "", dtype=object)
     for name, numbers in values.items():
         filled = table[name].notna().to_numpy()
         for row in np.flatnonzero(filled & np.isnan(numbers) & (texts == "")):
-            texts[row] = f"{name} is no number: {table[name].iloc[row]!r}"
+            texts[row] = f"{name} is not a number: {table[name].iloc[row]!r}"
     return texts
 
 

@@ -76,7 +76,7 @@ def _unit_gauss(points: int) -> tuple[Floating, Floating]:
 
 
 def doubts(diagnosis: Diagnosis) -> list[str]:
-    """One text a design: which assumption of the model its solution breaks, or nothing."""
+    """One text per design: which assumption of the model its solution breaks, or nothing."""
     texts = [""] * len(diagnosis.balance_residual)
     checks = (
         (

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Literal
+from typing import Literal, assert_never
 
 import numpy as np
 
@@ -24,7 +24,7 @@ order of the step's square, has arrived."""
 MISFIT = 1e-9
 """Largest relative misfit of the target, and of u(θt) to δ, in a solution."""
 LARGEST_CONTACT = np.radians(85)
-"""Contact angles above are no tyre's; the flat constraint is singular at 90°."""
+"""No tyre has larger contact angles; the flat constraint is singular at 90°."""
 NEWTON_STEPS, BRACKET_STEPS = 20, 80
 BRACKET_STEP = 1e-10
 """Relative step after which a bracketed search, whose last steps are Newton's, has arrived."""
@@ -52,10 +52,16 @@ def _first_transition(ring: Ring, theta_c: Floating) -> Floating:
 
 def _misfit(joined: Joined, target: Target, value: Floating) -> Floating:
     """Quantity minus its target, with derivatives by θc and θt, shape ``(n, 3)``."""
-    if target == "contact_angle":
-        error = joined.contact_angle - value
-        return np.stack([error, np.ones_like(error), np.zeros_like(error)], axis=1)
-    misfit = (joined.force if target == "force" else joined.sinking).copy()
+    match target:
+        case "contact_angle":
+            error = joined.contact_angle - value
+            return np.stack([error, np.ones_like(error), np.zeros_like(error)], axis=1)
+        case "force":
+            misfit = joined.force.copy()
+        case "sinking":
+            misfit = joined.sinking.copy()
+        case _:
+            assert_never(target)
     misfit[:, 0] -= value
     return misfit
 
@@ -147,25 +153,35 @@ def by_brackets(
     ring: Ring, arcs: Arcs, target: Target, value: Floating
 ) -> tuple[Floating, Floating]:
     """Find θc and θt with nested brackets; slow and sure, for the few that need it."""
-    if target == "contact_angle":
-        return value.copy(), transition_for(ring, arcs, value)
+    match target:
+        case "contact_angle":
+            return value.copy(), transition_for(ring, arcs, value)
+        case "force" | "sinking":
+            low, high = np.full_like(value, 1e-9), np.full_like(value, LARGEST_CONTACT)
+        case _:
+            assert_never(target)
 
     def function(theta_c: Floating) -> tuple[Floating, Floating]:
         joined = join(ring, arcs, theta_c, transition_for(ring, arcs, theta_c))
         misfit = _misfit(joined, target, value)
         return misfit[:, 0], misfit[:, 1]
 
-    low, high = np.full_like(value, 1e-9), np.full_like(value, LARGEST_CONTACT)
     theta_c = _bracketed(function, low, high, start_angle(ring, target, value))
     return theta_c, transition_for(ring, arcs, theta_c)
 
 
 def start_angle(ring: Ring, target: Target, value: Floating) -> Floating:
     """Contact angle to start from for a given target."""
-    if target == "contact_angle":
-        return value.copy()
-    # a ring on spokes sinks by roughly a third of what it carries, in these units
-    return np.minimum(first_guess(ring, value if target == "force" else 3 * value), 1.2)
+    match target:
+        case "contact_angle":
+            return value.copy()
+        case "force":
+            return np.minimum(first_guess(ring, value), 1.2)
+        case "sinking":
+            # a ring on spokes sinks by roughly a third of what it carries, in these units
+            return np.minimum(first_guess(ring, 3 * value), 1.2)
+        case _:
+            assert_never(target)
 
 
 def is_solution(joined: Joined, target: Target, value: Floating) -> Mask:

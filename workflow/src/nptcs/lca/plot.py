@@ -6,12 +6,12 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from nptcs.compare.lca import ring_neutral_line
+from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.state import LcaState
 
 FORMATS = (".svg", ".png", ".pdf")
 COLOURS = {"contact": "#d55e00", "compression": "#0072b2", "tension": "#009e73"}
-"""One colour a region, told apart by colour-blind readers too."""
+"""One colour per region, distinguishable for colour-blind readers too."""
 
 
 def ring_figure(state: LcaState) -> Figure:
@@ -35,20 +35,18 @@ def ring_figure(state: LcaState) -> Figure:
 
 def _draw_ring(axes: Axes, state: LcaState) -> None:
     """Draw the middle line before and after, in the colours of its regions."""
-    shape = ring_neutral_line(state, 1441)
-    axes.plot(
-        shape["x_undeformed_mm"], shape["y_undeformed_mm"], "--", color="0.6", label="unloaded"
-    )
+    line = neutral_line(state, 1441)
+    axes.plot(line["x_undeformed_mm"], line["y_undeformed_mm"], "--", color="0.6", label="unloaded")
     names = {
         "contact": "contact",
         "compression": f"compression, to θt = {state.theta_t_deg:.1f}°",
         "tension": "tension",
     }
     for region, label in names.items():
-        part = shape.where(shape["region"] == region)
+        part = line.where(line["region"] == region)
         axes.plot(part["x_mm"], part["y_mm"], color=COLOURS[region], linewidth=2.5, label=label)
     axes.plot(0, 0, "k+")
-    axes.set(aspect="equal", xlabel="x in mm, the hub at 0", ylabel="y in mm")
+    axes.set(aspect="equal", xlabel="x in mm, hub at 0", ylabel="y in mm")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, 0.85), fontsize="small", frameon=False)
 
 

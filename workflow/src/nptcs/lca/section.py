@@ -1,9 +1,9 @@
 """The ring of the load-bearing model: its section constants and where they come from.
 
-Two sections are known. *Sandwich* is the physical one: steel layers at their distance from the
+There are two sections. *Sandwich* is the physical one: steel layers at their distance from the
 middle of a rubber band of the thickness of table 3. *Printed* repeats the numbers of the paper's
 section 3.3.3, whose moment of inertia is that about the wrong axis; it is kept so that both can
-be shown side by side.
+be compared.
 """
 
 from __future__ import annotations
@@ -11,13 +11,13 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import pi
-from typing import Any, Literal, get_args
+from typing import Any, Literal, assert_never, get_args
 
 from nptcs.config.tyre import TyreGeometry
 from nptcs.lca.checks import require_positive
 
 SectionKind = Literal["sandwich", "printed"]
-SECTION_KINDS: tuple[str, ...] = get_args(SectionKind)
+SECTION_KINDS: tuple[SectionKind, ...] = get_args(SectionKind)
 
 
 @dataclass(frozen=True)
@@ -67,6 +67,12 @@ class RingSection:
             Neo-Hookean constant of the band's rubber (MPa).
         kind : {"sandwich", "printed"}
             The physical section or that of the paper's section 3.3.3.
+
+        Examples
+        --------
+        >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+        >>> f"{ring.axial_stiffness_n:.4g} N, {ring.bending_stiffness_n_mm2:.4g} N mm2"
+        '2.711e+07 N, 1.055e+09 N mm2'
         """
         require_positive("shear_band_c10_mpa", c10_mpa)
         ea, ga, ei = section_stiffness(tyre.model_dump(), c10_mpa, kind)
@@ -96,9 +102,13 @@ def section_stiffness(
     wires = d["wire_layers"] * width / d["wire_pitch_mm"] * pi / 4 * d["wire_diameter_mm"] ** 2
     steel = d["wire_modulus_mpa"] * wires
     distance = (d["outer_wire_diameter_mm"] - d["inner_wire_diameter_mm"]) / 2
-    if kind == "sandwich":
-        area = width * d["shear_band_thickness_mm"]
-        return steel + 6 * c10_mpa * area, 2 * c10_mpa * area, steel * (distance / 2) ** 2
-    area = width * distance
-    axial = steel + 6 * c10_mpa * area
-    return axial, 2 * c10_mpa * area, axial / area * distance * width**3 / 12
+    match kind:
+        case "sandwich":
+            area = width * d["shear_band_thickness_mm"]
+            return steel + 6 * c10_mpa * area, 2 * c10_mpa * area, steel * (distance / 2) ** 2
+        case "printed":
+            area = width * distance
+            axial = steel + 6 * c10_mpa * area
+            return axial, 2 * c10_mpa * area, axial / area * distance * width**3 / 12
+        case _:
+            assert_never(kind)

@@ -30,7 +30,7 @@ REMEDIES = {
 
 
 class ModelError(InputError):
-    """A design that is well formed, but that the model cannot carry or solve."""
+    """A design that is well formed but that the model cannot solve."""
 
 
 def design_row(section: RingSection, spokes: LinearSpokes) -> dict[str, float]:
@@ -73,11 +73,23 @@ def solve(
         Not exactly one target, or a target that is not above zero.
     ModelError
         The model cannot reach the target; the text gives the reason.
+
+    Examples
+    --------
+    Table 11 of the paper, S-C 1 at 5000 N (printed: 20.87 mm, 4.585° and 56.198°):
+
+    >>> from nptcs.config.tyre import TyreGeometry
+    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> state = solve(ring, LinearSpokes(30.2, 13.26), load_n=5000)
+    >>> round(state.displacement_mm, 2), round(state.theta_c_deg, 3), round(state.theta_t_deg, 2)
+    (20.74, 4.569, 56.45)
     """
     name, value = only_target(load_n, displacement_mm, theta_c_deg)
     table = columns(design_row(section, spokes), value, largest_displacement_mm)
     if bad := bad_rows(table, name)[0]:
-        raise InputError(f"load-bearing model: {bad}", remedy="give numbers that a tyre can have")
+        raise InputError(
+            f"load-bearing model: {bad}", remedy="give values that are possible for a tyre"
+        )
     (piece,) = solve_rows(table, name)
     if (status := str(piece.status[0])) in REMEDIES:
         raise ModelError(f"load-bearing model: {piece.message[0]}", remedy=REMEDIES[status])
@@ -114,7 +126,16 @@ def curve(
     Returns
     -------
     DataFrame
-        Columns `RESULT_COLUMNS`, ``contact_length_mm``, ``status`` and ``message``, a row a point.
+        Columns `RESULT_COLUMNS`, ``contact_length_mm``, ``status`` and ``message``; one row per
+        point.
+
+    Examples
+    --------
+    >>> from nptcs.config.tyre import TyreGeometry
+    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> points = curve(ring, LinearSpokes(30.2, 13.26), load_n=[2500, 5000])
+    >>> points["displacement_mm"].round(2).tolist()
+    [10.62, 20.74]
     """
     batch: Batch = solve_batch(
         design_row(section, spokes),

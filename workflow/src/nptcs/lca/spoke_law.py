@@ -1,4 +1,4 @@
-"""Spokes whose force is no straight line: a measured or simulated force–displacement curve."""
+"""Spokes whose force is not a straight line: a measured or simulated force–displacement curve."""
 
 from __future__ import annotations
 
@@ -71,6 +71,13 @@ class SpokeLaw:
             Shortening and force; the first point is the origin.
         count : int
             Number of spokes.
+
+        Examples
+        --------
+        >>> law = SpokeLaw.from_curves([0, 2, 4], [0, 60, 130], [0, 10, 20], [0, 120, 300])
+        >>> force, slope = law.evaluate(4.0)
+        >>> float(force), law.range_mm
+        (130.0, (-20.0, 4.0))
         """
         left = [np.asarray(v, dtype=float)[:0:-1] for v in (compression_mm, compression_n)]
         right = [np.asarray(v, dtype=float) for v in (tension_mm, tension_n)]
@@ -83,7 +90,7 @@ class SpokeLaw:
         return float(self.elongation_mm[0]), float(self.elongation_mm[-1])
 
     def evaluate(self, elongation_mm: ArrayLike) -> tuple[Floating, Floating]:
-        """Return force (N) and slope (N/mm); beyond its ends the curve goes on straight.
+        """Return force (N) and slope (N/mm); beyond its ends the curve goes on as a straight line.
 
         A result that needs the straight ends is refused by the solver; they only keep its
         iterations defined.
@@ -110,7 +117,7 @@ def _check_curve(x: Floating, f: Floating) -> None:
     """Raise `InputError` unless the points form an increasing curve through the origin."""
     if x.ndim != 1 or x.shape != f.shape or not (np.isfinite(x).all() and np.isfinite(f).all()):
         raise InputError(
-            "elongation and force must be two lists of finite numbers, equally long",
+            "elongation and force must be two lists of finite numbers of equal length",
             remedy="remove gaps from the spoke's curve",
         )
     for name, values in (("elongation_mm", x), ("force_n", f)):

@@ -35,7 +35,7 @@ class SpokeLawTable:
         Raises
         ------
         InputError
-            A number is missing, or a curve is none (see `SpokeLaw`).
+            A number is missing, or a curve is not valid (see `SpokeLaw`).
         """
         try:
             points = np.array([[float(row[name]) for name in COLUMNS] for row in rows])
@@ -55,7 +55,7 @@ class SpokeLawTable:
         )
 
     def law(self, c10_mpa: float) -> SpokeLaw:
-        """Return the law of a rubber: a tabulated one, or its two neighbours' forces in proportion.
+        """Return the law of a rubber: tabulated, or interpolated between its two neighbours.
 
         Between two rubbers the curve has the points of both, within the range of both.
 

@@ -23,7 +23,21 @@ class OutOfRangeError(InputError):
 
 @dataclass(frozen=True)
 class SpokeStiffnessTable:
-    """Stiffness in tension and compression at increasing C10; arrays of shape ``(n,)``."""
+    """Stiffness in tension and compression at increasing C10; arrays of shape ``(n,)``.
+
+    Examples
+    --------
+    >>> rows = [
+    ...     {
+    ...         "spoke_c10_mpa": c10,
+    ...         "tension_stiffness_n_per_mm": 30 * c10,
+    ...         "compression_stiffness_n_per_mm": 13 * c10,
+    ...     }
+    ...     for c10 in (1, 2, 3)
+    ... ]
+    >>> round(SpokeStiffnessTable.from_rows(rows).spokes(1.5, count=60).tension_n_per_mm, 6)
+    45.0
+    """
 
     c10_mpa: Floating
     tension_n_per_mm: Floating
@@ -36,18 +50,20 @@ class SpokeStiffnessTable:
         Raises
         ------
         InputError
-            A column or a number is missing, a value is not positive, a C10 comes twice, or
+            A column or a number is missing, a value is not positive, a C10 is given twice, or
             there are fewer than two rows.
         """
         if len(rows) < 2:
-            raise InputError("needs at least two rows", remedy="give the stiffness at two C10")
+            raise InputError(
+                "needs at least two rows", remedy="give the stiffness at two values of C10"
+            )
         table = np.array(
             [[_number(row, name, i) for name in COLUMNS] for i, row in enumerate(rows)]
         )
         table = table[np.argsort(table[:, 0])]
         if np.any(np.diff(table[:, 0]) == 0):
             raise InputError(
-                "a C10 comes twice", remedy="keep one row a C10", column="spoke_c10_mpa"
+                "a C10 is given twice", remedy="keep one row per C10", column="spoke_c10_mpa"
             )
         return cls(table[:, 0], table[:, 1], table[:, 2])
 
@@ -75,12 +91,12 @@ class SpokeStiffnessTable:
 
 
 def _number(row: Mapping[Any, Any], column: str, line: int) -> float:
-    """Read one positive number, or say where it is missing."""
+    """Read one positive number, or report where it is missing."""
     try:
         value = float(row[column])
     except (KeyError, TypeError, ValueError) as error:
         raise InputError(
-            "number is missing",
+            "a number is missing",
             remedy="give a column with numbers",
             line=line,
             column=column,

@@ -24,6 +24,14 @@ class LinearSpokes:
     ------
     InputError
         A stiffness is not a positive finite number, or there are fewer than three spokes.
+
+    Examples
+    --------
+    Table 10 of the paper, C10 1: k and j per unit of arc length at R = 303.875 mm, N/mm²:
+
+    >>> k, j = LinearSpokes(30.2, 13.26, count=60).foundation(radius_mm=303.875)
+    >>> round(k, 3), round(j, 3)
+    (0.949, 0.417)
     """
 
     tension_n_per_mm: float

@@ -1,7 +1,7 @@
 """A ring on any spokes, pressed flat between given edges.
 
 Spokes follow a law. Smeared over the arc they make a symmetric wheel, of which one half is solved;
-single spokes stand at their angles on a whole ring. In the contact region they are either taken at
+single spokes act at their angles on a whole ring. In the contact region they are either taken at
 their local displacement and pull on the ring as they do elsewhere (``local``), or, as the paper
 has it, all shortened by δ and carried past the ring to the ground (``paper``, equation 14).
 """
@@ -27,7 +27,7 @@ _WIDEST, _MOST = 0.08, 600
 _FEW_POINTS = 50
 """Most inner points of a curve at which the elements are aligned with each of them."""
 SAME_ANGLE = 1e-9
-"""Angles (radians) closer than this are one."""
+"""Angles (radians) closer than this are taken as equal."""
 
 
 @dataclass(frozen=True)
@@ -92,8 +92,8 @@ class Edge:
     angle : float
         θ in radians.
     share : float
-        Share of the force of a single spoke that stands right at the edge which the ground takes
-        directly; a pointed reaction holds the edge there while it grows from 0 to 1.
+        Share of the force of a single spoke exactly at the edge that the ground takes
+        directly; a point reaction holds the edge there while it grows from 0 to 1.
     """
 
     angle: float
@@ -337,7 +337,7 @@ def _single_spokes(
 def _end_conditions(
     wheel: Wheel, points: Floating, first: int
 ) -> tuple[list[tuple[int, int, float]], list[float]]:
-    """Seven conditions beside the elements': (condition, unknown, factor) and right-hand sides.
+    """Seven conditions besides the elements': (condition, unknown, factor), right-hand sides.
 
     On flat ground u cos θ - v sin θ + δ = 1 - cos θ and V - Φ - ε tan θ N = tan θ, at one point.
     Half a wheel has v = Φ = 0 at both ends and V = 0 at the top; a whole ring closes, but for M,
@@ -345,7 +345,7 @@ def _end_conditions(
     """
     theta = float(points[first])
     sine, cosine, tangent = np.sin(theta), np.cos(theta), np.tan(theta)
-    # behind a spoke that stands at the left edge, flatness is a matter of the element's start
+    # behind a spoke at the left edge, flatness is a matter of the element's start
     begin, last = 6 * first, 6 * (len(points) - 1)
     delta = 6 * len(points)
     entries = [

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field
+from typing import assert_never
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,7 @@ from scipy.optimize import brentq
 
 from nptcs.arrays import Floating
 from nptcs.errors import InputError
-from nptcs.lca.batch import only_target
+from nptcs.lca.batch import TARGETS, only_target
 from nptcs.lca.checks import require_positive
 from nptcs.lca.diagnosis import LARGEST_RESIDUAL
 from nptcs.lca.newton import LARGEST_CONTACT
@@ -203,7 +204,7 @@ def solve_law(
         Spokes of the contact region at their local displacement, or all shortened by δ as in
         equation 14 (smeared spokes only).
     hub_angle_deg : float, optional
-        With it the spokes stand singly, one of them at this angle from the contact's centre.
+        With it the spokes are single ones, one of them at this angle from the contact's centre.
 
     Raises
     ------
@@ -211,24 +212,40 @@ def solve_law(
         The target or the combination of options makes no sense.
     ModelError
         The target cannot be reached, or a spoke is stretched or compressed beyond its curve.
+
+    Examples
+    --------
+    Spokes that follow two straight lines, as in equation 14, are those of `nptcs.lca.single.solve`:
+
+    >>> from nptcs.config.tyre import TyreGeometry
+    >>> from nptcs.lca.spokes import LinearSpokes
+    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> law = SpokeLaw.linear(LinearSpokes(30.2, 13.26), reach_mm=50)
+    >>> round(solve_law(ring, law, load_n=5000, contact="paper").displacement_mm, 2)
+    20.74
     """
     name, raw = only_target(load_n, displacement_mm, theta_c_deg)
     target = float(np.asarray(raw))
     require_positive(name, target)
     if hub_angle_deg is not None and (contact == "paper" or name == "theta_c_deg"):
         raise InputError(
-            "single spokes act at their local displacement and have no single contact angle",
+            "single spokes act at their local displacement, and their contact is not symmetric",
             remedy="give a load or a displacement, and contact='local'",
             column="hub_angle_deg",
             value=hub_angle_deg,
         )
     wheel = Wheel(section, law, contact, _spoke_angles(law.count, hub_angle_deg))
     search = _Search(wheel)
-    if name == "theta_c_deg":
-        pressed = search.symmetric(float(np.radians(target)))
-    else:
-        scaled = target / (section.shear_stiffness_n if name == "load_n" else section.radius_mm)
-        pressed = _reach(search, "force" if name == "load_n" else "sinking", scaled)
+    kind = TARGETS[name]
+    match kind:
+        case "contact_angle":
+            pressed = search.symmetric(float(np.radians(target)))
+        case "force":
+            pressed = _reach(search, kind, target / section.shear_stiffness_n)
+        case "sinking":
+            pressed = _reach(search, kind, target / section.radius_mm)
+        case _:
+            assert_never(kind)
     state = _state(wheel, hub_angle_deg, pressed)
     _refuse(state)
     return state

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
+from typing import assert_never
 
 import numpy as np
 
@@ -71,6 +73,12 @@ def fit_line(x: Array, y: Array) -> Line:
     -------
     Line
         R² and errors are NaN where n leaves no degree of freedom.
+
+    Examples
+    --------
+    >>> line = fit_line(np.array([0.0, 1.0, 2.0]), np.array([1.0, 3.0, 5.0]))
+    >>> line.slope, line.intercept
+    (2.0, 1.0)
     """
     x_mean, y_mean = float(x.mean()), float(y.mean())
     dx, dy = x - x_mean, y - y_mean
@@ -112,11 +120,22 @@ def chord_slope(
     -------
     Chord
         With NaN and a flag "not assessed: …" where the data do not cover the range.
+
+    Examples
+    --------
+    The chord modulus of a straight curve of 128 GPa, and a curve that ends too soon:
+
+    >>> strain = np.linspace(0, 0.004, 41)
+    >>> chord = chord_slope(strain, 128000 * strain, 0.001, 0.003, "nearest_points")
+    >>> round(chord.slope), chord.points
+    (128000, 2)
+    >>> chord_slope(strain[:20], 128000 * strain[:20], 0.001, 0.003, "nearest_points").flags
+    ('not assessed: the curve ends at 0.0019, before 0.003',)
     """
     width = high - low
     if len(x) < 2:
         return not_assessed("fewer than two recorded points")
-    margin = end_tolerance * width if method == "nearest_points" else 0.0
+    ends, margin = _ends(method, end_tolerance * width)
     if x.max() < high - margin:
         return not_assessed(f"the curve ends at {x.max():.4g}, before {high:.4g}")
     if x.min() > low + margin:
@@ -125,9 +144,8 @@ def chord_slope(
     inside = (x[:stop] >= low) & (x[:stop] <= high)
     line = _line_or_none(x[:stop][inside], y[:stop][inside])
     unloading = _unloading_flag(x[:stop], inside, end_tolerance * width)
-    if method == "least_squares":
+    if ends is None:
         return _regression(line, x[:stop][inside], unloading)
-    ends = _nearest_ends if method == "nearest_points" else _interpolated_ends
     (x_low, y_low), (x_high, y_high), points, flags = ends(x, y, low, high, end_tolerance)
     if not x_high > x_low:
         return not_assessed("both ends of the range fall on the same recorded point")
@@ -166,6 +184,20 @@ def _regression(line: Line | None, x: Array, flags: tuple[str, ...]) -> Chord:
 
 
 Point = tuple[float, float]
+Ends = Callable[[Array, Array, float, float, float], tuple[Point, Point, int, tuple[str, ...]]]
+
+
+def _ends(method: ChordMethod, tolerance: float) -> tuple[Ends | None, float]:
+    """Return the finder of the two ends (None: regression) and how far they may lie outside."""
+    match method:
+        case "nearest_points":
+            return _nearest_ends, tolerance
+        case "interpolated":
+            return _interpolated_ends, 0.0
+        case "least_squares":
+            return None, 0.0
+        case _:
+            assert_never(method)
 
 
 def _nearest_ends(

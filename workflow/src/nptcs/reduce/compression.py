@@ -6,11 +6,13 @@ import numpy as np
 import pandas as pd
 
 from nptcs.config.reduction import AstmD6641
+from nptcs.reduce.branch import Branch
+from nptcs.reduce.evidence import Evidence
 from nptcs.reduce.rows import Property, finite_pair, missing, strain_range, value_at_peak
 from nptcs.reduce.tension import modulus, poisson_ratio, strength, ultimate_strain
 
 
-def reduce_compression(branch: pd.DataFrame, rules: AstmD6641) -> list[Property]:
+def reduce_compression(branch: Branch, rules: AstmD6641, evidence: Evidence) -> list[Property]:
     """Modulus, Poisson's ratio, strength, ultimate strain and bending of a compression test.
 
     F_cu = P_f/(w h); chord modulus on the mean of the strains of both faces; bending
@@ -20,25 +22,27 @@ def reduce_compression(branch: pd.DataFrame, rules: AstmD6641) -> list[Property]
 
     Parameters
     ----------
-    branch : DataFrame
-        Loading branch turned over (compression positive), with strain_axial and, where both
-        faces were measured, strain_axial_back.
+    branch : Branch
+        Chosen loading and record, turned over (compression positive), with strain_axial and,
+        where both faces were measured, strain_axial_back.
     rules : AstmD6641
         Section of the standard.
+    evidence : Evidence
+        Whether the specimen failed.
     """
     low, high = rules.chord_range
     nominal = strain_range(low, high)
-    bending = bending_rows(branch, rules)
-    mean = mean_of_faces(branch)
+    bending = bending_rows(branch, rules, evidence)
+    mean = mean_of_faces(branch.rows)
     from_strain = [
         modulus(mean, rules, low, high, nominal),
         poisson_ratio(mean, rules, low, high, nominal),
-        ultimate_strain(mean, rules.title),
+        ultimate_strain(mean_of_faces(branch.to_peak), rules.title, evidence),
     ]
     remarks = dict.fromkeys(_bending_remarks([flag for row in bending for flag in row.flags]))
     return [
         *(p.flagged(remarks) for p in from_strain),
-        strength(branch, rules.title),
+        strength(branch.to_peak, rules.title, evidence),
         *bending,
     ]
 
@@ -50,11 +54,11 @@ def mean_of_faces(branch: pd.DataFrame) -> pd.DataFrame:
     return branch.assign(strain_axial=(branch["strain_axial"] + branch["strain_axial_back"]) / 2)
 
 
-def bending_rows(branch: pd.DataFrame, rules: AstmD6641) -> list[Property]:
+def bending_rows(branch: Branch, rules: AstmD6641, evidence: Evidence) -> list[Property]:
     """Rows ``bending_percent`` (middle of the chord) and ``bending_at_failure_percent``."""
     names = ("bending_percent", "bending_at_failure_percent")
     rule = f"{rules.title}, B_y = 100 (e1 - e2)/(e1 + e2)"
-    front, back = finite_pair(branch, "strain_axial", "strain_axial_back")
+    front, back = finite_pair(branch.rows, "strain_axial", "strain_axial_back")
     if not len(front):
         reason = "strain on one face only"
         return [missing(name, "%", rule, reason) for name in names]
@@ -62,7 +66,7 @@ def bending_rows(branch: pd.DataFrame, rules: AstmD6641) -> list[Property]:
     middle = sum(rules.chord_range) / 2
     after = int(np.argmax(mean >= middle))
     last_front, last_back = (
-        value_at_peak(branch, column) for column in ("strain_axial", "strain_axial_back")
+        value_at_peak(branch.to_peak, column) for column in ("strain_axial", "strain_axial_back")
     )
     rows = []
     if mean[after] >= middle:
@@ -70,6 +74,8 @@ def bending_rows(branch: pd.DataFrame, rules: AstmD6641) -> list[Property]:
         rows.append(_bending(names[0], float(front[after]), float(back[after]), at_middle, rules))
     else:
         rows.append(missing(names[0], "%", rule, f"the curve ends before strain {middle:g}"))
+    if not evidence.failed:
+        return [*rows, missing(names[1], "%", f"{rule} at failure", evidence.reason)]
     return [*rows, _bending(names[1], last_front, last_back, f"{rule} at failure", rules)]
 
 

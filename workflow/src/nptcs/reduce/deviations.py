@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import replace
 
 import numpy as np
 import pandas as pd
 
-from nptcs.config.reduction import ChordRules, RubberRules, Rules
+from nptcs.config.reduction import ChordRules, RubberCompressionRules, RubberRules, Rules
+from nptcs.loading import loadings
+from nptcs.reduce.branch import Branch
 from nptcs.reduce.chord import fit_line
+from nptcs.reduce.evidence import Evidence
 from nptcs.reduce.rows import NAN, Property, finite_pair, missing
 from nptcs.tables.specimens import Specimen
 
@@ -22,14 +26,14 @@ def with_crosshead_strain(properties: pd.DataFrame) -> list[str]:
 
 
 def deviations(
-    branch: pd.DataFrame, specimen: Specimen, rules: Rules, strain_source: str
+    branch: Branch, specimen: Specimen, rules: Rules, strain_source: str, evidence: Evidence
 ) -> tuple[str, ...]:
     """Words for each deviation from the standard that the sheet and the curve show.
 
     Parameters
     ----------
-    branch : DataFrame
-        Loading branch with time_s and strain_axial.
+    branch : Branch
+        Chosen loading and record, with time_s and strain_axial.
     specimen : Specimen
         Row of the specimen sheet.
     rules : Rules
@@ -37,13 +41,17 @@ def deviations(
     strain_source : str
         Where the strain came from, as the ingest record says ("extensometer", "dic",
         "crosshead"; "unspecified" or empty if not known).
+    evidence : Evidence
+        Whether the specimen failed; the time to failure is judged only then.
     """
     found = list(_source(strain_source))
     found += _size(specimen, rules)
-    if isinstance(rules, ChordRules):
-        found += _duration(branch, rules)
+    if isinstance(rules, ChordRules) and evidence.failed:
+        found += _duration(branch.to_peak, rules)
     if isinstance(rules, RubberRules):
-        found += _speed(branch, specimen, rules)
+        found += _speed(branch.rows, specimen, rules)
+    if isinstance(rules, RubberCompressionRules):
+        found += _disc(branch, specimen, rules)
     return tuple(found)
 
 
@@ -62,7 +70,8 @@ def _size(specimen: Specimen, rules: Rules) -> Iterator[str]:
     )
     for name, stations, expected in sizes:
         if not stations:
-            yield f"{name} not given, the section area is"
+            if not specimen.diameter_mm:
+                yield f"{name} not given, area: {specimen.area_rule}"
             continue
         mean = sum(stations) / len(stations)
         if expected is not None and not expected[0] <= mean <= expected[1]:
@@ -92,6 +101,24 @@ def _speed(branch: pd.DataFrame, specimen: Specimen, rules: RubberRules) -> Iter
         )
 
 
+def _disc(branch: Branch, specimen: Specimen, rules: RubberCompressionRules) -> Iterator[str]:
+    """Size of a disc, and its conditioning: the last of so many loadings is measured."""
+    height = specimen.gauge_length_mm
+    diameter = _mean(specimen.diameter_mm)
+    sizes = (("diameter", diameter, rules.disc_mm[0]), ("height", height, rules.disc_mm[1]))
+    for name, value, (low, high) in sizes:
+        if value is not None and not low <= value <= high:
+            yield f"{name} {value:.4g} mm, {rules.title} recommends {low:g} to {high:g} mm"
+    turned = branch.turned
+    count = len(loadings(*(turned[c].to_numpy(float) for c in ("stress_mpa", "strain_axial"))))
+    if count < rules.loadings:
+        yield f"{count} of {rules.loadings} loadings, {rules.title} measures the last"
+
+
+def _mean(stations: tuple[float, ...]) -> float | None:
+    return sum(stations) / len(stations) if stations else None
+
+
 def time_to_failure(branch: pd.DataFrame) -> float:
     """Minutes from the first row to the largest force; NaN without times."""
     times = branch["time_s"].to_numpy(dtype=float)
@@ -106,10 +133,10 @@ def strain_rate(branch: pd.DataFrame) -> tuple[float, int]:
     return fit_line(times / 60.0, strain).slope, len(times)
 
 
-def speed_properties(branch: pd.DataFrame, title: str) -> list[Property]:
+def speed_properties(branch: Branch, title: str, evidence: Evidence) -> list[Property]:
     """Rows ``strain_rate`` and ``time_to_failure``: the speed of the test, from the curve."""
-    rate, points = strain_rate(branch)
-    minutes = time_to_failure(branch)
+    rate, points = strain_rate(branch.rows)
+    minutes = time_to_failure(branch.to_peak)
     rule = f"{title}, from the curve"
     if not np.isfinite(rate):
         reason = "no usable times"
@@ -117,7 +144,11 @@ def speed_properties(branch: pd.DataFrame, title: str) -> list[Property]:
             missing("strain_rate", "1/min", rule, reason),
             missing("time_to_failure", "min", rule, reason),
         ]
+    speed = Property("strain_rate", rate, "1/min", f"{rule}, least squares up to the peak")
+    speed = replace(speed, points=points)
+    if not evidence.failed:
+        return [speed, missing("time_to_failure", "min", rule, evidence.reason)]
     return [
-        Property("strain_rate", rate, "1/min", f"{rule}, least squares up to the peak", "", points),
+        speed,
         Property("time_to_failure", minutes, "min", f"{rule}, first row to the peak", "", 2),
     ]

@@ -10,7 +10,8 @@ from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.config.reduction import StatisticsSettings
-from nptcs.reduce.sample import NAN, b_basis_factor
+from nptcs.reduce.counted import counted
+from nptcs.reduce.sample import NAN, b_basis_factor, positive_basis
 from nptcs.tables.specimens import Specimen
 
 KEY = ["material", "orientation_deg", "property"]
@@ -37,7 +38,7 @@ def pooled_rows(
     settings : StatisticsSettings
         Which tests are pooled, and the smallest n of a B-basis value.
     """
-    included = properties[[sheet[s].include for s in properties["specimen"]]]
+    included = counted(properties, sheet)
     wanted = included["property"].isin(settings.pool_properties)
     included = included[included["value"].notna() & wanted]
     rows: list[dict[str, object]] = []
@@ -94,6 +95,7 @@ def _row(
     k_b = b_basis_factor(n, free) if free + 1 >= smallest else NAN
     if free + 1 < smallest:
         notes = [*notes, f"no B-basis: {free} degrees of freedom, at least {smallest - 1}"]
+    basis, words = positive_basis(mean - k_b * deviation, n)
     return {
         "test": "+".join(table["test"].unique()),
         "unit": table["unit"].iloc[0],
@@ -106,7 +108,7 @@ def _row(
         "mnr": NAN,
         "mnr_critical": NAN,
         "outlier_specimens": "",
-        "b_basis": mean - k_b * deviation,
+        "b_basis": basis,
         "left_out": "",
         "rule": " | ".join(table["rule"].unique()),
         "range": " | ".join(r for r in table["range"].unique() if r),
@@ -114,5 +116,7 @@ def _row(
         "median": float(np.median(values)),
         "reported_statistic": "mean",
         "k_b": k_b,
-        "notes": "; ".join(notes),
+        "notes": "; ".join([*notes, *words]),
+        "group_size": n,
+        "not_assessed": "",
     }

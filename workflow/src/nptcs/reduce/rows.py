@@ -1,15 +1,13 @@
-"""Rows of the property table, and the loading branch that all reductions start from."""
+"""Rows of the property table, and what all reductions share."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable
 from dataclasses import dataclass, replace
 
-import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.errors import InputError
 from nptcs.reduce.chord import Chord
 from nptcs.tables.specimens import Specimen
 
@@ -38,6 +36,7 @@ class Property:
     standard_error: float = NAN
     range_low: float = NAN
     range_high: float = NAN
+    origin_effect_percent: float = NAN
 
     def flagged(self, flags: Iterable[str]) -> Property:
         """Return the property with further flags."""
@@ -91,43 +90,11 @@ def to_table(properties: Iterable[Property], specimen: Specimen) -> pd.DataFrame
             "origin": specimen.origin,
             "range_low": p.range_low,
             "range_high": p.range_high,
+            "origin_effect_percent": p.origin_effect_percent,
         }
         for p in properties
     ]
     return pd.DataFrame(rows)
-
-
-def loading_branch(curve: pd.DataFrame, specimen: Specimen) -> pd.DataFrame:
-    """Rows up to the largest force in the direction of the test.
-
-    Parameters
-    ----------
-    curve : DataFrame
-        Columns time_s, force_n, stress_mpa, strain_axial, …; tension positive.
-    specimen : Specimen
-        A compression test is turned over: force, stress and strains come out positive when
-        compressive (axial) so that all reductions see a growing load.
-
-    Raises
-    ------
-    InputError
-        If no row has a finite force, or the load has the wrong sign.
-    """
-    branch = curve.loc[np.isfinite(curve["stress_mpa"])]
-    if specimen.test == "compression":
-        mirrored = [c for c in branch.columns if c != "time_s"]
-        branch = branch.assign(**{c: -branch[c] for c in mirrored})
-    peak = NAN if branch.empty else float(branch["stress_mpa"].max())
-    if not peak > 0:
-        raise InputError(
-            f"no {'compressive' if specimen.test == 'compression' else 'tensile'} load",
-            "check the test type and the sign of the force",
-            specimen=specimen.specimen,
-            column="stress_mpa",
-            value=peak,
-        )
-    end = int(np.argmax(branch["stress_mpa"].to_numpy()))
-    return branch.iloc[: end + 1].reset_index(drop=True)
 
 
 def finite_pair(branch: pd.DataFrame, x: str, y: str) -> tuple[Array, Array]:

@@ -3,15 +3,16 @@
 from __future__ import annotations
 
 import numpy as np
-import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.reduction import RubberRules
-from nptcs.reduce.rows import Property, finite_pair, missing
+from nptcs.config.reduction import RubberRules, Rules
+from nptcs.reduce.branch import Branch
+from nptcs.reduce.evidence import Evidence
+from nptcs.reduce.rows import Property, finite_pair, missing, value_at_peak
 from nptcs.reduce.tension import strength, ultimate_strain
 
 
-def reduce_rubber(branch: pd.DataFrame, rules: RubberRules) -> list[Property]:
+def reduce_rubber(branch: Branch, rules: RubberRules, evidence: Evidence) -> list[Property]:
     """Stress at given elongations, strength, elongation at break and strain energy density.
 
     Nominal stress F/A0 against nominal strain ΔL/L0 (ASTM D412, ISO 37); the strain energy
@@ -19,21 +20,23 @@ def reduce_rubber(branch: pd.DataFrame, rules: RubberRules) -> list[Property]:
 
     Parameters
     ----------
-    branch : DataFrame
-        Loading branch: stress_mpa, strain_axial.
+    branch : Branch
+        Chosen loading and record: stress_mpa, strain_axial.
     rules : RubberRules
         Section of the standard in force.
+    evidence : Evidence
+        Whether the piece broke.
     """
-    strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
+    strain, stress = finite_pair(branch.rows, "strain_axial", "stress_mpa")
     return [
         *(stress_at(strain, stress, percent, rules) for percent in rules.elongations_percent),
-        strength(branch, rules.title),
-        ultimate_strain(branch, rules.title),
-        strain_energy_density(strain, stress, rules),
+        strength(branch.to_peak, rules.title, evidence),
+        ultimate_strain(branch.to_peak, rules.title, evidence),
+        strain_energy_density(branch, rules, evidence),
     ]
 
 
-def stress_at(strain: Array, stress: Array, percent: float, rules: RubberRules) -> Property:
+def stress_at(strain: Array, stress: Array, percent: float, rules: Rules) -> Property:
     """Nominal stress at an elongation, interpolated at the first passage."""
     name, target = f"stress_at_{percent:g}_percent", percent / 100.0
     rule = f"{rules.title}, interpolated at {percent:g} %"
@@ -48,9 +51,16 @@ def stress_at(strain: Array, stress: Array, percent: float, rules: RubberRules) 
     return Property(name, value, "MPa", rule, points=2)
 
 
-def strain_energy_density(strain: Array, stress: Array, rules: RubberRules) -> Property:
-    """∫σ dε up to the largest force (MJ/m³)."""
+def strain_energy_density(branch: Branch, rules: RubberRules, evidence: Evidence) -> Property:
+    """∫σ dε of one loading up to the break (MJ/m³)."""
     name, rule = "strain_energy_density", f"{rules.title}, trapezoid rule up to the peak"
+    if not evidence.failed:
+        return missing(name, "MJ/m3", rule, evidence.reason)
+    if not branch.reaches_peak:
+        return missing(name, "MJ/m3", rule, "the loading that was taken is not the one that broke")
+    if np.isnan(value_at_peak(branch.rows, "strain_axial")):
+        return missing(name, "MJ/m3", rule, "the strain ends before the largest force")
+    strain, stress = finite_pair(branch.rows, "strain_axial", "stress_mpa")
     if len(strain) < 2:
         return missing(name, "MJ/m3", rule, "fewer than two recorded points")
     low, high = float(strain[0]), float(strain[-1])

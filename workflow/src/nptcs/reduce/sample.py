@@ -21,6 +21,11 @@ def mnr_critical(n: int, significance: float = 0.05) -> float:
 
     C = (n-1)/√n √(t²/(n-2+t²)) with t = t(1 - α/2n, n-2): CMH-17-1G, 8.3.3.1 and
     table 8.5.7. NaN for n < 3.
+
+    Examples
+    --------
+    >>> round(mnr_critical(5), 3)
+    1.715
     """
     if n < 3:
         return NAN
@@ -35,6 +40,11 @@ def b_basis_factor(n: int, degrees_of_freedom: int | None = None) -> float:
     Covers 90 % of the population with 95 % confidence: k_B is the 0.95 quantile of the
     noncentral t distribution with noncentrality z(0.90)√n, divided by √n (CMH-17-1G,
     table 8.5.10). With a standard deviation pooled over groups its degrees of freedom are given.
+
+    Examples
+    --------
+    >>> round(b_basis_factor(5), 3)
+    3.407
     """
     free = n - 1 if degrees_of_freedom is None else degrees_of_freedom
     noncentrality = stats.norm.ppf(0.90) * np.sqrt(n)
@@ -56,6 +66,16 @@ def describe(
         Significance and group sizes.
     allowable : bool
         Whether a B-basis value makes sense: not for a speed of testing or a bending.
+
+    Examples
+    --------
+    >>> values = np.array([1500.0, 1540.0, 1480.0, 1520.0, 1510.0])
+    >>> names = ["T0-1", "T0-2", "T0-3", "T0-4", "T0-5"]
+    >>> numbers, remarks = describe(values, names, StatisticsSettings())
+    >>> numbers["mean"], round(numbers["standard_deviation"], 2), round(numbers["b_basis"], 1)
+    (1510.0, 22.36, 1433.8)
+    >>> remarks
+    ['B-basis provisional: n = 5 < 18']
     """
     n = len(values)
     mean = float(values.mean()) if n else NAN
@@ -106,4 +126,16 @@ def _b_basis(
         p = float(stats.shapiro(values).pvalue)
         if p < NOT_NORMAL:
             notes.append(f"not normally distributed (Shapiro-Wilk p = {p:.2g}): B-basis doubtful")
-    return {"k_b": k_b, "b_basis": mean - k_b * deviation}, notes
+    basis, words = positive_basis(mean - k_b * deviation, n)
+    return {"k_b": k_b, "b_basis": basis}, [*notes, *words]
+
+
+def positive_basis(basis: float, n: int) -> tuple[float, list[str]]:
+    """Return a basis value, or none with the reason where it would not be positive.
+
+    A modulus, strength or strain has no negative lower bound: it says that the sample is too
+    small for its scatter, not what the material can do.
+    """
+    if basis > 0 or basis != basis:
+        return basis, []
+    return NAN, [f"no B-basis: not above zero, n = {n} is too few for this scatter"]

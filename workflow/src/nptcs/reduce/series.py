@@ -6,9 +6,10 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
+from nptcs.config.ingest import Plausible
 from nptcs.config.reduction import ReductionSettings
 from nptcs.errors import InputError
-from nptcs.reduce.specimen import reduce_specimen
+from nptcs.reduce.specimen import reduce_record
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import empty_table
 from nptcs.tables.problems import problems_table
@@ -21,6 +22,7 @@ def reduce_series(
     curves: Mapping[str, pd.DataFrame],
     records: Mapping[str, IngestRecord],
     settings: ReductionSettings,
+    plausible: Plausible,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Reduce the specimens that could be read; one that cannot be reduced is a problem.
 
@@ -34,6 +36,8 @@ def reduce_series(
         How each curve came about; one that failed is listed as a problem of the stage ``ingest``.
     settings : ReductionSettings
         The section ``reduction`` of the configuration.
+    plausible : Plausible
+        Limits that a reported value passes, as the curve does.
 
     Returns
     -------
@@ -49,11 +53,7 @@ def reduce_series(
         if record.status != "ok":
             continue
         try:
-            tables.append(
-                reduce_specimen(
-                    curves[name], specimen, settings, record.strain_source, record.flags
-                )
-            )
+            tables.append(reduce_record(curves[name], specimen, record, settings, plausible))
         except InputError as error:
             problems.append(("reduce", name, "", "error", str(error)))
     properties = pd.concat(tables) if tables else empty_table(PropertiesTable)

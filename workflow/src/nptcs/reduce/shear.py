@@ -7,13 +7,15 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.reduction import ShearRules
+from nptcs.reduce.branch import Branch
 from nptcs.reduce.chord import Chord, chord_slope
+from nptcs.reduce.evidence import Evidence
 from nptcs.reduce.rows import Property, chord_rule, from_chord, missing, strain_range, value_at_peak
 
 NO_STRAIN = "shear strain needs axial and transverse strain"
 
 
-def reduce_shear(branch: pd.DataFrame, rules: ShearRules) -> list[Property]:
+def reduce_shear(branch: Branch, rules: ShearRules, evidence: Evidence) -> list[Property]:
     """Shear modulus, offset strength, shear strength and largest shear strain.
 
     τ12 = P/(2A), γ12 = ε_x - ε_y (ASTM D3518, 12.1 and 12.2); G12 = Δτ/Δγ (12.3.1); offset
@@ -22,12 +24,14 @@ def reduce_shear(branch: pd.DataFrame, rules: ShearRules) -> list[Property]:
 
     Parameters
     ----------
-    branch : DataFrame
-        Loading branch: stress_mpa (P/A), strain_axial, strain_transverse.
+    branch : Branch
+        Chosen loading and record: stress_mpa (P/A), strain_axial, strain_transverse.
     rules : ShearRules
         Section of the standard in force.
+    evidence : Evidence
+        Whether the specimen failed; a curve that is cut at γ = 0.05 needs none.
     """
-    gamma, tau = shear_curve(branch)
+    gamma, tau = shear_curve(branch.rows)
     chord_words = chord_rule(rules.title, rules.chord_method)
     nominal = strain_range(*rules.chord_range, symbol="shear strain")
     if not len(gamma):
@@ -40,7 +44,7 @@ def reduce_shear(branch: pd.DataFrame, rules: ShearRules) -> list[Property]:
     return [
         modulus.flagged(chord_deviations(chord, rules)),
         offset_strength(gamma, tau, chord, rules),
-        *strength_rows(branch, gamma, tau, rules),
+        *strength_rows(branch.to_peak, rules, evidence),
     ]
 
 
@@ -87,25 +91,26 @@ def offset_strength(gamma: Array, tau: Array, chord: Chord, rules: ShearRules) -
     return Property(name, value, "MPa", rule, points=2, flags=flags, range_high=gamma_at)
 
 
-def strength_rows(
-    branch: pd.DataFrame, gamma: Array, tau: Array, rules: ShearRules
-) -> list[Property]:
+def strength_rows(to_peak: pd.DataFrame, rules: ShearRules, evidence: Evidence) -> list[Property]:
     """Rows ``shear_strength`` and ``ultimate_shear_strain``, the curve cut at γ = 0.05."""
+    gamma, tau = shear_curve(to_peak)
     limit = rules.largest_shear_strain
     beyond = np.flatnonzero(gamma > limit)
     end = int(beyond[0]) if beyond.size else len(gamma)
     rule = f"{rules.title}, largest stress up to shear strain {limit:g}"
+    names = (("shear_strength", "MPa"), ("ultimate_shear_strain", "1"))
+    if not beyond.size and not evidence.failed:
+        return [missing(n, unit, rule, evidence.reason) for n, unit in names]
     if end == 0:
-        names = (("shear_strength", "MPa"), ("ultimate_shear_strain", "1"))
         return [missing(n, unit, rule, f"the curve begins after {limit:g}") for n, unit in names]
     peak = int(np.argmax(tau[:end]))
     value, strain = float(tau[peak]), float(gamma[peak])
-    flags: tuple[str, ...] = ()
+    flags = evidence.remarks
     if beyond.size:
         value, strain = _at_limit(gamma, tau, end, limit, value, strain)
         if strain == limit:
             flags = (f"cut at shear strain {limit:g}: the stress was still rising",)
-    elif value < 0.999 * value_at_peak(branch, "stress_mpa") / 2:
+    elif value < 0.999 * value_at_peak(to_peak, "stress_mpa") / 2:
         flags = (f"strain recorded up to {gamma.max():.4g} only, the force rose further",)
     return [
         Property("shear_strength", value, "MPa", rule, points=1, flags=flags),

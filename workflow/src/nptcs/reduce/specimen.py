@@ -3,16 +3,26 @@
 from __future__ import annotations
 
 from collections.abc import Iterable
+from typing import assert_never
 
 import pandas as pd
 
+from nptcs.config.ingest import Plausible
 from nptcs.config.reduction import ReductionSettings
+from nptcs.mechanical_tests import TestType
+from nptcs.reduce.branch import Branch, loading_branch
 from nptcs.reduce.compression import reduce_compression
 from nptcs.reduce.deviations import CROSSHEAD, deviations, speed_properties
-from nptcs.reduce.rows import Property, loading_branch, to_table
+from nptcs.reduce.evidence import Evidence, evidence_of_failure
+from nptcs.reduce.flexure import reduce_flexure
+from nptcs.reduce.origin import Origin, origin_of, with_origin
+from nptcs.reduce.plausible import only_plausible
+from nptcs.reduce.rows import Property, to_table
 from nptcs.reduce.rubber import reduce_rubber
+from nptcs.reduce.rubber_compression import reduce_rubber_compression
 from nptcs.reduce.shear import reduce_shear
 from nptcs.reduce.tension import reduce_tension
+from nptcs.tables.curves import IngestRecord
 from nptcs.tables.specimens import Specimen
 
 
@@ -22,6 +32,10 @@ def reduce_specimen(
     settings: ReductionSettings,
     strain_source: str = "",
     flags: Iterable[str] = (),
+    *,
+    failure_seen: bool = False,
+    plausible: Plausible | None = None,
+    origin: Origin | None = None,
 ) -> pd.DataFrame:
     """Reduce one curve to properties by the standard in force for its test.
 
@@ -38,6 +52,14 @@ def reduce_specimen(
         Where the strain came from, as the ingest record says; "crosshead" is flagged.
     flags : iterable of str
         Flags of the ingest record; they go with every value.
+    failure_seen : bool
+        Whether the ingest saw the specimen fail, before it cut what follows. Without it (and
+        without the sheet's word) the curve itself must show a failure, or strength, ultimate
+        strain and energy are not assessed.
+    plausible : Plausible, optional
+        The limits of the curve; a value outside them is not assessed either.
+    origin : Origin, optional
+        Shift and error of the strain origin; they enter the standard errors.
 
     Returns
     -------
@@ -48,27 +70,84 @@ def reduce_specimen(
     Raises
     ------
     InputError
-        If the curve has no load in the direction of the test.
+        If the curve has no load in the direction of the test, or fewer loadings than the sheet
+        asks for.
     """
     branch = loading_branch(curve, specimen)
-    rules = settings.rules(specimen.test)
     told = list(flags)
-    found = deviations(branch, specimen, rules, strain_source)
+    evidence = evidence_of_failure(branch.turned, specimen, failure_seen, told)
+    rules = settings.rules(specimen.test)
+    found = deviations(branch, specimen, rules, strain_source, evidence)
     # the ingest record says it in its own words
     if any(flag.startswith(CROSSHEAD) for flag in told):
         found = tuple(flag for flag in found if not flag.startswith(CROSSHEAD))
-    remarks = [*found, *told]
-    rows = [*_reduce(branch, specimen, settings), *speed_properties(branch, rules.title)]
-    return to_table((row.flagged(remarks) for row in rows), specimen)
+    remarks = [*branch.words, *found, *told]
+
+    def reduce(of: Branch) -> list[Property]:
+        return _reduce(of, evidence, specimen, settings, strain_source)
+
+    reduced = reduce(branch)
+    if origin is not None:
+        reduced = with_origin(reduced, origin, branch, specimen.test.load_sign, reduce)
+    rows = [
+        *reduced,
+        *speed_properties(branch, rules.title, evidence),
+    ]
+    limits = plausible or Plausible()
+    judged = (only_plausible(row, specimen.test, limits) for row in rows)
+    return to_table((row.flagged(remarks) for row in judged), specimen)
+
+
+def reduce_record(
+    curve: pd.DataFrame,
+    specimen: Specimen,
+    record: IngestRecord,
+    settings: ReductionSettings,
+    plausible: Plausible | None = None,
+) -> pd.DataFrame:
+    """Reduce one curve with all that its ingest record says of it.
+
+    Parameters
+    ----------
+    curve, specimen, settings, plausible
+        As for `reduce_specimen`.
+    record : IngestRecord
+        Strain source, flags and whether the specimen was seen to fail.
+    """
+    return reduce_specimen(
+        curve,
+        specimen,
+        settings,
+        record.strain_source,
+        record.flags,
+        failure_seen=record.failure_seen,
+        plausible=plausible,
+        origin=origin_of(record),
+    )
 
 
 def _reduce(
-    branch: pd.DataFrame, specimen: Specimen, settings: ReductionSettings
+    branch: Branch,
+    evidence: Evidence,
+    specimen: Specimen,
+    settings: ReductionSettings,
+    strain_source: str,
 ) -> list[Property]:
-    if specimen.test == "tension":
-        return reduce_tension(branch, settings.tension())
-    if specimen.test == "compression":
-        return reduce_compression(branch, settings.astm_d6641)
-    if specimen.test == "shear":
-        return reduce_shear(branch, settings.shear())
-    return reduce_rubber(branch, settings.rubber())
+    match specimen.test:
+        case TestType.TENSION:
+            return reduce_tension(branch, settings.tension(), evidence)
+        case TestType.COMPRESSION:
+            return reduce_compression(branch, settings.astm_d6641, evidence)
+        case TestType.SHEAR:
+            return reduce_shear(branch, settings.shear(), evidence)
+        case TestType.FLEXURE:
+            bar = specimen.bar
+            assert bar is not None, "the sheet refuses a bending test without its span"
+            return reduce_flexure(branch, settings.flexure(), bar, strain_source, evidence)
+        case TestType.RUBBER_TENSION | TestType.RUBBER_EQUIBIAXIAL | TestType.RUBBER_PURE_SHEAR:
+            return reduce_rubber(branch, settings.rubber(), evidence)
+        case TestType.RUBBER_COMPRESSION:
+            rules = settings.rubber_compression()
+            return reduce_rubber_compression(branch.rows, rules, specimen.platens)
+        case _:
+            assert_never(specimen.test)

@@ -8,6 +8,8 @@ import pandas as pd
 
 from nptcs.config.reduction import ReductionSettings
 from nptcs.errors import InputError
+from nptcs.mechanical_tests import TestType
+from nptcs.reduce.counted import GROUP, counted, left_out, why_not
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.reduce.pooling import pooled_rows
 from nptcs.reduce.rows import TEST_CONDITIONS
@@ -15,7 +17,8 @@ from nptcs.reduce.sample import describe
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.statistics import StatisticsTable
 
-GROUP = ["test", "material", "orientation_deg", "property"]
+NOT_CORRECTED = "preload and toe not corrected"
+"""Flag of the ingest where too few readings or a poor fit left the origin as it was."""
 
 
 def group_statistics(
@@ -29,7 +32,8 @@ def group_statistics(
         `nptcs.tables.properties.PropertiesTable`.
     specimens : sequence of Specimen
         The sheet: a specimen with include = no stays in `properties` but is left out here,
-        with its reason in the column ``left_out``.
+        with its reason in the column ``left_out``; so does a property that the sheet takes from
+        another run. Runs of one piece count once.
     settings : ReductionSettings
         Standards (for the number of specimens asked for) and statistics.
 
@@ -46,12 +50,14 @@ def group_statistics(
     sheet = _sheet(properties, specimens)
     rows = []
     for key, group in properties.groupby(GROUP, dropna=False, sort=False):
-        included = group[[sheet[s].include for s in group["specimen"]]]
-        rules = settings.rules(str(key[0]))
+        included = counted(group, sheet)
+        rules = settings.rules(TestType(str(key[0])))
         row = {
             **dict(zip(GROUP, key, strict=True)),
             **_words(group, included),
-            "left_out": _left_out(group["specimen"], sheet),
+            "left_out": left_out(group, sheet),
+            "group_size": len(included),
+            "not_assessed": _not_assessed(included),
             "scope": "group",
             "reported_statistic": rules.reported_statistic,
         }
@@ -90,21 +96,28 @@ def _joined(texts: Iterable[str]) -> str:
     return " | ".join(dict.fromkeys(text for text in texts if text))
 
 
-def _left_out(names: Iterable[str], sheet: dict[str, Specimen]) -> str:
-    return "; ".join(f"{n}: {sheet[n].reason}" for n in names if not sheet[n].include)
+def _not_assessed(included: pd.DataFrame) -> str:
+    """Name the specimens of a group without a value, and why."""
+    lacking = included[included["value"].isna()]
+    names = zip(lacking["specimen"], lacking["flags"], strict=True)
+    return "; ".join(f"{name}: {why_not(flags)}" for name, flags in names)
 
 
 def _number_notes(
     measured: pd.DataFrame, included: pd.DataFrame, asked: int, title: str
 ) -> list[str]:
     notes = []
-    lacking = included.loc[included["value"].isna(), "specimen"]
-    if len(lacking):
+    if len(measured) < len(included):
+        lacking = included.loc[included["value"].isna(), "specimen"]
+        notes.append(f"assessed: {len(measured)} of {len(included)}")
         notes.append("not assessed: " + ", ".join(lacking))
     if len(measured) < asked:
         notes.append(f"n = {len(measured)}, {title} asks for {asked}")
     if len(set(measured["range"])) > 1:
         notes.append("ranges differ between specimens")
+    raw = measured.loc[measured["flags"].str.contains(NOT_CORRECTED, regex=False), "specimen"]
+    if 0 < len(raw) < len(measured):
+        notes.append(f"preload and toe corrected in the others, not in {', '.join(raw)}")
     crosshead = with_crosshead_strain(measured)
     if crosshead:
         notes.append(f"{CROSSHEAD}: {', '.join(crosshead)}")

@@ -65,7 +65,7 @@ class Plots:
 
     @property
     def css(self) -> str:
-        """Two panels a row where three would leave one alone."""
+        """Two panels per row where three would leave one alone."""
         return "panels two" if len(self.plots) in (2, 4) else "panels"
 
 

@@ -1,4 +1,4 @@
-"""The workbook: a sheet a table, native numbers at full precision, units in the headers."""
+"""The workbook: one sheet per table, native numbers at full precision, units in the headers."""
 
 from __future__ import annotations
 
@@ -43,7 +43,7 @@ FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 
 
 def build_workbook(results: Results) -> bytes:
-    """Lay all results out as one XLSX file.
+    """Write all results as one XLSX file.
 
     Numbers are stored to 16 significant digits and shown in the general format, coefficients
     in scientific notation. The same results give the same bytes.
@@ -124,7 +124,7 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
 
 
 def _write_table(worksheet: Worksheet, sheet: Sheet) -> None:
-    """Write one table: header in the first row, a row a record."""
+    """Write one table: header in the first row, then one row per record."""
     names = [str(name) for name in sheet.table.columns]
     coefficients = "coefficient_natural" in names
     _write_rows(worksheet, 1, [str(heading(name, sheet.entry.headings)) for name in names])

@@ -69,7 +69,7 @@ class AbaqusOptions(SolverOptions, AbaqusModel):
             try:
                 re.compile(pattern)
             except re.error as error:
-                raise ValueError(f"{pattern!r} is no regular expression: {error}") from None
+                raise ValueError(f"{pattern!r} is not a regular expression: {error}") from None
         return patterns
 
     def cores_per_case(self) -> int:

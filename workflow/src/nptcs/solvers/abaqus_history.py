@@ -10,7 +10,7 @@ ALL_ZERO = "ALL VALUES IN THIS TABLE ARE ZERO"
 
 
 def load_curve(dat_text: str) -> tuple[list[float], list[float]]:
-    """Read settlement of the rim (mm) and load on the road (N), a point a converged increment.
+    """Read settlement of the rim (mm) and load on the road (N), one point per converged increment.
 
     The deck prints U2 of the rim and RF2 of the road at each increment; the first point is the
     unloaded tyre.

@@ -24,7 +24,7 @@ class SolverOptions(Strict):
     """Base of a solver's own section ``solvers: NAME:`` in the configuration."""
 
     without_effect: ClassVar[frozenset[str]] = frozenset({"timeout_s"})
-    """Options that cannot change a result; they are no part of the key of a solved case."""
+    """Options that cannot change a result; they are not part of the key of a solved case."""
 
     timeout_s: float = Field(
         600.0, gt=0, description="Wall time after which a case is stopped and recorded as timeout"
@@ -119,7 +119,7 @@ NEUTRAL_LINE_DIGITS = 6
 def neutral_line_columns(
     theta_deg: ArrayLike, radial_mm: ArrayLike, tangential_mm: ArrayLike
 ) -> dict[str, list[float]]:
-    """Lay out the displacement of the band's neutral line for `SolverResult.neutral_line`.
+    """Write the displacement of the band's neutral line for `SolverResult.neutral_line`.
 
     Parameters
     ----------

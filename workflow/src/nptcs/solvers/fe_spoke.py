@@ -44,7 +44,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
 
 SOLVER = Solver(
     name="fe_spoke",
-    version="1",
+    version="2",
     solve=solve,
     factors=SPOKE_FACTORS,
     about="one spoke pulled by 4 mm and pressed by 20 mm (section 4.3.1)",

@@ -10,7 +10,7 @@ from pydantic import Field
 
 from nptcs.config.fe import FeModel
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
-from nptcs.fe.spoke.cache import shared_table
+from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeError
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreError, TyreModel, TyreState
 from nptcs.solvers.contract import (
@@ -97,7 +97,7 @@ def _summary(tyre: TyreModel, state: TyreState) -> dict[str, float]:
 
 SOLVER = Solver(
     name="fe_tyre",
-    version="2",
+    version="3",
     solve=solve,
     factors=TYRE_FACTORS,
     about="the tyre on 60 spoke super-elements, pressed on a rigid plane",

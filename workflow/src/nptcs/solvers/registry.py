@@ -21,8 +21,10 @@ MODULES = {
     "calculix": "nptcs.solvers.calculix",
     "fe_spoke": "nptcs.solvers.fe_spoke",
     "fe_tyre": "nptcs.solvers.fe_tyre",
+    "fe_tyre_paper": "nptcs.solvers.fe_tyre_paper",
     "lca": "nptcs.solvers.lca",
     "published": "nptcs.solvers.published",
+    "ring": "nptcs.solvers.ring",
 }
 """Solvers of this package: a name and the module that defines ``SOLVER``."""
 
@@ -96,6 +98,19 @@ def model_choices(options: SolverOptions) -> dict[str, str]:
     }
 
 
+def needs_ply(study: Study, options: Mapping[str, Mapping[str, Any]]) -> bool:
+    """Whether one of a study's solvers takes the constants of a ply.
+
+    Parameters
+    ----------
+    study : Study
+        With the names of its solvers.
+    options : mapping
+        Options of each of these solvers.
+    """
+    return any(load(module_of(name, options[name])).needs_ply for name in study.solvers)
+
+
 def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
     """Refuse a study that one of its solvers cannot answer.
 
@@ -162,6 +177,6 @@ def _check_calibration_cases(study: Study, tyres: Set[str]) -> None:
             "calibration cases have no effect where no stiffness is compared with the paper's",
             column=f"studies.{study.name}.calibration_cases",
             value=", ".join(stray),
-            remedy="run the solver 'published' in this study beside these solvers of tyres, or "
+            remedy="run the solver 'published' in this study as well as these solvers of tyres, or "
             "leave the key out",
         )

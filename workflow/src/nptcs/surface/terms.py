@@ -1,4 +1,20 @@
-"""Terms of a response surface: how they are written, evaluated and differentiated."""
+"""Terms of a response surface: how they are written, evaluated and differentiated.
+
+Examples
+--------
+>>> parse(["1", "a", "b", "a^2", "a*b"], ["a", "b"]).exponents
+((0, 0), (1, 0), (0, 1), (2, 0), (1, 1))
+>>> parse(["1", "a^2"], ["a"])
+Traceback (most recent call last):
+nptcs.errors.InputError: column 'terms': terms of lower order are missing, ...
+
+With centre 3 and half range 2, 5 + 4 c is 5 + 4 (x - 3)/2 = -1 + 2 x:
+
+>>> line = parse(["1", "x"], ["x"])
+>>> matrix = coded_to_natural(line, np.array([3.0]), np.array([2.0]))
+>>> (matrix @ [5.0, 4.0]).astype(float).round(6).tolist()
+[-1.0, 2.0]
+"""
 
 from __future__ import annotations
 
@@ -28,6 +44,17 @@ class Polynomial:
         Names of the n factors.
     exponents : tuple of tuple of int
         One tuple of n powers for each of the p terms.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> polynomial = Polynomial(("a", "b"), ((0, 0), (1, 0), (2, 1)))
+    >>> polynomial.names
+    ('1', 'a', 'a^2*b')
+    >>> polynomial.matrix(np.array([[2.0, 3.0]])).tolist()
+    [[1.0, 2.0, 12.0]]
+    >>> polynomial.derivative_matrix(np.array([[2.0, 3.0]]), "a").tolist()
+    [[0.0, 1.0, 12.0]]
     """
 
     factors: tuple[str, ...]

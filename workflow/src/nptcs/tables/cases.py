@@ -16,7 +16,7 @@ def realised_column(factor: str) -> str:
 
 
 class Design(pa.DataFrameModel):
-    """A design table: a row a case, then a column for each factor and each fixed value."""
+    """A design table: one row per case, then a column for each factor and each fixed value."""
 
     case_id: Series[str] = pa.Field(unique=True)
     case: Series[int] = pa.Field(ge=1, unique=True)
@@ -29,7 +29,7 @@ class Design(pa.DataFrameModel):
 
 
 class Cases(pa.DataFrameModel):
-    """``cases.csv``: how each case ended; factors and further responses stand to the right."""
+    """``cases.csv``: how each case ended; factors and further responses are to the right."""
 
     study: Series[str]
     case_id: Series[str]

@@ -101,7 +101,7 @@ TABLES: dict[str, ResultTable] = {
         Cases,
         "Every case of every study: how it ended and its responses",
         "solve, cases",
-        "one record a case; wall time is that of the run that solved the case",
+        "one record per case; wall time is that of the run that solved the case",
         section=ReportSection.CASES,
         mark=RowMark.STATUS,
         synthetic=SyntheticBy.STUDIES,
@@ -243,7 +243,7 @@ TABLES: dict[str, ResultTable] = {
     ),
     "stiffness_against_published.csv": ResultTable(
         StiffnessAgainstPublished,
-        "Computed vertical stiffness beside the published one, case by case",
+        "Computed and published vertical stiffness, case by case",
         "compare_published",
         "cases.csv; published values are those that the solver `published` looked up",
         section=ReportSection.PUBLISHED_STIFFNESS,

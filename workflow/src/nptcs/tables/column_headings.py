@@ -9,17 +9,17 @@ IMPACT = {
     "range": Heading("range", "unit of the factor"),
     "nominal_range": Heading("range of the levels", "unit of the factor"),
     "impact": Heading("impact", "N/mm"),
-    "published_gradient": Heading("printed gradient", "N/mm per unit of the factor"),
-    "published_impact": Heading("printed impact", "N/mm"),
+    "published_gradient": Heading("published gradient", "N/mm per unit of the factor"),
+    "published_impact": Heading("published impact", "N/mm"),
     "difference_percent": Heading("difference", "%"),
-    "published_rank": Heading("printed rank"),
+    "published_rank": Heading("published rank"),
 }
 SURFACE = {
     "coefficient_natural": Heading("coefficient, natural", "N/mm per unit of the term"),
     "coefficient_coded": Heading("coefficient, coded", "N/mm"),
     "standard_error": Heading("standard error, natural", "N/mm per unit of the term"),
     "standard_error_coded": Heading("standard error, coded", "N/mm"),
-    "published_coefficient": Heading("printed coefficient (FE)", "N/mm per unit of the term"),
+    "published_coefficient": Heading("published coefficient (FE)", "N/mm per unit of the term"),
 }
 SPOKE = {
     f"{prefix}{direction}_r2{suffix}": Heading(f"{prefix.replace('_', ' ')}{direction} R²{kind}")

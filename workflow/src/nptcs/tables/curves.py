@@ -26,7 +26,7 @@ CURVE_COLUMNS = (
 
 
 class Curve(pa.DataFrameModel):
-    """One specimen's test, one row a reading, in the order of the test.
+    """One specimen's test, one row per reading, in the order of the test.
 
     Tension is positive: a compression curve has negative force, stress and axial strain.
     Strain is dimensionless, nominal (ΔL/L0); for a rubber the stretch is λ = 1 + strain_axial.
@@ -88,6 +88,7 @@ class Geometry(Strict):
     mean_width_mm: float | None
     mean_thickness_mm: float | None
     area_mm2: float
+    area_rule: str = Field("", description="How the area came about")
     width_stations: int
     thickness_stations: int
 
@@ -111,6 +112,10 @@ class IngestRecord(Strict):
     geometry: Geometry | None = None
     strain_source: str = Field(
         "", description="extensometer, dic, strain_gauge, crosshead or unspecified"
+    )
+    data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
+    failure_seen: bool = Field(
+        False, description="A break was recorded: force lost, and no unloading"
     )
     steps: tuple[Step, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")

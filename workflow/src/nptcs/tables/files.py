@@ -5,14 +5,24 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-STATUSES = ("used", "left out", "not understood", "not named", "note", "missing", "sheet")
+STATUSES = (
+    "used",
+    "left out",
+    "repeated",
+    "not understood",
+    "not named",
+    "note",
+    "missing",
+    "sheet",
+)
 
 
 class Files(pa.DataFrameModel):
     """One row a file: in the folder, or named by the sheet and not there.
 
     ``used``: read for an included specimen; ``left out``: read, its specimen is left out with
-    the reason given; ``not understood``: named, but its specimen failed with the reason given;
+    the reason given; ``repeated``: its data are those of another specimen and are not counted
+    again; ``not understood``: named, but its specimen failed with the reason given;
     ``not named``: no row of the sheet names it; ``note``: nor that, but it is a README;
     ``missing``: named, but not in the folder; ``sheet``: the specimen sheet itself.
     """

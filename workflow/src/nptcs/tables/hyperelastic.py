@@ -8,7 +8,7 @@ from pandera.typing.pandas import Series
 
 
 class ModelComparison(pa.DataFrameModel):
-    """Models fitted to the same points: a row a rubber, model and constant.
+    """Models fitted to the same points: one row per rubber, model and constant.
 
     The columns from ``points`` on repeat for the constants of a model. A model whose constants
     the data cannot determine has empty values and the reason in ``remarks``.

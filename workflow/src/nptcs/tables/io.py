@@ -21,6 +21,16 @@ def write_table(path: str | Path, table: pd.DataFrame, contract: type[pa.DataFra
     ------
     InputError
         Naming the column and the value that break the contract.
+
+    Examples
+    --------
+    >>> from tempfile import TemporaryDirectory
+    >>> from nptcs.tables.problems import Problems, problems_table
+    >>> problems = problems_table([("ingest", "T0-1", "", "error", "no unit")])
+    >>> with TemporaryDirectory() as folder:
+    ...     write_table(f"{folder}/problems.csv", problems, Problems)
+    ...     read_table(f"{folder}/problems.csv", Problems)["message"].tolist()
+    ['no unit']
     """
     checked = check(table, contract, str(path))
     with atomic_path(path) as temporary:
@@ -74,6 +84,12 @@ def check(table: pd.DataFrame, contract: type[pa.DataFrameModel], file: str) -> 
     ------
     InputError
         With file, line (of the CSV, the header being line 1), column and value.
+
+    Examples
+    --------
+    >>> from nptcs.tables.problems import Problems
+    >>> list(empty_table(Problems).columns)
+    ['stage', 'name', 'solver', 'status', 'message']
     """
     try:
         return cast(pd.DataFrame, contract.validate(table, lazy=False))

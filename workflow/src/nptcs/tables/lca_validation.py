@@ -7,7 +7,7 @@ from pandera.typing.pandas import Series
 
 
 class LcaValidation(pa.DataFrameModel):
-    """Load-bearing model against the published one, a row for each section, C10 and load.
+    """Load-bearing model against the published one, one row for each section, C10 and load.
 
     Published values exist for table 11's load only; elsewhere they are empty, and so are the
     differences: of figure 15 the text gives no numbers but the largest error at each load.

@@ -29,5 +29,5 @@ Problem = tuple[str, str, str, str, str]
 
 
 def problems_table(problems: Sequence[Problem]) -> pd.DataFrame:
-    """Lay problems out as `Problems`."""
+    """Write problems as `Problems`."""
     return pd.DataFrame(list(problems), columns=list(Problems.to_schema().columns), dtype=str)

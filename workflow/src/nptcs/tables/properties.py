@@ -28,11 +28,17 @@ class PropertiesTable(pa.DataFrameModel):
         nullable=True, le=1.0, description="Of the least-squares line over the range"
     )
     standard_error: Series[float] = pa.Field(
-        nullable=True, ge=0.0, description="From the scatter of the points about that line"
+        nullable=True,
+        ge=0.0,
+        description="From the scatter of the points about that line and the error of the "
+        "strain origin",
     )
     origin: Series[str] = pa.Field(isin=["measured", "synthetic"])
     range_low: Series[float] = pa.Field(nullable=True, description="Abscissa really used, from")
     range_high: Series[float] = pa.Field(nullable=True, description="Abscissa really used, to")
+    origin_effect_percent: Series[float] = pa.Field(
+        nullable=True, description="What the correction of the strain origin did to the value"
+    )
 
     class Config:
         """Refuse unknown columns, coerce types, keep the order."""

@@ -1,4 +1,4 @@
-"""Contracts of the published tables, which come as CSV files with their source beside them."""
+"""Contracts of the published tables, which come as CSV files with their source next to them."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ class PublishedSpokeStiffness(pa.DataFrameModel):
     compression_stiffness_n_per_mm: Series[float] = pa.Field(gt=0)
 
     class Config:
-        """R² and smeared stiffnesses stand in further columns."""
+        """R² and smeared stiffnesses are in further columns."""
 
         strict = False
         coerce = True

@@ -1,4 +1,4 @@
-"""Contracts of the computed stiffness beside the published one: tables 5 and 7 of the paper."""
+"""Contracts that compare computed with published stiffness: tables 5 and 7 of the paper."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from pandera.typing.pandas import Series
 from nptcs.tables.status import Status
 
 PUBLISHED = "published"
-"""The solver whose results the others stand beside."""
+"""The solver with whose results the others are compared."""
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
 COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (
@@ -19,9 +19,9 @@ COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (
 
 
 class StiffnessAgainstPublished(pa.DataFrameModel):
-    """Computed vertical stiffness beside the published one, a row a case and solver.
+    """Computed and published vertical stiffness, one row per case and solver.
 
-    Factors and fixed values stand to the right, as in ``cases.csv``. A case that failed is a row
+    Factors and fixed values are to the right, as in ``cases.csv``. A case that failed is a row
     with its status and without a computed value.
     """
 
@@ -50,7 +50,7 @@ class StiffnessAgainstPublished(pa.DataFrameModel):
 class StiffnessErrors(pa.DataFrameModel):
     """Differences of ``stiffness_against_published.csv`` summed up for each study and solver.
 
-    Blind cases stand apart from those on which the solver was calibrated.
+    Blind cases are apart from those on which the solver was calibrated.
     """
 
     study: Series[str]

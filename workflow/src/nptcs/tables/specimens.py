@@ -9,147 +9,19 @@ from __future__ import annotations
 import csv
 import io
 import re
-from enum import StrEnum
 from pathlib import Path, PurePosixPath
-from typing import Any, Literal, Self
+from typing import Any
 
-from pydantic import Field, ValidationError, ValidationInfo, field_validator, model_validator
+from pydantic import ValidationError
 
-from nptcs.config.base import Strict
 from nptcs.errors import InputError
+from nptcs.mechanical_tests import TestType
+from nptcs.tables.specimen import LISTS, Specimen
 
-NAME = r"^[A-Za-z0-9._-]+$"
-STATION_SEPARATORS = re.compile(r"[;|/\s]+")
-
-
-class TestType(StrEnum):
-    """What was done to a specimen."""
-
-    __test__ = False  # not a test class
-
-    TENSION = "tension"
-    COMPRESSION = "compression"
-    SHEAR = "shear"
-    RUBBER_TENSION = "rubber_tension"
-    RUBBER_EQUIBIAXIAL = "rubber_equibiaxial"
-    RUBBER_PURE_SHEAR = "rubber_pure_shear"
-
-    @property
-    def is_rubber(self) -> bool:
-        """True for the tests of a rubber (large strain, stretch as the variable)."""
-        return self.value.startswith("rubber_")
+__all__ = ["COLUMNS", "REQUIRED_COLUMNS", "Specimen", "files_named", "read_sheet"]
 
 
-class Specimen(Strict):
-    """One row of the specimen sheet.
-
-    Lengths in mm. `width_mm` and `thickness_mm` hold the stations measured; their means enter
-    the area (ASTM D3039 §11.2.3). A section that is not a rectangle (round bar, or a published
-    curve of stress alone: 1 mm²) states `section_area_mm2` instead.
-    """
-
-    specimen: str = Field(pattern=NAME, description="Id, unique in the sheet")
-    test: TestType = Field(description="Test type: " + ", ".join(TestType))
-    material: str = Field(pattern=NAME, description="E.g. cfrp, rubber_75A")
-    orientation_deg: float | None = Field(
-        None, ge=-90, le=90, description="Fibre angle to the load: 0, 90, 45; empty for rubber"
-    )
-    width_mm: tuple[float, ...] = Field((), description="Stations, separated by ';'")
-    thickness_mm: tuple[float, ...] = Field((), description="Stations, separated by ';'")
-    section_area_mm2: float | None = Field(
-        None, gt=0, description="Area of a section that is not width × thickness; usually empty"
-    )
-    gauge_length_mm: float | None = Field(
-        None, gt=0, description="Gauge length (grip distance for crosshead strain)"
-    )
-    force_file: str = Field(min_length=1, description="Path relative to the sheet's folder")
-    force_part: str = Field(
-        "", description="Workbook sheet, table number or test name, if the file holds several"
-    )
-    force_format: str = Field("", description="Profile name; empty: detect")
-    strain_file: str = Field("", description="Empty: the strain is in the force file")
-    strain_part: str = Field("", description="As force_part")
-    strain_format: str = Field("", description="Profile name; empty: detect")
-    strain_axis: str = Field(
-        "", description="Channel that is axial (e.g. exx); empty: found from the data"
-    )
-    time_offset_s: float | None = Field(
-        None,
-        description="Added to the strain file's time; empty: from the force that both files "
-        "hold, else 0 and checked",
-    )
-    include: bool = Field(True, description="yes or no: enters statistics and material card")
-    reason: str = Field("", description="Why the specimen is left out; required with no")
-    origin: Literal["measured", "synthetic"] = Field("measured", description="measured, synthetic")
-    remarks: str = Field("", description="Anything else")
-
-    @field_validator("width_mm", "thickness_mm")
-    @classmethod
-    def _stations_positive(
-        cls, stations: tuple[float, ...], info: ValidationInfo
-    ) -> tuple[float, ...]:
-        if any(station <= 0 for station in stations):
-            raise ValueError(f"{info.field_name} must be greater than 0")
-        return stations
-
-    @field_validator("force_file", "strain_file")
-    @classmethod
-    def _inside_the_folder(cls, path: str) -> str:
-        parts = PurePosixPath(path.replace("\\", "/"))
-        if parts.is_absolute() or ".." in parts.parts or re.match(r"^[A-Za-z]:", path):
-            raise ValueError("must lie in the sheet's folder (a relative path without '..')")
-        return str(parts) if path else ""
-
-    @model_validator(mode="after")
-    def _complete(self) -> Self:
-        if self.section_area_mm2 is None:
-            for name in ("width_mm", "thickness_mm"):
-                if not getattr(self, name):
-                    raise ValueError(f"{name} is empty: the stress cannot be computed")
-        if self.test.is_rubber and self.orientation_deg is not None:
-            raise ValueError("orientation_deg must be empty for a rubber")
-        if not self.test.is_rubber and self.orientation_deg is None:
-            raise ValueError("orientation_deg is empty: give the fibre angle (0, 90, 45)")
-        if not self.include and not self.reason.strip():
-            raise ValueError("reason is empty: a specimen that is left out needs one")
-        return self
-
-    @property
-    def mean_width_mm(self) -> float | None:
-        """Mean of the width stations, None if none was measured."""
-        return _mean(self.width_mm) if self.width_mm else None
-
-    @property
-    def mean_thickness_mm(self) -> float | None:
-        """Mean of the thickness stations, None if none was measured."""
-        return _mean(self.thickness_mm) if self.thickness_mm else None
-
-    @property
-    def area_mm2(self) -> float:
-        """Original cross-section: stated, or mean width × mean thickness (ASTM D3039 §11.2.3)."""
-        if self.section_area_mm2 is not None:
-            return self.section_area_mm2
-        return _mean(self.width_mm) * _mean(self.thickness_mm)
-
-    @property
-    def series(self) -> str:
-        """Group of equal tests, e.g. ``cfrp_tension_0``; safe in file names."""
-        parts = [self.material, self.test.value]
-        if self.orientation_deg is not None:
-            parts.append(f"{self.orientation_deg:g}")
-        return "_".join(parts)
-
-    @property
-    def files(self) -> tuple[str, ...]:
-        """The raw files of this specimen, without repetition."""
-        names = [self.force_file, self.strain_file]
-        return tuple(dict.fromkeys(name for name in names if name))
-
-
-def _mean(stations: tuple[float, ...]) -> float:
-    return sum(stations) / len(stations)
-
-
+SEPARATORS = re.compile(r"[;|/\s]+")
 COLUMNS = tuple(Specimen.model_fields)
 REQUIRED_COLUMNS = ("specimen", "test", "material", "force_file")
 
@@ -183,6 +55,7 @@ def read_sheet(path: str | Path) -> tuple[list[Specimen], list[InputError]]:
         try:
             specimen = _specimen(path, line, header, cells)
             _require_unique(path, line, specimen, first_line)
+            _require_one_material(path, line, specimen, specimens)
         except InputError as error:
             errors.append(error)
         else:
@@ -259,15 +132,23 @@ def _specimen(path: Path, line: int, header: list[str], cells: list[str]) -> Spe
 
 def _value(column: str, text: str) -> Any:
     """Turn a cell into what the model expects; words and numbers are checked there."""
-    if column in ("width_mm", "thickness_mm"):
-        return tuple(part for part in STATION_SEPARATORS.split(text) if part)
-    if column == "include":
+    if column in LISTS:
+        return tuple(part for part in SEPARATORS.split(text) if part)
+    if column in ("include", "failed"):
         return {"yes": True, "no": False}.get(text.lower(), text)
-    return text.lower() if column in ("test", "origin") else text
+    return text.lower() if column in ("test", "origin", "loading", "platens") else text
 
 
 REMEDIES = {
     "include": "write yes or no",
+    "failed": "write yes or no, or leave it empty: the record decides",
+    "loading": "write first, last, envelope or the number of the loading",
+    "platens": "write lubricated, dry or bonded, or leave it empty",
+    "properties": "name properties of this test, separated by ';', or leave it empty for all",
+    "date": "write year-month-day, e.g. 2026-03-31",
+    "piece": "use letters, digits, '.', '_' and '-' only",
+    "force_factor": "write the factor of the readings, or leave it empty for 1",
+    "strain_factor": "write the factor of the readings, or leave it empty for 1",
     "test": "use one of " + ", ".join(TestType),
     "specimen": "use letters, digits, '.', '_' and '-' only",
     "material": "use letters, digits, '.', '_' and '-' only",
@@ -310,3 +191,19 @@ def _require_unique(path: Path, line: int, specimen: Specimen, seen: dict[str, i
             name,
         )
     seen[name.lower()] = line
+
+
+def _require_one_material(path: Path, line: int, row: Specimen, before: list[Specimen]) -> None:
+    """Refuse runs of one piece that name different materials or fibre angles."""
+    for other in before:
+        same = (other.material, other.orientation_deg) == (row.material, row.orientation_deg)
+        if row.piece and other.piece == row.piece and not same:
+            raise InputError(
+                f"piece {row.piece} is of another material or fibre angle in {other.specimen}",
+                "give the runs of one piece the same material and orientation_deg",
+                path,
+                line,
+                "piece",
+                row.specimen,
+                row.piece,
+            )

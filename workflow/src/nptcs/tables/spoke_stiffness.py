@@ -12,9 +12,9 @@ DIRECTIONS = {"tension": 1.0, "compression": -1.0}
 
 
 class SpokeLines(pa.DataFrameModel):
-    """Single spokes: slopes of the lines through the origin beside table 10.
+    """Single spokes: slopes of the lines through the origin, and table 10.
 
-    Each line is fitted to all points of its curve, k = Σfd/Σd². R² stands in both conventions:
+    Each line is fitted to all points of its curve, k = Σfd/Σd². R² is given in both conventions:
     uncentred, 1 - SSE/Σf², which software prints for a line without intercept, and centred,
     1 - SSE/Σ(f - mean)². The paper does not say which one it prints.
     """

@@ -36,6 +36,8 @@ class StatisticsTable(pa.DataFrameModel):
     reported_statistic: Series[str] = pa.Field(isin=["mean", "median"])
     k_b: Series[float] = pa.Field(nullable=True, description="Normal B-basis factor")
     notes: Series[str]
+    group_size: Series[int] = pa.Field(ge=0, description="Specimens that count, assessed or not")
+    not_assessed: Series[str] = pa.Field(description="Specimens of n missing, and why")
 
     class Config:
         """Refuse unknown columns, coerce types, keep the order."""

@@ -46,7 +46,7 @@ def plates_lines(
         THIN_RULE,
         *comment(
             f"PLATES: the {2 * count} CFRP reinforcement plates of one spoke (section 3.2, table "
-            f"4), {count} a leg, {tyre.plate_width_mm:g} mm wide, every S = {spacing_mm:g} mm, "
+            f"4), {count} per leg, {tyre.plate_width_mm:g} mm wide, every S = {spacing_mm:g} mm, "
             f"{np.prod(model.mesh.plate)} S4R shells each. A plate is a laminate [+A/-A] of two "
             f"plies, A = {angle_deg:g} degrees from the plate's length, T/2 = "
             f"{thickness_mm / 2.0:g} mm each. The section holds its true thickness; it takes no "

@@ -27,7 +27,7 @@ from nptcs.fe.tyre.mesh import band_radii
 MATERIALS = {"spoke rubber": 1, "plate": 2, "band rubber": 3, "tread rubber": 4}
 BRICK_NODES = 27
 # orders of the ring's elements, by their number of nodes
-RING_ORDERS = {9: (2, 2), 6: (1, 2)}
+RING_ORDERS = {9: (2, 2), 6: (1, 2), 4: (1, 1)}
 
 
 @dataclass(frozen=True)

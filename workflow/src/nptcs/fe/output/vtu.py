@@ -1,6 +1,6 @@
 """Bricks as VTK files for ParaView: ``.vtu``, and ``.pvd`` for a row of states.
 
-VTK itself writes them (the extra ``nptcs[paraview]``, see ``docs/methods/fe.md``).
+VTK itself writes them (the extra ``nptcs[paraview]``, see ``docs/how-to/use-finite-elements.md``).
 """
 
 from __future__ import annotations

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import assert_never
 
 import numpy as np
 
@@ -98,10 +99,14 @@ class SpokeModel:
             design.angle_deg,
             design.thickness_mm,
         )
-        self.embedding = []
-        if design.plate_coupling == "embedded":
-            columns, e2_mpa = design.mesh.plate_columns, design.ply["e2_mpa"]
-            self.embedding = [straight_block(self.mesh.plate, columns, e2_mpa)]
+        match design.plate_coupling:
+            case "embedded":
+                columns, e2_mpa = design.mesh.plate_columns, design.ply["e2_mpa"]
+                self.embedding = [straight_block(self.mesh.plate, columns, e2_mpa)]
+            case "conforming":
+                self.embedding = []
+            case _:
+                assert_never(design.plate_coupling)
         self._dofs = [element_dofs(block.nodes, 3) for block in self.blocks]
         row = 3 * self.mesh.nodes_per_row
         self._count = 3 * len(self.mesh.positions)

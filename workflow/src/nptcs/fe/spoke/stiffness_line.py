@@ -29,7 +29,14 @@ class StiffnessLine:
 
 
 def stiffness_line(displacement_mm: Array, force_n: Array) -> StiffnessLine:
-    """Regress force on displacement through the origin: k = Σ f d / Σ d²."""
+    """Regress force on displacement through the origin: k = Σ f d / Σ d².
+
+    Examples
+    --------
+    >>> line = stiffness_line(np.array([1.0, 2.0, 4.0]), np.array([31.0, 60.0, 118.0]))
+    >>> round(line.slope, 3), round(line.r2_uncentred, 5), round(line.r2_centred, 5)
+    (29.667, 0.99986, 0.99932)
+    """
     slope = float(displacement_mm @ force_n / (displacement_mm @ displacement_mm))
     misfit = float(np.sum((force_n - slope * displacement_mm) ** 2))
     total = float(force_n @ force_n)

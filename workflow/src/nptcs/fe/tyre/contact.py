@@ -10,7 +10,8 @@ from nptcs.arrays import Array, Index
 from nptcs.config.fe import GroundContact
 from nptcs.fe.elements.lagrange import line_shape
 
-EDGE_POINTS = 4
+# MPa/mm and mm of the soft ground: it gives way by some hundredths of a millimetre
+SOFT = 50.0, 0.1
 # tanh is 1 to rounding beyond this
 RATIO_CAP = 20.0
 LEAST_SHEAR_MPA = 1e-9
@@ -22,10 +23,10 @@ class ContactResponse:
 
     Parameters
     ----------
-    force : array (edges, 6)
+    force : array (edges, unknowns of an edge)
         Residual (internal minus external) at the edge's nodes, N.
-    tangent : array (edges, 6, 6)
-    force_slope : array (edges, 6)
+    tangent : array (edges, unknowns of an edge, unknowns of an edge)
+    force_slope : array (edges, unknowns of an edge)
         Derivative of `force` with respect to the ground's rise, N/mm.
     reaction_n : float
         Vertical force on the ground.
@@ -50,17 +51,24 @@ class Ground:
     Parameters
     ----------
     positions : array (nodes, 2)
-    edges : array (edges, 3)
+    edges : array (edges, nodes of an edge)
+    rule : pair of arrays (points,)
+        Where the ground is felt on an edge, from -1 to 1, and the points' weights.
     width_mm : float
         Axial width of the tread.
     options : GroundContact
     """
 
     def __init__(
-        self, positions: Array, edges: Index, width_mm: float, options: GroundContact
+        self,
+        positions: Array,
+        edges: Index,
+        rule: tuple[Array, Array],
+        width_mm: float,
+        options: GroundContact,
     ) -> None:
-        points, weights = np.polynomial.legendre.leggauss(EDGE_POINTS)
-        self._shape, slope = line_shape(2, points)
+        points, weights = rule
+        self._shape, slope = line_shape(edges.shape[1] - 1, points)
         tangent = np.einsum("gn,eni->egi", slope, positions[edges])
         self._area = np.linalg.norm(tangent, axis=2) * weights * width_mm
         self._edges = edges
@@ -68,9 +76,24 @@ class Ground:
         self._place = np.einsum("gn,eni->egi", self._shape, positions[edges])
         self._radius = float(np.linalg.norm(positions[edges], axis=2).max())
         self._anchor = np.zeros(self._area.shape)
+        self._law = options.penalty_mpa_per_mm, options.smoothing_mm
+
+    @property
+    def soft(self) -> bool:
+        """Whether the ground is softer than its options say."""
+        return self._law[1] > self._options.smoothing_mm
+
+    def soften(self) -> None:
+        """Take the pressure of a soft ground, with which Newton's method finds the contact."""
+        stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
+        self._law = min(stiff, SOFT[0]), max(smooth, SOFT[1])
+
+    def harden(self) -> None:
+        """Return to the pressure of the options."""
+        self._law = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
 
     def _pressure(self, depth: Array) -> tuple[Array, Array]:
-        stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
+        stiff, smooth = self._law
         inside = np.clip(depth, 0.0, None)
         pressure = np.where(
             inside < smooth, stiff * inside**2 / (2.0 * smooth), stiff * (inside - smooth / 2.0)
@@ -95,22 +118,22 @@ class Ground:
         """Compute forces and tangents for nodal displacements and the ground's rise δ."""
         _, pressure, slope, shear, shear_slope, cross = self._state(displacement, rise_mm)
         shape, area = self._shape, self._area
-        count = len(self._edges)
-        force = np.zeros((count, 3, 2))
+        count, nodes = self._edges.shape
+        force = np.zeros((count, nodes, 2))
         force[..., 1] = -np.einsum("gn,eg->en", shape, area * pressure)
         force[..., 0] = np.einsum("gn,eg->en", shape, area * shear)
-        tangent = np.zeros((count, 3, 2, 3, 2))
+        tangent = np.zeros((count, nodes, 2, nodes, 2))
         tangent[:, :, 1, :, 1] = np.einsum("gn,gm,eg->enm", shape, shape, area * slope)
         tangent[:, :, 0, :, 0] = np.einsum("gn,gm,eg->enm", shape, shape, area * shear_slope)
         # depth falls with u_y: sliding friction couples the shear to the pressure
         tangent[:, :, 0, :, 1] = -np.einsum("gn,gm,eg->enm", shape, shape, area * cross)
-        force_slope = np.zeros((count, 3, 2))
+        force_slope = np.zeros((count, nodes, 2))
         force_slope[..., 1] = -np.einsum("gn,eg->en", shape, area * slope)
         force_slope[..., 0] = np.einsum("gn,eg->en", shape, area * cross)
         return ContactResponse(
-            force.reshape(count, 6),
-            tangent.reshape(count, 6, 6),
-            force_slope.reshape(count, 6),
+            force.reshape(count, -1),
+            tangent.reshape(count, 2 * nodes, 2 * nodes),
+            force_slope.reshape(count, -1),
             float(np.sum(area * pressure)),
             float(np.sum(area * slope)),
         )
@@ -131,7 +154,7 @@ class Ground:
         """Energy stored in the normal penalty, N mm."""
         moved = np.einsum("gn,eni->egi", self._shape, displacement[self._edges])
         depth = rise_mm - self._radius - (self._place[..., 1] + moved[..., 1])
-        stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
+        stiff, smooth = self._law
         inside = np.clip(depth, 0.0, None)
         low = stiff * inside**3 / (6.0 * smooth)
         high = stiff * (0.5 * inside**2 - 0.5 * smooth * inside + smooth**2 / 6.0)

@@ -8,22 +8,26 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import GroundContact, TyreMesh
+from nptcs.config.fe import GroundContact, PaperMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
-from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.cyclic import BandedPattern, folded_order
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable, TableRangeError
 from nptcs.fe.tyre.contact import Ground
 from nptcs.fe.tyre.element_groups import ring_rubbers, wire_groups
-from nptcs.fe.tyre.mesh import RingMesh, build_ring
+from nptcs.fe.tyre.feet import foot_operators
+from nptcs.fe.tyre.mesh import build_ring
 
 MAX_ITERATIONS = 40
+QUICK_ITERATIONS = 14
 # from this iteration on, steps that do not shrink are shortened
 CALM_ITERATIONS = 6
+# a soft ground hardens when the steps are this small
+SETTLED_MM = 0.05
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
 FIRST_RISE_MM = 0.5
+SMALLEST_RISE_MM = 0.02
 
 
 class TyreError(RuntimeError):
@@ -83,7 +87,7 @@ class TyreModel:
     c10_mpa : float
         Rubber of band and tread.
     bulk_to_shear_ratio : float
-    mesh : TyreMesh
+    mesh : TyreMesh or PaperMesh
     contact : GroundContact
     """
 
@@ -94,7 +98,7 @@ class TyreModel:
         foot_width_mm: float,
         c10_mpa: float,
         bulk_to_shear_ratio: float,
-        mesh: TyreMesh,
+        mesh: TyreMesh | PaperMesh,
         contact: GroundContact,
     ) -> None:
         self.table = table
@@ -103,7 +107,9 @@ class TyreModel:
         self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
         self.wires = wire_groups(ring, tyre)
         self._bodies: list[ElementGroup] = [*self.rubbers, *self.wires]
-        self.ground = Ground(ring.positions, ring.tread_edges, tyre.tread_width_mm, contact)
+        self.ground = Ground(
+            ring.positions, ring.tread_edges, ring.contact_rule, tyre.tread_width_mm, contact
+        )
         self.foot_operator = foot_operators(ring)
         nodes = [*[block.nodes for block in self._bodies], ring.feet]
         self._dofs = [element_dofs(block, 2) for block in [*nodes, ring.tread_edges]]
@@ -163,9 +169,29 @@ class TyreModel:
     def _solve(
         self, displacement: Array, rise: float, load: float | None, path: LoadPath
     ) -> tuple[Array, float]:
-        """Newton's method at a given load, or at a given rise if `load` is None."""
-        before, part = np.inf, 1.0
-        for count in range(MAX_ITERATIONS):
+        """Find the equilibrium at a given load, or at a given rise if `load` is None.
+
+        Tried at once, and if that fails by way of a soft ground, on which the contact is found
+        more safely.
+        """
+        pressures = [block.pressure.copy() for block in self.rubbers]
+        try:
+            return self._newton(displacement, rise, load, path, QUICK_ITERATIONS)
+        except (FloatingPointError, TableRangeError):
+            for block, pressure in zip(self.rubbers, pressures, strict=True):
+                block.pressure = pressure
+        self.ground.soften()
+        try:
+            return self._newton(displacement, rise, load, path, MAX_ITERATIONS)
+        finally:
+            self.ground.harden()
+
+    def _newton(
+        self, displacement: Array, rise: float, load: float | None, path: LoadPath, most: int
+    ) -> tuple[Array, float]:
+        """Newton's method; a soft ground hardens as soon as the steps are small."""
+        before, part, calm = np.inf, 1.0, CALM_ITERATIONS
+        for count in range(most):
             path.iterations += 1
             trial = self._trial(displacement, rise)
             solved = self._linear(trial)
@@ -178,7 +204,7 @@ class TyreModel:
             largest = float(np.abs(step).max())
             if not np.isfinite(largest):
                 raise FloatingPointError("the iteration has left the range of numbers")
-            if count >= CALM_ITERATIONS:
+            if count >= calm:
                 # two contact states that take turns: go half-way, twice as far when that helps
                 part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
             before = largest
@@ -188,9 +214,13 @@ class TyreModel:
             rise += damp * change
             for block in self.rubbers:
                 block.update_pressure(move, damp)
-            if largest < 1e-6 and abs(change) < 1e-6:
+            if self.ground.soft:
+                if largest < SETTLED_MM:
+                    self.ground.harden()
+                    before, part, calm = np.inf, 1.0, count + CALM_ITERATIONS
+            elif largest < 1e-6 and abs(change) < 1e-6:
                 return displacement, rise
-        raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
+        raise FloatingPointError(f"no equilibrium in {most} iterations")
 
     def load(self, loads_n: Sequence[float]) -> TyreState:
         """Press the tyre on the ground through a rising sequence of loads.
@@ -201,15 +231,8 @@ class TyreModel:
             If a load is not reached with steps down to 2 N, or a spoke leaves its table.
         """
         path = LoadPath()
-        displacement = np.zeros_like(self.mesh.positions)
-        for block in self.rubbers:
-            block.pressure[:] = 0.0
         try:
-            displacement, rise = self._solve(displacement, FIRST_RISE_MM, None, path)
-            self.ground.advance(displacement, rise)
-            reached = self.ground.respond(displacement, rise).reaction_n
-            path.force_n.append(reached)
-            path.rise_mm.append(rise)
+            displacement, rise, reached = self._first_touch(path)
             for load in loads_n:
                 while reached < load:
                     displacement, rise, reached = self._advance(
@@ -219,6 +242,26 @@ class TyreModel:
             last = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
             raise TyreError(f"{error}; {last}", path) from error
         return TyreState(displacement, rise, self.spoke_motion(displacement), path)
+
+    def _first_touch(self, path: LoadPath) -> tuple[Array, float, float]:
+        """Raise the ground a little under the unloaded tyre, by less if that does not converge."""
+        rise = FIRST_RISE_MM
+        while True:
+            displacement = np.zeros_like(self.mesh.positions)
+            for block in self.rubbers:
+                block.pressure[:] = 0.0
+            try:
+                displacement, _ = self._solve(displacement, rise, None, path)
+            except FloatingPointError:
+                rise /= 2.0
+                if rise < SMALLEST_RISE_MM:
+                    raise
+                continue
+            self.ground.advance(displacement, rise)
+            reached = self.ground.respond(displacement, rise).reaction_n
+            path.force_n.append(reached)
+            path.rise_mm.append(rise)
+            return displacement, rise, reached
 
     def _advance(
         self, displacement: Array, rise: float, reached: float, load: float, path: LoadPath
@@ -256,33 +299,3 @@ class TyreModel:
         moved = self.mesh.positions + displacement
         line: Array = moved[self.mesh.middle_row :: len(self.mesh.radii)]
         return line
-
-
-def foot_operators(ring: RingMesh) -> Array:
-    """Mean motion of each foot: (u_r, u_θ, φ) = L u, array (spokes, 3, 2 × nodes of a foot).
-
-    u_r and u_θ are means over the foot, φ = ∫ s u_r ds / ∫ s² ds with s along +θ from its middle.
-    """
-    feet = ring.feet
-    elements = (feet.shape[1] - 1) // 2
-    points, weights = np.polynomial.legendre.leggauss(3)
-    shape, slope = line_shape(2, points)
-    operators = np.zeros((len(feet), 3, feet.shape[1], 2))
-    length, moment = np.zeros(len(feet)), np.zeros(len(feet))
-    outward = np.stack([np.sin(ring.spoke_angle), -np.cos(ring.spoke_angle)], axis=1)
-    along = np.stack([np.cos(ring.spoke_angle), np.sin(ring.spoke_angle)], axis=1)
-    for element in range(elements):
-        local = slice(2 * element, 2 * element + 3)
-        corner = ring.positions[feet[:, local]]
-        stretch = np.linalg.norm(np.einsum("gn,sni->sgi", slope, corner), axis=2) * weights
-        arm = np.einsum("gn,sni,si->sg", shape, corner, along)
-        length += stretch.sum(axis=1)
-        moment += np.sum(stretch * arm**2, axis=1)
-        mean = np.einsum("gn,sg->sn", shape, stretch)
-        operators[:, 0, local] += mean[..., None] * outward[:, None]
-        operators[:, 1, local] += mean[..., None] * along[:, None]
-        turning = np.einsum("gn,sg->sn", shape, stretch * arm)
-        operators[:, 2, local] += turning[..., None] * outward[:, None]
-    operators[:, :2] /= length[:, None, None, None]
-    operators[:, 2] /= moment[:, None, None]
-    return operators.reshape(len(feet), 3, -1)

@@ -24,7 +24,8 @@ from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
-from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState, foot_operators
+from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState
+from nptcs.fe.tyre.feet import foot_operators
 from nptcs.fe.tyre.mesh import RingMesh
 
 
@@ -236,7 +237,7 @@ class DirectTyre(TyreModel):
             table,
             model.geometry.foot_width_mm(),
             band_c10_mpa,
-            model.spoke_mesh.bulk_to_shear_ratio,
+            model.band_bulk_to_shear(),
             model.tyre_mesh,
             model.contact,
         )
@@ -272,13 +273,13 @@ class DirectTyre(TyreModel):
         self.spokes = [self.spoke.at_rest(self.foot)] * len(self.mesh.feet)
         return super().load(loads_n)
 
-    def _solve(
-        self, displacement: Array, rise: float, load: float | None, path: LoadPath
+    def _newton(
+        self, displacement: Array, rise: float, load: float | None, path: LoadPath, most: int
     ) -> tuple[Array, float]:
         """Solve as the reduced tyre does; where it fails, spokes return to where they were."""
         before = self.spokes
         try:
-            return super()._solve(displacement, rise, load, path)
+            return super()._newton(displacement, rise, load, path, most)
         except (FloatingPointError, np.linalg.LinAlgError) as error:
             self.spokes = before
             raise FloatingPointError(str(error)) from error

@@ -4,26 +4,40 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.arrays import Array
-from nptcs.config.ingest import Pairing
+from nptcs.arrays import Array, Rows
+from nptcs.config.ingest import EndOfTest, Pairing
 from nptcs.errors import InputError
+from nptcs.ingest.conditioning.common_force import (
+    ends_before_peak,
+    offset_by_force,
+    require_equal_force,
+    settle_force_unit,
+)
+from nptcs.ingest.conditioning.failure import failure_row
+from nptcs.ingest.conditioning.frames import rows_by_number, rows_by_trigger
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
 from nptcs.ingest.reading.raw_file import RawFile
-from nptcs.ingest.reading.units import FACTORS
 
 FEWEST_COMMON_ROWS = 5
-FORCE_UNITS = ("N", "kN", "lbf", "kgf")
-_LEVELS = np.linspace(0.1, 0.8, 15)
+_FRAMES_EXTENDED = 4
+"""Frames whose line is extended to the largest force, at most one frame further."""
 
 
 def pair(
-    force: RawFile, strain: RawFile, offset_s: float | None, settings: Pairing, specimen: str
+    force: RawFile,
+    strain: RawFile,
+    offset_s: float | None,
+    settings: Pairing,
+    specimen: str,
+    force_drop: float = EndOfTest().force_drop,
 ) -> Signals:
     """Bring the readings of two files to common rows.
 
     The rows are those of the slower file, so that no reading is counted twice; the reading of
     the largest force is added, so that no strength is lost between two camera frames. Between
-    rows the faster file is interpolated linearly; nothing is extrapolated.
+    rows the faster file is interpolated linearly, but never across the failure of the specimen:
+    readings after it are left out of both files. The strain at the largest force, which lies
+    behind the last frame, is extended from the last frames by at most one frame, and flagged.
 
     Parameters
     ----------
@@ -36,6 +50,8 @@ def pair(
         Tolerances.
     specimen : str
         For messages.
+    force_drop : float
+        Fall of the force that is failure (``end_of_test.force_drop``).
 
     Raises
     ------
@@ -44,69 +60,41 @@ def pair(
     """
     shared = "force" in force.values and "force" in strain.values
     if shared and not strain.units["force"]:
-        _settle_force_unit(force, strain, settings, specimen)
+        settle_force_unit(force, strain, settings, specimen)
     if shared:
-        _require_equal_force(force, strain, settings, specimen)
-    if "time" in force.values and "time" in strain.values:
-        return _by_time(force, strain, offset_s, shared, settings, specimen)
+        require_equal_force(force, strain, settings, specimen)
+    timed = "time" in force.values and "time" in strain.values
+    edges = None if timed and shared else rows_by_trigger(force, strain)
+    if edges is not None:
+        how = "by the edges of the trigger channel"
+        return _by_frames(force, strain, edges, np.arange(strain.rows), how, force_drop)
+    numbered = None if timed else rows_by_number(force, strain)
+    if numbered is not None:
+        return _by_frames(force, strain, *numbered, "by the number of the frame", force_drop)
+    if timed:
+        return _by_time(force, strain, offset_s, shared, settings, specimen, force_drop)
     if shared:
-        return _by_force(force, strain)
+        return _by_force(force, strain, force_drop)
     raise InputError(
-        "strain and force cannot be paired: the files share neither time nor force",
+        "strain and force cannot be paired: the files share neither time nor force, and no "
+        "trigger or frame number that fits",
         "export the time in both, or the force as analog channel in the strain file",
         strain.path,
         specimen=specimen,
     )
 
 
-def _settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
-    """Tell the unit of the strain file's force from the peak that both files recorded."""
-    ours, theirs = abs(largest(force.values["force"])), abs(largest(strain.values["force"]))
-    fitting = {
-        unit: abs(theirs * FACTORS["force"][unit] / ours - 1)
-        for unit in FORCE_UNITS
-        if abs(theirs * FACTORS["force"][unit] / ours - 1) <= settings.force_tolerance
-    }
-    if len(fitting) != 1:
-        raise InputError(
-            f"force has no unit, and its peak {theirs:.6g} fits the machine's {ours:.6g} N in "
-            f"{' and '.join(fitting) or 'none of ' + ', '.join(FORCE_UNITS)}",
-            "state the unit in a profile, or check that both files belong to one specimen",
-            strain.path,
-            None,
-            strain.columns["force"],
-            specimen,
-        )
-    unit = next(iter(fitting))
-    strain.units["force"] = unit
-    strain.values["force"] = strain.values["force"] * FACTORS["force"][unit]
-    strain.notes = (*strain.notes, f"force: taken as {unit}, its peak is the machine's")
-
-
-def _require_equal_force(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
-    ours, theirs = largest(force.values["force"]), largest(strain.values["force"])
-    difference = abs(abs(theirs) / abs(ours) - 1) if ours else np.inf
-    if difference > settings.force_tolerance:
-        raise InputError(
-            f"largest force is {theirs:.6g} N (read as {strain.units['force']}) here and "
-            f"{ours:.6g} N (read as {force.units['force']}) in {force.path.name}",
-            "check the force units (profile: wrong_units), or that both belong to one specimen; "
-            "pairing.force_tolerance is the allowed difference",
-            strain.path,
-            None,
-            strain.columns["force"],
-            specimen,
-        )
-
-
-def _by_force(force: RawFile, strain: RawFile) -> Signals:
+def _by_force(force: RawFile, strain: RawFile, force_drop: float) -> Signals:
     """Take the strain file's own force; add the machine's peak where the camera missed it."""
-    values = dict(strain.values)
-    signals = Signals(values)
-    peak, own = largest(force.values["force"]), largest(values["force"])
+    end = _failure(strain, force_drop)
+    signals = Signals({name: readings[:end] for name, readings in strain.values.items()})
+    signals.failure_seen = end is not None or _failure(force, force_drop) is not None
+    peak, own = largest(force.values["force"]), largest(signals.values["force"])
     if abs(peak) > abs(own):
-        row = {name: np.nan for name in values} | {"force": peak}
+        row = dict.fromkeys(signals.values, np.nan) | {"force": peak}
+        values = signals.values
         signals.values = {name: np.append(array, row[name]) for name, array in values.items()}
+        _extend_to_peak(signals, np.abs(signals.values["force"]), "N")
     signals.note(
         "pairing",
         f"by the force in {strain.path.name} (one of the files has no time); "
@@ -117,6 +105,64 @@ def _by_force(force: RawFile, strain: RawFile) -> Signals:
     return signals
 
 
+def _by_frames(
+    force: RawFile, strain: RawFile, rows: Rows, frames: Rows, how: str, force_drop: float
+) -> Signals:
+    """Take the machine's readings in the rows of the frames, and in the row of its peak."""
+    end = _failure(force, force_drop)
+    load = "force" if "force" in force.values else "stress"
+    before = rows < (end if end is not None else force.rows)
+    rows, frames = rows[before], frames[before]
+    peak = int(np.nanargmax(np.abs(force.values[load][:end])))
+    every = np.union1d(rows, [peak])
+    kept = [name for name in ("time", "force", "stress") if name in force.values]
+    values: dict[str, Array] = {name: force.values[name][every] for name in kept}
+    places = np.searchsorted(every, rows)
+    for name in STRAIN_CHANNELS:
+        if name in strain.values:
+            values[name] = np.full(len(every), np.nan)
+            values[name][places] = strain.values[name][frames]
+    signals = Signals(values)
+    signals.failure_seen = end is not None
+    _extend_to_peak(signals, every.astype(float), "rows")
+    signals.note("pairing", how, rows=len(every), frames=len(frames))
+    return signals
+
+
+def _failure(table: RawFile, force_drop: float) -> int | None:
+    """First row after failure of a file with a force or stress."""
+    load = table.values.get("force", table.values.get("stress"))
+    assert load is not None
+    names = ("displacement", "extension", "strain")
+    travel = next((table.values[name] for name in names if name in table.values), None)
+    return failure_row(load, travel, force_drop)
+
+
+def _extend_to_peak(signals: Signals, position: Array, unit: str) -> None:
+    """Extend the strains to the largest force by the line of the last frames, and say so."""
+    load = signals.values["force" if "force" in signals.values else "stress"]
+    peak = int(np.nanargmax(np.abs(load)))
+    extended = 0.0
+    for name in STRAIN_CHANNELS:
+        readings = signals.values.get(name)
+        if readings is None or not np.isnan(readings[peak]):
+            continue
+        frames = np.flatnonzero(~np.isnan(readings[:peak]))[-_FRAMES_EXTENDED:]
+        if len(frames) < _FRAMES_EXTENDED:
+            continue
+        reach = position[peak] - position[frames[-1]]
+        if not 0 <= reach <= 1.01 * np.median(np.diff(position[frames])):
+            continue
+        slope = np.polyfit(position[frames] - position[frames[-1]], readings[frames], 1)[0]
+        readings[peak] = readings[frames[-1]] + slope * reach
+        extended = float(reach)
+    if extended:
+        signals.flags.append(
+            f"strain at the largest force extended from the last {_FRAMES_EXTENDED} frames before "
+            f"it, by {extended:.3g} {unit}"
+        )
+
+
 def _by_time(
     force: RawFile,
     strain: RawFile,
@@ -124,16 +170,25 @@ def _by_time(
     shared: bool,
     settings: Pairing,
     specimen: str,
+    force_drop: float,
 ) -> Signals:
     for table in (force, strain):
         _require_growing_time(table, specimen)
     how = "stated in the sheet"
     if offset_s is None and shared:
-        offset_s, how = _offset_by_force(force, strain), "from the force that both recorded"
+        offset_s, how = offset_by_force(force, strain), "from the force that both recorded"
     elif offset_s is None:
         offset_s, how = 0.0, "one clock, onsets of loading agree"
         _require_equal_onset(force, strain, settings, specimen)
-    signals = Signals(_merge(force, strain, offset_s))
+    end = _failure(force, force_drop)
+    signals = Signals(_merge(force, strain, offset_s, end))
+    signals.failure_seen = end is not None
+    _extend_to_peak(signals, signals.values["time"], "s")
+    if shared and ends_before_peak(force, strain, settings.force_tolerance):
+        signals.flags.append(
+            f"the strain record ends at {abs(largest(strain.values['force'])):.5g} N of "
+            f"{abs(largest(force.values['force'])):.5g} N"
+        )
     if len(signals) < FEWEST_COMMON_ROWS:
         raise InputError(
             f"only {len(signals)} rows are common in time",
@@ -167,22 +222,6 @@ def _require_growing_time(table: RawFile, specimen: str) -> None:
             specimen=specimen,
             value=float(time[first]),
         )
-
-
-def _offset_by_force(force: RawFile, strain: RawFile) -> float:
-    """Median difference of the times at which both reach the same forces."""
-    peak = min(abs(largest(table.values["force"])) for table in (force, strain))
-    ours = _times_at(force.values["time"], force.values["force"], _LEVELS * peak)
-    theirs = _times_at(strain.values["time"], strain.values["force"], _LEVELS * peak)
-    return float(np.median(ours - theirs))
-
-
-def _times_at(time: Array, signal: Array, levels: Array) -> Array:
-    """Find the times at which the magnitude of a signal first reaches some levels."""
-    kept = ~np.isnan(signal)
-    rising = np.maximum.accumulate(signal[kept] * np.sign(largest(signal)))
-    first = np.concatenate([[True], np.diff(rising) > 0])
-    return np.interp(levels, rising[first], time[kept][first])
 
 
 def _require_equal_onset(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
@@ -226,22 +265,23 @@ def _onset(table: RawFile, name: str, specimen: str) -> tuple[float, float]:
     return float(time[first] - level / slope), float(time[peak] - time[first])
 
 
-def _merge(force: RawFile, strain: RawFile, offset_s: float) -> dict[str, Array]:
-    """Interpolate onto the slower file's times, and onto the time of the largest force."""
+def _merge(force: RawFile, strain: RawFile, offset_s: float, end: int | None) -> dict[str, Array]:
+    """Interpolate onto the slower file's times up to failure, and onto that of the peak."""
     strain_time = strain.values["time"] + offset_s
-    force_time = force.values["time"]
+    force_time = force.values["time"][:end]
     load = "force" if "force" in force.values else "stress"
-    peak = force_time[int(np.nanargmax(np.abs(force.values[load])))]
+    peak = force_time[int(np.nanargmax(np.abs(force.values[load][:end])))]
+    frames = strain_time <= force_time[-1]
     slower = strain_time if _rate(strain) <= _rate(force) else force_time
     inside = (slower >= force_time[0]) & (slower <= force_time[-1])
     time = np.union1d(slower[inside], [peak])
     merged = {"time": time}
     for name in ("force", "stress"):
         if name in force.values:
-            merged[name] = _resample(time, force_time, force.values[name])
+            merged[name] = _resample(time, force_time, force.values[name][:end])
     for name in STRAIN_CHANNELS:
         if name in strain.values:
-            merged[name] = _resample(time, strain_time, strain.values[name])
+            merged[name] = _resample(time, strain_time[frames], strain.values[name][frames])
     return merged
 
 

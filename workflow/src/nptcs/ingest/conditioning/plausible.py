@@ -29,12 +29,12 @@ def check_machine_area(
     loaded = (force > 0.2 * np.nanmax(force)) & (stress > 0)
     if not loaded.any():
         return
-    area = float(np.median(force[loaded] / stress[loaded]))
-    ratio = area / specimen.area_mm2
+    area, ours = float(np.median(force[loaded] / stress[loaded])), specimen.force_per_stress_mm2
+    ratio = area / ours
     if not 0.5 < ratio < 2:
         raise InputError(
             f"force ({table.units['force']}) and stress ({table.units['stress']}) of the file "
-            f"give an area of {area:.4g} mm², the sheet {specimen.area_mm2:.4g} mm²",
+            f"give an area of {area:.4g} mm², the sheet {ours:.4g} mm²",
             "correct the area in the sheet, or the unit by a profile's wrong_units",
             table.path,
             column=table.columns["stress"],
@@ -42,7 +42,7 @@ def check_machine_area(
         )
     if abs(ratio - 1) > settings.area_difference:
         signals.flags.append(
-            f"machine area {area:.5g} mm² differs from the sheet's {specimen.area_mm2:.5g} mm²; "
+            f"machine area {area:.5g} mm² differs from the sheet's {ours:.5g} mm²; "
             "the sheet's was used"
         )
 

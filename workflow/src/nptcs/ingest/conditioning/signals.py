@@ -20,17 +20,22 @@ STRAIN_CHANNELS = (
     "displacement",
 )
 
+LENGTHS = ("extension", "displacement")
+"""Channels in mm; the others are strains."""
+
 
 @dataclass
 class Signals:
     """Quantity → readings (s, N, mm, MPa, dimensionless), all of one length.
 
     `steps` and `flags` tell what was done to them; both end up in the ingest record.
+    `failure_seen` tells whether a break was recorded, in these rows or in those left out.
     """
 
     values: dict[str, Array]
     steps: list[Step] = field(default_factory=list)
     flags: list[str] = field(default_factory=list)
+    failure_seen: bool = False
 
     def __len__(self) -> int:
         return len(next(iter(self.values.values())))
@@ -46,6 +51,12 @@ class Signals:
     def skipped(self, name: str) -> None:
         """Log a step that is switched off."""
         self.steps.append(Step(name=name, on=False, changed="switched off"))
+
+
+def line_slope(x: Array, y: Array) -> float:
+    """Slope of the least-squares line y(x)."""
+    centred = x - x.mean()
+    return float(centred @ y / (centred @ centred))
 
 
 def largest(readings: Array) -> float:

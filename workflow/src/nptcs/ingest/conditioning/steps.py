@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array, Rows
-from nptcs.config.ingest import EndOfTest, ExtensometerRemoval, ForceZero, MissingValues
-from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
+from nptcs.config.ingest import EndOfTest, ForceZero, MissingValues
+from nptcs.ingest.conditioning.failure import failure_row
+from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
 
 STRAINS = ("strain_axial", "strain_transverse", "strain_axial_back")
 
@@ -18,9 +19,12 @@ def mark_dead(signals: Signals, settings: MissingValues) -> None:
         return
     dead, emptied = [], 0
     for name, readings in signals.values.items():
-        bad = np.isin(readings, settings.dead_values)
-        signals.values[name] = np.where(bad, np.nan, readings)
-        emptied += int(bad.sum())
+        bad = np.zeros(len(readings), dtype=bool)
+        for value in settings.dead_values:
+            bad |= readings == value
+        if bad.any():
+            signals.values[name] = np.where(bad, np.nan, readings)
+            emptied += int(bad.sum())
     for name in STRAIN_CHANNELS:
         if name in signals.values and _is_dead(signals.values[name], settings.largest_share):
             del signals.values[name]
@@ -30,8 +34,12 @@ def mark_dead(signals: Signals, settings: MissingValues) -> None:
 
 
 def _is_dead(readings: Array, largest_share: float) -> bool:
-    empty = np.isnan(readings)
-    return bool(empty.mean() > largest_share or np.ptp(readings[~empty]) == 0)
+    """Tell whether a channel is constant, or lacks readings between its first and its last."""
+    measured = np.flatnonzero(~np.isnan(readings))
+    if not len(measured):
+        return True
+    span = readings[measured[0] : measured[-1] + 1]
+    return bool(np.isnan(span).mean() > largest_share or np.ptp(readings[measured]) == 0)
 
 
 def empty_spikes(signals: Signals, settings: MissingValues) -> None:
@@ -49,7 +57,9 @@ def empty_spikes(signals: Signals, settings: MissingValues) -> None:
             rows = _spikes(signals.values[name], settings.spike_share)
             for row in rows:
                 found[f"{name}_reading_{row + 1}"] = float(signals.values[name][row])
-            signals.values[name][rows] = np.nan
+            if len(rows):
+                signals.values[name] = signals.values[name].copy()
+                signals.values[name][rows] = np.nan
     signals.note("spikes", f"{len(found)} readings emptied", **found)
     if found:
         signals.flags.append(f"{len(found)} wild readings emptied: {', '.join(list(found)[:3])}")
@@ -61,10 +71,14 @@ def _spikes(readings: Array, share: float) -> Rows:
         return kept[:0]
     values = readings[kept]
     step = np.diff(values)
+    size = np.abs(step)
+    leaves = np.minimum(size[:-1], size[1:])
+    leaves[step[:-1] * step[1:] >= 0] = 0.0
+    usual = 20 * float(np.median(size))
+    if leaves.max() <= usual:
+        return kept[:0]
     low, high = np.percentile(values, [1, 99])
-    limit = max(share * float(high - low), 20 * float(np.median(np.abs(step))))
-    leaves = np.minimum(np.abs(step[:-1]), np.abs(step[1:])) > limit
-    return kept[1:-1][leaves & (np.sign(step[:-1]) != np.sign(step[1:]))]
+    return kept[1:-1][leaves > max(share * float(high - low), usual)]
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:
@@ -106,79 +120,23 @@ def zero_force(signals: Signals, settings: ForceZero) -> None:
 
 
 def cut_end(signals: Signals, settings: EndOfTest) -> None:
-    """Cut what follows failure: the first reading after the peak that has lost the share."""
+    """Cut what follows failure; an unloading is not a failure and stays."""
     if not settings.enabled:
         signals.skipped("end of test")
         return
-    force = np.abs(signals.values["force"])
-    peak = int(np.argmax(force))
-    fallen = np.flatnonzero(force[peak:] < (1 - settings.force_drop) * force[peak])
-    end = peak + int(fallen[0]) if len(fallen) else len(force)
+    force = signals.values["force"]
+    elongation = signals.values.get("displacement", signals.values["strain_axial"])
+    end = failure_row(force, elongation, settings.force_drop)
+    peak = float(np.abs(force[:end]).max())
+    if end is None:
+        text = "no failure recorded, nothing cut"
+        if signals.failure_seen:
+            text = "failure is in the force file; nothing of it is in these rows"
+        signals.note("end of test", text, rows=0, peak_force_n=peak)
+        return
     dropped = len(force) - end
+    signals.failure_seen = True
     signals.take(np.arange(end))
-    text = f"{dropped} rows after failure cut" if dropped else "no failure recorded, nothing cut"
-    signals.note("end of test", text, rows=dropped, peak_force_n=float(force[peak]))
-
-
-def empty_after_removal(
-    signals: Signals, settings: ExtensometerRemoval, rubber: bool, source: str
-) -> None:
-    """Empty the strains from where an extensometer was taken off, slipped or stood still."""
-    if not settings.enabled:
-        signals.skipped("extensometer")
-        return
-    if source == "crosshead":
-        signals.note("extensometer", "strain from the crosshead, nothing to take off")
-        return
-    sign = np.sign(largest(signals.values["force"]))
-    strain = sign * signals.values["strain_axial"]
-    force = sign * signals.values["force"]
-    smallest = settings.smallest_jump_rubber if rubber else settings.smallest_jump
-    jump = _first_jump(strain, force, settings.jump_factor, smallest)
-    stuck = _first_stuck(strain[:jump], force[:jump], settings.stuck_force_share)
-    first = min((row for row in (jump, stuck) if row is not None), default=None)
-    if first is None:
-        signals.note("extensometer", "no removal or slip found")
-        return
-    what = "jumps" if first == jump else "stands still"
-    at = float(signals.values["strain_axial"][first - 1])
-    for name in STRAINS:
-        signals.values[name] = np.where(
-            np.arange(len(strain)) < first, signals.values[name], np.nan
-        )
     signals.note(
-        "extensometer",
-        f"strain {what} at reading {first + 1}: emptied from there",
-        last_strain=at,
-        rows=len(strain) - first,
+        "end of test", f"{dropped} rows after failure cut", rows=dropped, peak_force_n=peak
     )
-    signals.flags.append(f"extensometer removed or slipped at strain {at:.4g}: emptied from there")
-
-
-def _first_jump(strain: Array, force: Array, jump_factor: float, smallest: float) -> int | None:
-    """First reading whose strain leaps while the force does neither fall nor leap."""
-    peak = int(np.argmax(force))
-    step, load = np.diff(strain[: peak + 1]), np.diff(force[: peak + 1])
-    usual = float(np.nanmedian(np.abs(step))) if np.isfinite(step).any() else np.nan
-    usual_load = float(np.median(np.abs(load))) if len(load) else 0.0
-    leaps = np.abs(step) > max(jump_factor * usual, smallest)
-    leaps &= (load > -0.05 * force[peak]) & (np.abs(load) < 0.25 * jump_factor * usual_load)
-    return int(np.argmax(leaps)) + 1 if leaps.any() else None
-
-
-def _first_stuck(strain: Array, force: Array, share: float) -> int | None:
-    """First reading from which the force climbs by `share` of its peak and more, without strain.
-
-    Standing still counts to the end of the climb only: a start that lags is a toe, and a leap
-    is found by `_first_jump`.
-    """
-    rising = np.maximum.accumulate(force)
-    levels = np.arange(share, 1.0, share) * rising[-1]
-    rows = np.unique(np.searchsorted(rising, levels))
-    rows = rows[~np.isnan(strain[rows])]
-    if len(rows) < 6:
-        return None
-    gains = np.diff(strain[rows])
-    moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
-    last = int(moving[-1]) + 1 if len(moving) else 0
-    return int(rows[last]) + 1 if last < len(gains) else None

@@ -1,4 +1,4 @@
-"""From the channels of a test to axial and transverse strain, and the sign of the load."""
+"""From the channels of a test to axial and transverse strain."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning.signals import Signals, largest
+from nptcs.ingest.conditioning.signals import Signals, line_slope
 from nptcs.ingest.reading.profiles import normalise
-from nptcs.tables.specimens import Specimen, TestType
+from nptcs.tables.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
 """Two in-plane strains closer than this cannot be told apart."""
@@ -85,7 +85,7 @@ def _single(
         raise InputError(
             "no strain", "name a strain_file in the sheet", path, specimen=specimen.specimen
         )
-    if specimen.gauge_length_mm is None:
+    if specimen.gauge_length_mm is None and specimen.bar is None:
         raise InputError(
             f"gauge_length_mm is empty: {name} cannot become strain",
             "give the gauge length (grip distance for crosshead travel) in the sheet",
@@ -100,7 +100,7 @@ def _single(
         source = "extensometer" if source in ("unspecified", "crosshead") else source
     else:
         source = "crosshead"
-    return name, length / specimen.gauge_length_mm, source
+    return name, length * specimen.strain_per_length(source == "crosshead"), source
 
 
 def _follows(strain: Array, travel: Array | None) -> bool:
@@ -119,7 +119,7 @@ def _axes(
     signals: Signals, specimen: Specimen, columns: Mapping[str, str], path: Path
 ) -> tuple[Array, Array]:
     """Axial and transverse out of exx and eyy: axial follows the load, and is the larger."""
-    slopes = {name: _slope(signals, name) for name in ("strain_xx", "strain_yy")}
+    slopes = {name: slope_over_force(signals, name) for name in ("strain_xx", "strain_yy")}
     ordered = sorted(slopes, key=lambda name: abs(slopes[name]), reverse=True)
     stated = _stated_axis(specimen, columns)
     found = ", ".join(f"'{columns[name]}' {1e6 * slopes[name]:.4g} µε/N" for name in slopes)
@@ -145,14 +145,17 @@ def _axes(
     return signals.values[axial], signals.values[other]
 
 
-def _slope(signals: Signals, name: str) -> float:
-    """Least-squares slope of a strain over force, up to the largest force."""
+def slope_over_force(signals: Signals, name: str) -> float:
+    """Least-squares slope of a strain over force, up to the largest force of either sign."""
     force = signals.values["force"]
-    rows = np.arange(len(force)) <= int(np.nanargmax(np.abs(force)))
+    largest_of_each = [int(np.nanargmax(force)), int(np.nanargmin(force))]
+    rows = np.arange(len(force)) <= max(
+        row for row in largest_of_each if abs(force[row]) > 0.05 * np.nanmax(np.abs(force))
+    )
     rows &= ~np.isnan(signals.values[name]) & ~np.isnan(force)
     if rows.sum() < 2 or np.ptp(force[rows]) == 0:
         return 0.0
-    return float(np.polyfit(force[rows], signals.values[name][rows], 1)[0])
+    return line_slope(force[rows], signals.values[name][rows])
 
 
 def _stated_axis(specimen: Specimen, columns: Mapping[str, str]) -> str | None:
@@ -170,38 +173,3 @@ def _stated_axis(specimen: Specimen, columns: Mapping[str, str]) -> str | None:
         column="strain_axis",
         value=specimen.strain_axis,
     )
-
-
-def orient(signals: Signals, specimen: Specimen, path: Path) -> None:
-    """Make tension positive and compression negative, whatever the machine's habit.
-
-    The force's sign is that of its largest reading; the strain's that of its slope over the
-    force, which an offset does not turn.
-
-    Raises
-    ------
-    InputError
-        If a tension test shortens under its load.
-    """
-    values = signals.values
-    wanted = -1.0 if specimen.test is TestType.COMPRESSION else 1.0
-    force = np.sign(largest(values["force"]))
-    slope = _slope(signals, "strain_axial")
-    strain = force * np.sign(slope)
-    if wanted > 0 and strain < 0:
-        raise InputError(
-            f"axial strain falls while a {specimen.test} test loads",
-            "check test, strain_axis and the files of this specimen in the sheet",
-            path,
-            specimen=specimen.specimen,
-            value=f"{1e6 * slope:.3g} µε/N",
-        )
-    turned = []
-    if force != wanted:
-        values["force"] = -values["force"]
-        turned.append("force")
-    if strain != wanted:
-        for name in ("strain_axial", "strain_axial_back"):
-            values[name] = -values[name]
-        turned.append("axial strain")
-    signals.note("sign", f"turned: {', '.join(turned)}" if turned else "as recorded")

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import io
 import re
-from collections.abc import Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from functools import cached_property
+from itertools import pairwise
 from pathlib import Path
 from typing import Literal, Protocol
 
@@ -15,7 +16,9 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.reading.dialect import MISSING, Dialect, _number
+from nptcs.ingest.reading.clock import holds_clock
+from nptcs.ingest.reading.dialect import MISSING, Dialect, number_pattern
+from nptcs.ingest.reading.regular_rows import chunk_edges, regular_width
 from nptcs.ingest.reading.table_columns import FoundTable
 
 NOTHING = "nan"
@@ -42,6 +45,14 @@ class CellSource(Protocol):
         """Number of cells of each row."""
         ...
 
+    def clock_columns(self, row: int) -> list[int]:
+        """Positions of the cells of a row that were a time of day."""
+        ...
+
+    def odd_clock_row(self, block: FoundTable) -> int | None:
+        """First row of a block whose times of day are not as many as in its first row."""
+        ...
+
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers, shape (rows, positions)."""
         ...
@@ -61,7 +72,9 @@ def kind_of(cells: Sequence[str], numbers: int) -> Kind:
 
 def split_lines(text: str) -> list[str]:
     """Lines of a text, ended by LF, CRLF or a bare CR."""
-    return text.replace("\r\n", "\n").replace("\r", "\n").split("\n")
+    if "\r" in text:
+        text = text.replace("\r\n", "\n").replace("\r", "\n")
+    return text.split("\n")
 
 
 @dataclass
@@ -72,12 +85,14 @@ class TextSource:
     lines: list[str]
     dialect: Dialect
     missing: frozenset[str]
+    clock_lines: Mapping[int, str] = field(default_factory=dict)
+    clock_counts: Mapping[int, int] = field(default_factory=dict)
     part: str = ""
 
     @cached_property
     def _row(self) -> re.Pattern[str]:
         """All of a row is numbers or empty, in this dialect."""
-        number = _number(self.dialect.decimal, self.dialect.thousands).pattern
+        number = number_pattern(self.dialect.decimal, self.dialect.thousands).pattern
         if self.dialect.delimiter == "spaces":
             return re.compile(rf"\s*{number}(?:\s+{number})+\s*", re.ASCII)
         blank = "[ ]*" if self.dialect.delimiter == "\t" else r"[ \t]*"
@@ -89,7 +104,7 @@ class TextSource:
     @cached_property
     def _full_row(self) -> re.Pattern[str]:
         """Every cell of a row is a bare number, in this dialect: the usual row, found fast."""
-        number = _number(self.dialect.decimal, "").pattern
+        number = number_pattern(self.dialect.decimal, "").pattern
         spaces = self.dialect.delimiter == "spaces"
         mark = r"[ \t]+" if spaces else re.escape(self.dialect.delimiter)
         return re.compile(rf"{number}(?:{mark}{number})+", re.ASCII)
@@ -103,7 +118,22 @@ class TextSource:
     def kinds(self) -> list[Kind]:
         """Kind of each row."""
         usual = self._full_row.fullmatch if self._marks_apart else re.compile("(?!)").fullmatch
-        return ["data" if usual(line) else self._kind(line) for line in self.lines]
+        kinds: list[Kind] = []
+        for start, stop, width in self._regular_chunks:
+            lines = self.lines[start:stop]
+            if width >= 2:
+                kinds += ["data"] * len(lines)
+            else:
+                kinds += ["data" if usual(line) else self._kind(line) for line in lines]
+        return kinds
+
+    @cached_property
+    def _regular_chunks(self) -> list[tuple[int, int, int]]:
+        """Lines [first, last) of each chunk, and its number of cells if all are numbers, else 0."""
+        return [
+            (start, stop, regular_width(self.lines[start:stop], self.dialect))
+            for start, stop in pairwise(chunk_edges(len(self.lines)))
+        ]
 
     def _kind(self, line: str) -> Kind:
         if not line.strip():
@@ -125,10 +155,31 @@ class TextSource:
         delimiter = self.dialect.delimiter
         if delimiter == "spaces":
             return [len(line.split()) for line in self.lines]
-        return [
-            len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
-            for line in self.lines
-        ]
+        widths: list[int] = []
+        for start, stop, width in self._regular_chunks:
+            lines = self.lines[start:stop]
+            widths += (
+                [width] * len(lines)
+                if width
+                else [
+                    len(self.dialect.split(line)) if '"' in line else line.count(delimiter) + 1
+                    for line in lines
+                ]
+            )
+        return widths
+
+    def clock_columns(self, row: int) -> list[int]:
+        """Positions of the cells of a row that were a time of day."""
+        cells = self.dialect.split(self.clock_lines.get(row, ""))
+        return [position for position, cell in enumerate(cells) if holds_clock(cell)]
+
+    def odd_clock_row(self, block: FoundTable) -> int | None:
+        """First row of a block whose times of day are not as many as in its first row."""
+        if not self.clock_counts:
+            return None
+        counts = [self.clock_counts.get(row, 0) for row in block.rows_of_data]
+        odd = (row for row, n in zip(block.rows_of_data, counts, strict=True) if n != counts[0])
+        return next(odd, None)
 
     def header_cells(self, row: int, width: int) -> list[str]:
         """Cells of a row of names: with blanks in the names where blanks also separate."""
@@ -144,7 +195,16 @@ class TextSource:
 
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
-        lines = [self._line_for_pandas(block, row, positions) for row in block.rows_of_data]
+        rows, kinds = block.rows_of_data, self.kinds
+        if rows[-1] - rows[0] == len(rows) - 1 and "odd data" not in kinds[rows[0] : rows[-1] + 1]:
+            lines = self.lines[rows[0] : rows[-1] + 1]
+        else:
+            lines = [
+                self.lines[row]
+                if kinds[row] == "data"
+                else self._checked_line(block, row, positions)
+                for row in rows
+            ]
         text = "\n".join(lines)
         if self._uses_thousands(text):
             return self._numbers_with_thousands(block, positions)
@@ -165,10 +225,8 @@ class TextSource:
         self._refuse_infinite(block, values, positions)
         return values
 
-    def _line_for_pandas(self, block: FoundTable, row: int, positions: Sequence[int]) -> str:
-        """Return the line as it is if it is all numbers, else only the checked cells."""
-        if self.kinds[row] == "data":
-            return self.lines[row]
+    def _checked_line(self, block: FoundTable, row: int, positions: Sequence[int]) -> str:
+        """Return a line that is not all numbers with the checked cells only."""
         self._check_cells(block, row, positions)
         cells = [
             cell if position in positions and not self.is_missing(cell) else NOTHING
@@ -220,6 +278,14 @@ class TextSource:
             )
 
 
+FORMULA = "<formula without value>"
+"""Stands in a sheet's cell whose formula was never computed."""
+
+
+class Clock(float):
+    """A time of day or a date of a workbook, in s."""
+
+
 @dataclass
 class SheetSource:
     """One sheet of a workbook: native numbers and texts."""
@@ -235,7 +301,7 @@ class SheetSource:
         return [self._kind(row) for row in self.rows]
 
     def _kind(self, row: tuple[object, ...]) -> Kind:
-        numbers = sum(_is_native_number(cell) for cell in row)
+        numbers = sum(_is_native_number(cell) or cell == FORMULA for cell in row)
         filled = sum(cell is not None and str(cell).strip() != "" for cell in row)
         if numbers >= 2 and numbers == filled:
             return "data"
@@ -250,6 +316,14 @@ class SheetSource:
         """Number of cells of each row."""
         return [len(row) for row in self.rows]
 
+    def clock_columns(self, row: int) -> list[int]:
+        """Positions of the cells of a row that were a time of day."""
+        return [place for place, cell in enumerate(self.rows[row]) if isinstance(cell, Clock)]
+
+    def odd_clock_row(self, block: FoundTable) -> int | None:
+        """Leave it to the cells of the columns that are needed: each knows its own type."""
+        return None
+
     def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a block as numbers; a cell that is none raises with its place."""
         values = [
@@ -260,9 +334,17 @@ class SheetSource:
 
     def _number(self, block: FoundTable, row: int, position: int) -> float:
         cell = self.rows[row][position] if position < len(self.rows[row]) else None
-        if _is_native_number(cell):
+        if _is_native_number(cell) and isinstance(cell, Clock) == block.columns[position].clock:
             return float(cell)  # type: ignore[arg-type]
         text = _text(cell)
+        if cell == FORMULA:
+            raise InputError(
+                f"sheet '{self.part}': column {block.columns[position].name or position + 1} holds "
+                "formulas without stored values",
+                "open and save it in a spreadsheet",
+                self.path,
+                row + 1,
+            )
         if text.casefold() in MISSING or text in self.missing:
             return float("nan")
         raise InputError(

@@ -14,8 +14,10 @@ BYTE_ORDER_MARKS = {
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
-CANDIDATES = ("cp1252", "cp1250", "gb18030")
+CANDIDATES = ("cp1252", "cp1250", "cp1251", "gb18030", "cp932")
 """Encodings of test machines that are not UTF-8; all agree on digits and separators."""
+_GUESSED = ("cp1252", "cp1250", "gb18030")
+"""Those that a detector may choose where no known word tells."""
 HEAD_BYTES = 20_000
 
 
@@ -86,7 +88,8 @@ def _wide(raw: bytes, path: Path) -> Decoded:
 def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
     """Choose among `CANDIDATES` by the words that each makes readable."""
     head = raw[: raw.rfind(b"\n", 0, HEAD_BYTES) + 1] or raw
-    special = {word.casefold() for word in words if not word.isascii()}
+    head = b"\n".join(line for line in head.splitlines() if not line.isascii()) or head
+    special = {word.casefold() for word in words if not word.isascii() and _tells(word)}
     hits = {}
     for encoding in CANDIDATES:
         text = _or_none(head, encoding)
@@ -101,6 +104,11 @@ def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
     return _unknown_words(raw, head, path)
 
 
+def _tells(word: str) -> bool:
+    """Tell whether a word is long enough not to be read by chance: two signs, or three letters."""
+    return len(word) >= (2 if any(ord(mark) > 0x2E80 for mark in word) else 3)
+
+
 def _or_none(raw: bytes, encoding: str) -> str | None:
     try:
         return raw.decode(encoding)
@@ -112,10 +120,10 @@ def _unknown_words(raw: bytes, head: bytes, path: Path) -> Decoded:
     """Ask charset-normalizer, out of `CANDIDATES`; numbers are ASCII in all of them."""
     from charset_normalizer import from_bytes
 
-    guess = from_bytes(head, cp_isolation=list(CANDIDATES)).best()
+    guess = from_bytes(head, cp_isolation=list(_GUESSED)).best()
     text = _or_none(raw, guess.encoding) if guess is not None else None
     if guess is not None and text is not None:
-        note = f"charset-normalizer, out of {', '.join(CANDIDATES)}"
+        note = f"charset-normalizer, out of {', '.join(_GUESSED)}"
         return Decoded(text, guess.encoding, note)
     text = _or_none(raw, "cp1252")
     if text is not None:

@@ -22,6 +22,7 @@ MISSING = frozenset(
 SMALLEST_TABLE = 3
 """Rows of numbers that a dialect must read before it is believed."""
 _HEAD = 120
+_PROBE = 20
 SEPARATOR_NAMES = {"\t": "tab", "spaces": "spaces"}
 
 
@@ -54,7 +55,7 @@ class Dialect:
 
     def is_number(self, cell: str) -> bool:
         """Tell whether `cell` is a number in this dialect."""
-        return _number(self.decimal, self.thousands).fullmatch(cell) is not None
+        return number_pattern(self.decimal, self.thousands).fullmatch(cell) is not None
 
     def is_data(self, cells: Sequence[str]) -> bool:
         """Tell whether this is a row of a table: two or more numbers, and mostly numbers."""
@@ -64,7 +65,8 @@ class Dialect:
 
 
 @lru_cache
-def _number(decimal: str, thousands: str) -> re.Pattern[str]:
+def number_pattern(decimal: str, thousands: str) -> re.Pattern[str]:
+    """Return what a whole cell with a number looks like, with these marks."""
     mark = re.escape(decimal)
     exponent = r"(?:[eE][+-]?\d+)?"
     plain = rf"(?:\d+(?:{mark}\d*)?|{mark}\d+){exponent}"
@@ -81,7 +83,8 @@ def candidates(profile: FormatProfile, lines: Sequence[str]) -> list[Dialect]:
     )
     if profile.decimal:
         return [Dialect(delimiter, profile.decimal, profile.thousands) for delimiter in delimiters]
-    point, comma = (any(mark in line for line in lines) for mark in ".,")
+    text = "\n".join(lines)
+    point, comma = "." in text, "," in text
     found = [Dialect(delimiter, ".") for delimiter in delimiters]
     if comma:
         found += [Dialect(delimiter, ",") for delimiter in delimiters]
@@ -146,28 +149,38 @@ def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Re
     A thousands mark is believed if a number proves it (``1.234,5`` or ``1,234,567``). Without
     such a number it cannot win, but a draw still makes the table ambiguous.
     """
-    readings = {dialect: _rows(dialect, lines) for dialect in dialects}
+    readings = {dialect: _rows(dialect, lines) for dialect in _promising(dialects, lines)}
     declared = len({(dialect.decimal, dialect.thousands) for dialect in dialects}) == 1
-    proven = [dialect for dialect, rows in readings.items() if declared or _proven(dialect, rows)]
-    most = max((len(readings[dialect]) for dialect in proven), default=0)
+    proven = [dialect for dialect, read in readings.items() if declared or _proven(dialect, read)]
+    most = max((len(readings[dialect].rows) for dialect in proven), default=0)
     if most < SMALLEST_TABLE:
         return {}
-    full = {dialect: rows for dialect, rows in readings.items() if len(rows) == most}
-    unread = {dialect: _unread(dialect, rows) for dialect, rows in full.items()}
-    least = min(unread[dialect] for dialect in proven if dialect in full)
-    return {
-        dialect: _numbers(dialect, rows)
-        for dialect, rows in full.items()
-        if unread[dialect] == least
-    }
+    full = {dialect: read for dialect, read in readings.items() if len(read.rows) == most}
+    least = min(full[dialect].unread for dialect in proven if dialect in full)
+    best = {dialect: read.rows for dialect, read in full.items() if read.unread == least}
+    if len(best) == 1:
+        return dict.fromkeys(best, ())
+    return {dialect: _numbers(dialect, rows) for dialect, rows in best.items()}
 
 
-def _proven(dialect: Dialect, rows: list[list[str]]) -> bool:
+def _promising(dialects: Sequence[Dialect], lines: Sequence[str]) -> list[Dialect]:
+    """Leave out what reads no row in the middle of the lines, where another one reads most."""
+    middle = len(lines) // 2
+    probe = lines[max(middle - _PROBE // 2, 0) :][:_PROBE]
+    read = {dialect: len(_rows(dialect, probe).rows) for dialect in dialects}
+    if max(read.values(), default=0) < 0.75 * _PROBE:
+        return list(dialects)
+    return [dialect for dialect in dialects if read[dialect]]
+
+
+def _proven(dialect: Dialect, read: _Rows) -> bool:
     if not dialect.thousands:
         return True
     mark, decimal = re.escape(dialect.thousands), re.escape(dialect.decimal)
     proof = re.compile(rf"[+-]?[1-9]\d{{0,2}}{mark}\d{{3}}(?:{mark}\d{{3}}|{decimal}\d)")
-    return any(proof.match(cell) and dialect.is_number(cell) for cells in rows for cell in cells)
+    return any(
+        proof.match(cell) and dialect.is_number(cell) for cells in read.rows for cell in cells
+    )
 
 
 def _different(tied: dict[Dialect, Reading]) -> list[Dialect]:
@@ -196,18 +209,36 @@ def _sample(lines: Sequence[str]) -> Sequence[str]:
     return [*lines[:_HEAD], *lines[middle : middle + 60], *lines[-60:]]
 
 
-def _rows(dialect: Dialect, lines: Sequence[str]) -> list[list[str]]:
-    rows = (dialect.split(line) for line in lines)
-    return [cells for cells in rows if dialect.is_data(cells)]
+@dataclass(frozen=True)
+class _Rows:
+    """Rows of numbers that a dialect reads, and their cells that are neither number nor empty."""
+
+    rows: list[list[str]]
+    unread: int
 
 
-def _unread(dialect: Dialect, rows: list[list[str]]) -> int:
-    """Count the cells that are neither a number nor 'no value'."""
-    return sum(
-        not dialect.is_number(cell) and cell.casefold() not in MISSING
-        for cells in rows
-        for cell in cells
-    )
+def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
+    rows, unread = [], 0
+    apart = dialect.delimiter not in ("spaces", dialect.decimal, dialect.thousands)
+    all_numbers = _full_row(dialect.delimiter, dialect.decimal).fullmatch
+    for line in lines:
+        if apart and all_numbers(line):
+            rows.append(line.split(dialect.delimiter))
+            continue
+        cells = dialect.split(line)
+        if dialect.is_data(cells):
+            rows.append(cells)
+            unread += sum(
+                not dialect.is_number(cell) and cell.casefold() not in MISSING for cell in cells
+            )
+    return _Rows(rows, unread)
+
+
+@lru_cache
+def _full_row(delimiter: str, decimal: str) -> re.Pattern[str]:
+    """Match a line of bare numbers: the usual row, found fast."""
+    number = number_pattern(decimal, "").pattern
+    return re.compile(rf"{number}(?:{re.escape(delimiter)}{number})+", re.ASCII)
 
 
 def _numbers(dialect: Dialect, rows: list[list[str]]) -> Reading:

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import groupby
+from itertools import pairwise
 from pathlib import Path
+
+import numpy as np
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource, SheetSource, TextSource
@@ -36,6 +38,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
         above = _rows_above(source, block)
         describe_columns(block, above, unnamed)
         _settle_unnamed(source, block, unnamed, path)
+        _settle_clocks(source, block, path)
     return blocks
 
 
@@ -68,17 +71,37 @@ def _settle_unnamed(source: CellSource, block: FoundTable, unnamed: str, path: P
     block.notes.append(f"{surplus} phantom column(s) without name and values left out")
 
 
+def _settle_clocks(source: CellSource, block: FoundTable, path: Path) -> None:
+    """Mark columns of times of day; a time of day in some rows only is an error."""
+    positions = source.clock_columns(block.first)
+    odd = source.odd_clock_row(block)
+    if odd is not None:
+        raise InputError(
+            "a time of day stands in some rows of the table only",
+            "correct the row",
+            path,
+            odd + 1,
+            value=" | ".join(source.cells(odd))[:80],
+        )
+    for column in block.columns:
+        if column.position in positions:
+            column.unit, column.clock = "s", True
+            block.notes.append(f"column {column.position + 1} is a time of day, read in s")
+
+
 def _runs(source: CellSource) -> list[FoundTable]:
     """Consecutive rows of data; what may interrupt a table is decided here."""
     runs: list[FoundTable] = []
     gap: list[int] = []
-    kinds, widths = source.kinds, source.widths
-    for is_data, group in groupby(range(len(kinds)), lambda row: kinds[row] in DATA):
-        rows = list(group)
-        if not is_data:
+    widths = source.widths
+    is_data = np.array([kind in DATA for kind in source.kinds], dtype=bool)
+    edges = [0, *(np.flatnonzero(np.diff(is_data)) + 1).tolist(), len(is_data)]
+    for start, stop in pairwise(edges):
+        rows = list(range(start, stop))
+        if start == stop or not is_data[start]:
             gap = rows
             continue
-        width = max(widths[row] for row in rows)
+        width = max(widths[start:stop])
         last = runs[-1] if runs else None
         if last is not None and _continues(source, last, gap, widths[rows[0]]):
             _note_gap(source, last, gap)
@@ -127,6 +150,8 @@ def _trim(source: CellSource, block: FoundTable, path: Path) -> None:
         row = block.rows_of_data.pop()
         lengths.pop()
         block.notes.append(f"line {row + 1}, the last, is cut off and was dropped")
+    if len(set(lengths)) <= 1:
+        return
     for index in range(1, len(lengths)):
         if lengths[index] > lengths[index - 1]:
             raise InputError(

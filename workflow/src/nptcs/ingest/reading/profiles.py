@@ -3,17 +3,19 @@
 from __future__ import annotations
 
 import re
+import unicodedata
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
+from functools import lru_cache
 from pathlib import Path
 from typing import Literal, Self
 
-import yaml
 from pydantic import Field, ValidationError, model_validator
 
 from nptcs.config.base import Strict
 from nptcs.errors import InputError
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
+from nptcs.yaml_files import read_yaml
 
 Quantity = Literal[
     "time",
@@ -27,7 +29,13 @@ Quantity = Literal[
     "strain_xx",
     "strain_yy",
     "stretch",
+    "frame",
+    "trigger",
+    "x",
+    "y",
 ]
+UNITLESS: tuple[Quantity, ...] = ("frame", "trigger", "x", "y")
+"""Numbers of frames, trigger levels and places in a picture: taken as they are."""
 Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
 StrainSource = Literal["extensometer", "dic", "strain_gauge", "crosshead", "unspecified"]
 DELIMITERS = {",": ",", ";": ";", "tab": "\t", "|": "|", "spaces": "spaces"}
@@ -72,6 +80,14 @@ class FormatProfile(Strict):
     )
     missing: tuple[str, ...] = Field((), description="Further words for 'no value'")
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")
+    loading: Literal["", "tension", "compression", "flexure"] = Field(
+        "", description="What such files are, whatever their words say; empty: as they say"
+    )
+    window: dict[Literal["x", "y"], tuple[float, float]] = Field(
+        default_factory=dict,
+        description="Part of a strain field, in its own coordinates, over which the mean is taken; "
+        "empty: all of it",
+    )
     labels: dict[Label, tuple[str, ...]] = Field(
         default_factory=dict, description="Header keys of dimensions and specimen id"
     )
@@ -106,28 +122,42 @@ class FormatProfile(Strict):
 
 
 def normalise(name: str) -> str:
-    """Write a column name the one way in which names are compared."""
+    """Write a column name the one way in which names are compared: no case, accents, wide forms."""
+    if not name.isascii():
+        wide = unicodedata.normalize("NFKD", name)
+        name = "".join(mark for mark in wide if not unicodedata.combining(mark))
     return re.sub(r"[\s_]+", " ", name.replace('"', " ")).strip().strip(":").strip().casefold()
+
+
+_PREFIXES = re.compile(
+    r"^(?:(?:c|ch|chan|channel|kanal|canal|voie|ai|ad|analog|analog in|sensor|signal)"
+    r"[ .:-]*\d*[ .:-]+|\d+[ .:-]+|mx\d\w* |(?:primary|universal|main|station|machine|axial|"
+    r"mts|instron|zwick|measured|actual) )+"
+)
+_SUFFIXES = re.compile(
+    r"(?:[ .:-]+(?:filtered|filt|unfiltered|raw|signal|channel|value|wert|istwert|measured|"
+    r"actual|gefiltert|filtre|filtrado|filtrato)|[ ]*\((?:filtered|raw)\))+$"
+)
+
+
+def without_channel(name: str) -> str:
+    """Take a channel's prefix and suffix off a name: ``C_1_Force``, ``Ch Disp.``, ``Load_Raw``."""
+    short = _SUFFIXES.sub("", _PREFIXES.sub("", normalise(name)))
+    return short.strip(" .:-") or normalise(name)
 
 
 def name_matches(name: str, pattern: str) -> bool:
     """Tell whether a column name (without its unit) is what a profile calls it."""
-    return fnmatchcase(normalise(name), normalise(pattern))
+    return fnmatchcase(_normalised(name), _normalised(pattern))
+
+
+_normalised = lru_cache(maxsize=4096)(normalise)
 
 
 def read_profile(path: str | Path) -> FormatProfile:
     """Read one profile; raise InputError with the key at fault."""
     path = Path(path)
-    try:
-        content = yaml.safe_load(path.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot be read: {error.strerror}", "check the path", path) from error
-    except UnicodeDecodeError as error:
-        raise InputError("is not UTF-8", "save it as UTF-8", path) from error
-    except yaml.YAMLError as error:
-        mark = getattr(error, "problem_mark", None)
-        line = None if mark is None else mark.line + 1
-        raise InputError("is not YAML", "quote texts with special marks", path, line) from error
+    content = read_yaml(path)
     if not isinstance(content, dict):
         raise InputError("is not a profile", "write 'key: value' lines", path)
     try:

@@ -2,13 +2,20 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource
-from nptcs.ingest.reading.profiles import FormatProfile, name_matches, normalise
+from nptcs.ingest.reading.profiles import (
+    UNITLESS,
+    FormatProfile,
+    name_matches,
+    normalise,
+    without_channel,
+)
 from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
 
@@ -32,6 +39,8 @@ class Test:
     source: CellSource
     block: FoundTable
     quantities: dict[str, Column]
+    strain_source: str = ""
+    """``crosshead`` where the strain is a travel in a unit of strain."""
 
     def serves(self, role: str) -> bool:
         """Tell whether the table holds what the role needs."""
@@ -39,9 +48,16 @@ class Test:
 
 
 def tests_in(
-    source: CellSource, blocks: Sequence[FoundTable], profile: FormatProfile, path: Path
+    source: CellSource,
+    blocks: Sequence[FoundTable],
+    profile: FormatProfile,
+    path: Path,
+    plain: FormatProfile | None,
 ) -> list[Test]:
-    """Every test in the tables of one source, tests side by side told apart."""
+    """Every test in the tables of one source, tests side by side told apart.
+
+    Where the profile's own names leave load or strain open, those of `plain` are tried.
+    """
     found: list[Test] = []
     for block in blocks:
         label = block.part if not source.part else source.part
@@ -55,8 +71,9 @@ def tests_in(
                 if not groups or part in ("", group)
             ]
             name = label if not group else group if len(blocks) == 1 else f"{label}/{group}"
-            quantities = map_columns(columns, profile, path, block)
-            found.append(Test(name, source, block, quantities))
+            quantities = map_columns(columns, profile, path, block, plain)
+            strain_source = by_unit(quantities, profile, block)
+            found.append(Test(name, source, block, quantities, strain_source))
     return found
 
 
@@ -72,9 +89,16 @@ def _groups(block: FoundTable, profile: FormatProfile) -> list[str]:
 
 
 def map_columns(
-    columns: Sequence[Column], profile: FormatProfile, path: Path, block: FoundTable
+    columns: Sequence[Column],
+    profile: FormatProfile,
+    path: Path,
+    block: FoundTable,
+    plain: FormatProfile | None = None,
 ) -> dict[str, Column]:
     """Quantity → column, by the profile's names or order.
+
+    Names count as they are, then without the prefix and suffix of a channel; then, where no load
+    or no strain was found, the names of `plain` in the same way.
 
     Raises
     ------
@@ -93,13 +117,44 @@ def map_columns(
         pairs = zip(profile.columns_in_order, columns, strict=True)
         return {quantity: column for quantity, column in pairs if quantity != "-"}
     mapped: dict[str, Column] = {}
-    taken: set[int] = set()
-    for quantity, names in profile.columns.items():
-        for name in names:
+    for known in (profile, plain):
+        for bare in (False, True):
+            if known is None:
+                continue
+            wanted = {str(name) for name in known.columns} - set(mapped)
+            if known is not profile or bare:
+                wanted &= _lacking(mapped, columns)
+            _map_names(mapped, wanted, columns, known, bare, path, block)
+    order = [*profile.columns, *(plain.columns if plain is not None else ())]
+    return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
+
+
+def _lacking(mapped: dict[str, Column], columns: Sequence[Column]) -> set[str]:
+    """Quantities of which none of their kind is mapped yet; a time must state its unit."""
+    kinds = (LOADS, (*STRAINS, "displacement"))
+    lacking = {name for kind in kinds if not set(kind) & set(mapped) for name in kind}
+    lacking |= set(UNITLESS) - set(mapped)
+    return lacking | ({"time"} - set(mapped) if any(c.unit for c in columns) else set())
+
+
+def _map_names(
+    mapped: dict[str, Column],
+    wanted: set[str],
+    columns: Sequence[Column],
+    profile: FormatProfile,
+    bare: bool,
+    path: Path,
+    block: FoundTable,
+) -> None:
+    """Add the quantities of `wanted` whose name a free column has, first name first."""
+    taken = {column.position for column in mapped.values()}
+    for quantity in (name for name in profile.columns if name in wanted):
+        for name in profile.columns[quantity]:
             fitting = [
                 column
                 for column in columns
-                if column.position not in taken and name_matches(column.name, name)
+                if column.position not in taken
+                and name_matches(without_channel(column.name) if bare else column.name, name)
             ]
             if len(fitting) > 1:
                 raise _several(path, block, quantity, name, fitting)
@@ -107,7 +162,44 @@ def map_columns(
                 mapped[quantity] = fitting[0]
                 taken.add(fitting[0].position)
                 break
-    return mapped
+
+
+_BY_UNIT = {
+    "strain": "extension",
+    "extension": "strain",
+    "displacement": "strain",
+    "force": "stress",
+    "stress": "force",
+}
+_TRAVEL = re.compile(
+    r"crosshead|travel|travers|position|stroke|course|weg\b|carrera|corsa|ход|行程"
+)
+
+
+def by_unit(mapped: dict[str, Column], profile: FormatProfile, block: FoundTable) -> str:
+    """Let the unit decide what a column is where its name says another quantity.
+
+    ``Axial Extensometer`` in mm/mm is a strain, ``Strain 1`` in mm an extension. A column whose
+    quantity is already there, or whose unit belongs to neither, stays as it is.
+
+    Returns
+    -------
+    str
+        ``crosshead`` if a travel became the strain, else empty.
+    """
+    source = ""
+    for quantity, other in _BY_UNIT.items():
+        column = mapped.get(quantity)
+        unit = profile.wrong_units.get(quantity) or (column and column.unit)  # type: ignore[call-overload]
+        if column is None or not unit or find_unit(DIMENSION[quantity], unit):
+            continue
+        if unit in ("1", "-") or find_unit(DIMENSION[other], unit) is None or other in mapped:
+            continue
+        mapped[other] = mapped.pop(quantity)
+        block.notes.append(f"column '{column.name}' in {unit} is read as {other}")
+        if quantity == "displacement" and _TRAVEL.search(normalise(column.name)):
+            source = "crosshead"
+    return source
 
 
 def _several(
@@ -211,6 +303,8 @@ def unit_of(
     InputError
         If no unit is stated nor declared, or it is not one of the quantity.
     """
+    if quantity in UNITLESS:
+        return column.unit or "", 1.0, ""
     choices = ", ".join(FACTORS[DIMENSION[quantity]])
     note = ""
     wrong = profile.wrong_units.get(quantity)  # type: ignore[call-overload]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -10,19 +11,22 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.arrays import Array
+from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
+from nptcs.ingest.reading.binary_tables import is_binary_table, read_binary_table
 from nptcs.ingest.reading.cells import CellSource, TextSource, split_lines
+from nptcs.ingest.reading.clock import PlainLines, clocks_to_seconds, join_grouped_digits
 from nptcs.ingest.reading.decode import decode
 from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.labels import LabelValue, read_labels
-from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
+from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, Quantity
 from nptcs.ingest.reading.quantities import Test, choose_test, tests_in, unit_of
-from nptcs.ingest.reading.table_columns import Column
 from nptcs.ingest.reading.units import FACTORS
 from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
 
 HEAD_LINES = 60
+_WORD = re.compile(r"[^\W\d_]{2}|[|\[(%]")
 
 
 @dataclass
@@ -35,6 +39,8 @@ class RawFile:
         Quantity → readings, all of one length, in s, N, mm, MPa or dimensionless.
     columns, units : dict of str to str
         Quantity → column name and unit as found.
+    head, names : tuple of str
+        Lines above the names; all names of the table, also of columns that are not used.
     """
 
     path: Path
@@ -44,6 +50,7 @@ class RawFile:
     values: dict[str, Array]
     columns: dict[str, str]
     units: dict[str, str]
+    strain_source: str = "unspecified"
     part: str = ""
     encoding: str = ""
     delimiter: str = ""
@@ -51,6 +58,8 @@ class RawFile:
     header_line: int | None = None
     first_line: int | None = None
     labels: dict[str, LabelValue] = field(default_factory=dict)
+    head: tuple[str, ...] = ()
+    names: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
@@ -68,6 +77,8 @@ class OpenedFile:
     encoding: str
     sha256: str
     lines: list[str] = field(default_factory=list)
+    clocks: PlainLines | None = None
+    largest_width: int = FileLimits().columns
     sheets: list[CellSource] = field(default_factory=list)
     notes: tuple[str, ...] = ()
 
@@ -87,17 +98,27 @@ def vocabulary(profiles: Mapping[str, FormatProfile]) -> set[str]:
 
 
 def open_file(
-    path: Path, profiles: Mapping[str, FormatProfile], profile: FormatProfile
+    path: Path,
+    profiles: Mapping[str, FormatProfile],
+    profile: FormatProfile,
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> OpenedFile:
-    """Read a file's bytes and decode them, by the profile's encoding if it states one."""
+    """Read a file's bytes and decode them, by the profile's encoding if it states one.
+
+    Raises
+    ------
+    InputError
+        If it is missing, empty, binary, or larger than the limits.
+    """
     try:
+        _refuse_larger(path, "file_mb", path.stat().st_size / 1e6, limits.file_mb, "MB")
         raw = path.read_bytes()
     except OSError as error:
         what = "file is missing" if isinstance(error, FileNotFoundError) else "cannot be read"
         raise InputError(what, "check the name in the sheet", path) from error
     digest = hashlib.sha256(raw).hexdigest()
     if is_workbook(raw):
-        sheets, notes = read_workbook(path, raw, frozenset(profile.missing))
+        sheets, notes = read_workbook(path, raw, frozenset(profile.missing), limits)
         head = "\n".join(
             "\n".join(
                 [sheet.part, *("\t".join(map(_text, row)) for row in sheet.rows[:HEAD_LINES])]
@@ -105,11 +126,37 @@ def open_file(
             for sheet in sheets
         )
         return OpenedFile(path, head, "", digest, sheets=list(sheets), notes=notes)
+    if is_binary_table(raw):
+        tables = read_binary_table(path, raw, frozenset(profile.missing), limits)
+        head = "\n".join("\t".join(map(_text, row)) for one in tables for row in one.rows[:1])
+        return OpenedFile(path, head, "", digest, sheets=list(tables))
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
-    lines = split_lines(decoded.text)
+    plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
+    lines = plain.lines
+    _refuse_larger(path, "rows", len(lines), limits.rows, "lines")
+    longest = max(map(len, lines))
+    _refuse_larger(path, "line_length", longest, limits.line_length, "characters in a line")
     note = f"encoding {decoded.encoding}: {decoded.note}"
-    head = "\n".join(lines[:HEAD_LINES])
-    return OpenedFile(path, head, decoded.encoding, digest, lines=lines, notes=(note,))
+    head = "\n".join(line for line in lines[:HEAD_LINES] if _WORD.search(line))
+    return OpenedFile(
+        path,
+        head,
+        decoded.encoding,
+        digest,
+        lines=plain.lines,
+        clocks=plain,
+        largest_width=limits.columns,
+        notes=(note,),
+    )
+
+
+def _refuse_larger(path: Path, limit: str, size: float, allowed: float, what: str) -> None:
+    if size > allowed:
+        raise InputError(
+            f"has {size:.6g} {what}, {allowed:.6g} are allowed",
+            f"export one test per file, or raise ingest.limits.{limit}",
+            path,
+        )
 
 
 def _text(cell: object) -> str:
@@ -139,6 +186,7 @@ def read_raw(
     part: str = "",
     specimen: str = "",
     role: str = "force and strain",
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> RawFile:
     """Read the table of one test from a raw file.
 
@@ -156,24 +204,29 @@ def read_raw(
         Specimen id; chooses the part of that name if no part is given.
     role : str
         ``force``, ``strain`` or ``force and strain``: what the table must hold.
+    limits : FileLimits
+        Largest file that is read.
 
     Raises
     ------
     InputError
         With the line, the column and the choices.
     """
-    opened = open_file(path, profiles, declared or profiles[PLAIN])
+    opened = open_file(path, profiles, declared or profiles[PLAIN], limits)
     if declared is not None:
-        return _read(opened, declared, ("profile named by the sheet",), part, specimen, role)
+        reasons = ("profile named by the sheet",)
+        return _read(opened, declared, profiles[PLAIN], reasons, part, specimen, role)
     fitting, reason = matching(opened, profiles)
     tables: list[RawFile] = []
     errors: list[InputError] = []
-    for profile in fitting:
-        again = open_file(path, profiles, profile) if profile.encoding else opened
-        try:
-            tables.append(_read(again, profile, (reason,), part, specimen, role, detected=True))
-        except InputError as error:
-            errors.append(error)
+    for plain in (None, profiles[PLAIN]):
+        for profile in fitting if not tables else ():
+            again = open_file(path, profiles, profile, limits) if profile.encoding else opened
+            try:
+                table = _read(again, profile, plain, (reason,), part, specimen, role, detected=True)
+                tables.append(table)
+            except InputError as error:
+                errors.append(error)
     if not tables:
         raise errors[0]
     if len({_reading(table) for table in tables}) > 1:
@@ -203,13 +256,34 @@ def sources_of(
         )
     if opened.kind == "workbook":
         return opened.sheets, None
-    dialect = find_dialect(opened.lines, profile, opened.path)
-    return [TextSource(opened.path, opened.lines, dialect, frozenset(profile.missing))], dialect
+    dialect = _dialect(opened, profile)
+    clocks = opened.clocks or PlainLines([])
+    source = TextSource(
+        opened.path,
+        opened.lines,
+        dialect,
+        frozenset(profile.missing),
+        clocks.originals,
+        clocks.counts,
+    )
+    return [source], dialect
+
+
+def _dialect(opened: OpenedFile, profile: FormatProfile) -> Dialect:
+    """Find the dialect; a delimiter of the profile that the file does not keep is looked for."""
+    try:
+        return find_dialect(opened.lines, profile, opened.path)
+    except InputError:
+        if not profile.delimiter:
+            raise
+        free = profile.model_copy(update={"delimiter": "", "thousands": ""})
+        return find_dialect(opened.lines, free, opened.path)
 
 
 def _read(
     opened: OpenedFile,
     profile: FormatProfile,
+    plain: FormatProfile | None,
     reasons: tuple[str, ...],
     part: str,
     specimen: str,
@@ -223,12 +297,13 @@ def _read(
         test
         for source in sources
         for test in tests_in(
-            source, find_tables(source, path, profile.unnamed_columns), profile, path
+            source, find_tables(source, path, profile.unnamed_columns), profile, path, plain
         )
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     values, units, notes = _values(test, profile, path, role)
     block = test.block
+    _refuse_larger(path, "columns", block.width, opened.largest_width, "columns")
     return RawFile(
         path,
         profile,
@@ -237,6 +312,7 @@ def _read(
         values,
         {quantity: column.name for quantity, column in test.quantities.items()},
         units,
+        strain_source=test.strain_source or profile.strain_source,
         part=test.label if len(tests) > 1 else "",
         encoding=opened.encoding,
         delimiter="" if dialect is None else dialect.delimiter,
@@ -244,6 +320,8 @@ def _read(
         header_line=None if block.names_row is None else block.names_row + 1,
         first_line=block.first + 1,
         labels=header_labels(test, profile, dialect),
+        head=head_lines(test),
+        names=tuple(column.name for column in block.columns if column.name),
         notes=(*reasons, *opened.notes, *block.notes, *notes),
     )
 
@@ -256,8 +334,11 @@ def _values(
     line = (test.block.names_row if test.block.names_row is not None else test.block.first) + 1
     stated = any(column.unit for column in test.block.columns)
     units, scales, notes = {}, [], []
+    if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
+        quantities = {name: column for name, column in quantities.items() if name != "time"}
+        notes.append("time: no unit, left out; nothing of one file rests on it")
     for quantity, column in quantities.items():
-        if quantity == "force" and role == "strain" and not _has_unit(column, profile):
+        if quantity == "force" and role == "strain" and not _has_unit("force", test, profile):
             units[quantity] = ""
             scales.append(1.0)
             notes.append("force: no unit, to be told from the force file's peak")
@@ -274,8 +355,17 @@ def _values(
     return dict(zip(quantities, numbers[filled].T, strict=True)), units, notes
 
 
-def _has_unit(column: Column, profile: FormatProfile) -> bool:
-    return bool(column.unit or "force" in profile.units or "force" in profile.wrong_units)
+def _has_unit(quantity: Quantity, test: Test, profile: FormatProfile) -> bool:
+    stated = test.quantities[quantity].unit
+    return bool(stated or quantity in profile.units or quantity in profile.wrong_units)
+
+
+def head_lines(test: Test) -> tuple[str, ...]:
+    """Return the filled lines above the names, at most `HEAD_LINES`, and the name of the sheet."""
+    last = test.block.names_row if test.block.names_row is not None else test.block.first
+    rows = (test.source.cells(row) for row in range(max(0, last - HEAD_LINES), last))
+    lines = (" ".join(cell for cell in cells if cell) for cells in rows)
+    return tuple(line for line in (test.source.part, *lines) if line)
 
 
 def header_labels(

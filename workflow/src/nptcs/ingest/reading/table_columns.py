@@ -14,12 +14,16 @@ SMALLEST_TABLE = 5
 
 @dataclass
 class Column:
-    """One column: its position from 0, its name and unit as found, the group above it."""
+    """One column: its position from 0, its name and unit as found, the group above it.
+
+    `clock` says that its cells are times of day.
+    """
 
     position: int
     name: str
     unit: str | None = None
     group: str = ""
+    clock: bool = False
 
 
 @dataclass
@@ -103,6 +107,8 @@ def _groups(cells: list[str], width: int) -> list[str]:
     filled = [cell for cell in cells if cell.strip()]
     if not filled or len(cells) < max(2, width - 1) or any(is_unit(cell) for cell in filled):
         return []
+    if any(cell.endswith(":") or not any(mark.isalpha() for mark in cell) for cell in filled):
+        return []  # a header entry, such as 'Speed [mm/min]: 500'
     labels, label = [], ""
     for position in range(width):
         label = _cell(cells, position) or label

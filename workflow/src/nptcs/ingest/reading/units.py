@@ -10,7 +10,31 @@ _POUND = 4.4482216152605
 _PSI = _POUND / _INCH**2
 
 FACTORS: dict[str, dict[str, float]] = {
-    "time": {"s": 1, "sec": 1, "sec.": 1, "seconds": 1, "ms": 1e-3, "min": 60, "h": 3600, "秒": 1},
+    "time": {
+        "s": 1,
+        "sec": 1,
+        "sec.": 1,
+        "seconds": 1,
+        "ms": 1e-3,
+        "min": 60,
+        "h": 3600,
+        "秒": 1,
+        "с": 1,
+        "с.": 1,
+        "сек": 1,
+        "сек.": 1,
+        "мс": 1e-3,
+        "мин": 60,
+        "ч": 3600,
+        "毫秒": 1e-3,
+        "分": 60,
+        "seg": 1,
+        "seg.": 1,
+        "secs": 1,
+        "second": 1,
+        "sekunden": 1,
+        "msec": 1e-3,
+    },
     "force": {
         "N": 1,
         "kN": 1e3,
@@ -24,8 +48,18 @@ FACTORS: dict[str, dict[str, float]] = {
         "kip": 1e3 * _POUND,
         "kgf": 9.80665,
         "gf": 9.80665e-3,
+        "kp": 9.80665,
+        "kg": 9.80665,
+        "tf": 9806.65,
         "牛": 1,
+        "牛顿": 1,
         "千牛": 1e3,
+        "Н": 1,
+        "кН": 1e3,
+        "МН": 1e6,
+        "даН": 10,
+        "кгс": 9.80665,
+        "тс": 9806.65,
     },
     "length": {
         "mm": 1,
@@ -39,6 +73,11 @@ FACTORS: dict[str, dict[str, float]] = {
         "inch": _INCH,
         "inches": _INCH,
         "毫米": 1,
+        "微米": 1e-3,
+        "мм": 1,
+        "см": 10,
+        "м": 1e3,
+        "мкм": 1e-3,
     },
     "stress": {
         "MPa": 1,
@@ -50,7 +89,20 @@ FACTORS: dict[str, dict[str, float]] = {
         "Pa": 1e-6,
         "psi": _PSI,
         "ksi": 1e3 * _PSI,
+        "kgf/mm²": 9.80665,
+        "kgf/mm2": 9.80665,
+        "kgf/cm²": 0.0980665,
+        "kgf/cm2": 0.0980665,
         "兆帕": 1,
+        "МПа": 1,
+        "ГПа": 1e3,
+        "кПа": 1e-3,
+        "Па": 1e-6,
+        "Н/мм²": 1,
+        "Н/мм2": 1,
+        "кгс/мм²": 9.80665,
+        "кгс/мм2": 9.80665,
+        "кгс/см²": 0.0980665,
     },
     "strain": {
         "1": 1,
@@ -71,9 +123,30 @@ FACTORS: dict[str, dict[str, float]] = {
         "ustrain": 1e-6,
         "microstrain": 1e-6,
         "mε": 1e-3,
+        "мм/мм": 1,
+        "м/м": 1,
+        "мкм/м": 1e-6,
+        "微应变": 1e-6,
+        "µd": 1e-6,
     },
     "stretch": {"1": 1, "-": 1, "mm/mm": 1, "m/m": 1},
-    "area": {"mm²": 1, "mm2": 1, "mm^2": 1, "cm²": 100, "cm2": 100, "cm^2": 100, "in²": _INCH**2},
+    "count": {"1": 1, "-": 1},
+    "area": {
+        "mm²": 1,
+        "mm2": 1,
+        "mm^2": 1,
+        "cm²": 100,
+        "cm2": 100,
+        "cm^2": 100,
+        "in²": _INCH**2,
+        "in2": _INCH**2,
+        "in^2": _INCH**2,
+        "sq in": _INCH**2,
+        "мм²": 1,
+        "мм2": 1,
+        "см²": 100,
+        "平方毫米": 1,
+    },
 }
 OTHER_UNITS = frozenset(
     [
@@ -115,6 +188,10 @@ DIMENSION = {
     "strain_xx": "strain",
     "strain_yy": "strain",
     "stretch": "stretch",
+    "frame": "count",
+    "trigger": "count",
+    "x": "count",
+    "y": "count",
     "width": "length",
     "thickness": "length",
     "gauge_length": "length",
@@ -132,6 +209,8 @@ def clean_unit(text: str) -> str:
     bracketed = _BRACKETS.fullmatch(text)
     if bracketed:
         text = next(group for group in bracketed.groups() if group is not None).strip()
+    wide = unicodedata.normalize("NFKC", text) if not text.isascii() else text
+    text = wide if any(wide in units for units in FACTORS.values()) else text
     return text.replace("\u03bc", "\u00b5").replace("％", "%")
 
 

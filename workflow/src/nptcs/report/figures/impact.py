@@ -56,10 +56,10 @@ def impact_bars(
             edgecolor="white",
             label=words(rule),
         )
-    printed = by_rule[rules[0]]["published_impact"].to_numpy()
-    if np.isfinite(printed).any():
-        axes.plot(printed, place, "|", color="black", ms=26, mew=1.6)
-        axes.plot([], [], "|", color="black", ms=8, mew=1.6, label="printed, table 9 (FE)")
+    published = by_rule[rules[0]]["published_impact"].to_numpy()
+    if np.isfinite(published).any():
+        axes.plot(published, place, "|", color="black", ms=26, mew=1.6)
+        axes.plot([], [], "|", color="black", ms=8, mew=1.6, label="published, table 9 (FE)")
     axes.axvline(0, color="black", linewidth=0.8)
     axes.set_yticks(place, [labels[key] for key in order])
     axes.grid(visible=False, axis="y")

@@ -56,8 +56,8 @@ def load_displacement(table: pd.DataFrame) -> Figure:
     """
     figure, axes = _section_panel(table, "vertical load [N]", "displacement [mm]")
     _line_a_rubber(axes, table, "spoke_c10_mpa", "load_n", "displacement_mm")
-    printed = table["published_displacement_mm"]
-    axes.plot(table["load_n"], printed, "o", mfc="none", mec="black", ms=9, label="_published")
+    published = table["published_displacement_mm"]
+    axes.plot(table["load_n"], published, "o", mfc="none", mec="black", ms=9, label="_published")
     axes.plot([], [], "o", mfc="none", mec="black", ms=8, label="printed")
     _rubber_legend(axes)
     return figure
@@ -91,7 +91,7 @@ def differences(table: pd.DataFrame, limit: float) -> Figure:
     limit : float
         Largest difference on the axis, in percent, the same for all sections.
     """
-    figure, axes = _section_panel(table, "spoke C10 [MPa]", "computed − printed [%]")
+    figure, axes = _section_panel(table, "spoke C10 [MPa]", "computed − published [%]")
     series = {label: table[column].to_numpy() for column, label in DIFFERENCES.items()}
     _grouped_bars(axes, [f"{c10:g}" for c10 in table["spoke_c10_mpa"]], series)
     axes.axhline(0, color="black", linewidth=0.8)
@@ -120,7 +120,8 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
         "LCA, paper": first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
-        series[f"LCA, ours, {SECTION_NAMES[str(section)]}"] = rows["stiffness_n_per_mm"].to_numpy()
+        name = f"LCA, computed, {SECTION_NAMES[str(section)]}"
+        series[name] = rows["stiffness_n_per_mm"].to_numpy()
     _grouped_bars(axes, [f"{c10:g}" for c10 in first["spoke_c10_mpa"]], series)
     figure.legend(loc="outside lower left", ncols=2)
     return figure
@@ -166,7 +167,7 @@ def _grouped_bars(axes: Axes, groups: Sequence[str], series: dict[str, np.ndarra
 
 
 @styled
-def ring_neutral_line(line: pd.DataFrame, rim_diameter_mm: float) -> Figure:
+def deformed_ring(line: pd.DataFrame, rim_diameter_mm: float) -> Figure:
     """Draw the deformed middle line of the band over the undeformed one, figure 14.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Figures of computed results beside the published ones: tables 5 and 7, figure 14."""
+"""Figures that compare computed with published results: tables 5 and 7, figure 14."""
 
 from __future__ import annotations
 
@@ -149,7 +149,7 @@ def level_differences(
 def neutral_lines(
     lines: pd.DataFrame, column: str, title: str, order: Sequence[str], synthetic: bool = False
 ) -> Figure:
-    """Draw one displacement of the band's neutral line against the angle, a line a solver.
+    """Draw one displacement of the band's neutral line against the angle, one line per solver.
 
     Parameters
     ----------

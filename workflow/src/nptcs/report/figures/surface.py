@@ -76,7 +76,7 @@ def contours(
 ) -> Figure:
     """Draw a surface over two factors, and the cases at the same colour scale.
 
-    A disc that stands out of its surroundings is a case that the surface misses.
+    A disc that differs from its surroundings is a case that the surface misses.
 
     Parameters
     ----------

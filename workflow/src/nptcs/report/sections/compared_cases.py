@@ -30,7 +30,7 @@ def solver_order(results: Results) -> list[str]:
 def case_comparison(
     rows: pd.DataFrame, factors: list[str]
 ) -> tuple[pd.DataFrame, Mapping[str, Heading]]:
-    """Lay one study of ``stiffness_against_published.csv`` out with a row a case.
+    """Write one study of ``stiffness_against_published.csv`` with one row per case.
 
     Returns
     -------

@@ -12,10 +12,10 @@ from nptcs.report.figures.lca import (
     CONTACT,
     DIFFERENCES,
     contact_against_load,
+    deformed_ring,
     differences,
     fem_differences,
     load_displacement,
-    ring_neutral_line,
     stiffness_bars,
 )
 from nptcs.report.plots import plot
@@ -30,8 +30,8 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             "The model is solved with the spoke stiffness of table 10. The section constants that "
-            "the paper prints are those of another bending axis; both sections stand here, the "
-            "sandwich section and the one as printed, each beside the printed results of table "
+            "the paper prints are those of another bending axis. Both sections are shown here, the "
+            "sandwich section and the one as printed, each next to the printed results of table "
             f"11 (shear band C10 = {results.config.lca_validation.shear_band_c10_mpa:g} MPa)."
         ),
         Plots(
@@ -103,7 +103,7 @@ def _neutral_line_plots(results: Results) -> list[Plot]:
     rim = results.config.tyre.rim_diameter_mm
     return [
         plot(
-            ring_neutral_line(rows, rim),
+            deformed_ring(rows, rim),
             f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa",
         )
         for (_, load, c10), rows in results.table(LcaNeutralLine).groupby(

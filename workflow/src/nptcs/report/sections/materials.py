@@ -85,7 +85,8 @@ def _stress(model: Model, mode: str, constants: Array, stretch: Array) -> Array:
 
 
 def _range_plot(results: Results) -> list[Plot]:
-    joint = results.table(RangeTable)[results.table(RangeTable)["specimen"] == "all"]
+    ranges = results.table(RangeTable)
+    joint = ranges[ranges["specimen"] == "all"]
     if joint.empty:
         return []
     synthetic = results.rubbers_synthetic

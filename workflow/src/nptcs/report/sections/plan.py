@@ -66,7 +66,7 @@ PLANS: Mapping[ReportSection, SectionPlan] = {
     ReportSection.FURTHER: SectionPlan(further_section),
     ReportSection.PROVENANCE: SectionPlan(provenance_section),
 }
-"""All sections in reading order; `ReportSection.SUMMARY` stands above them."""
+"""All sections in reading order; `ReportSection.SUMMARY` comes before them."""
 
 
 def build_sections(results: Results, sheets: Sheets) -> list[Section]:

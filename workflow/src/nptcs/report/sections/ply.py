@@ -1,4 +1,4 @@
-"""Which ply the solvers were given, in words, beside table 2 of the paper."""
+"""Which ply the solvers were given, in words, and how it differs from table 2 of the paper."""
 
 from __future__ import annotations
 
@@ -17,7 +17,10 @@ def ply_words(results: Results) -> str:
     if not solvers:
         return ""
     sentences = []
+    named = {study.ply for study in results.config.studies if study.ply is not None}
     for ply in results.card.plies.values():
+        if named and ply.name not in named:
+            continue
         parts = []
         for name, quantity in ply.constants.items():
             unit = "" if quantity.unit == "1" else f" {quantity.unit}"

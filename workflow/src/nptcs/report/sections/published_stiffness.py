@@ -1,4 +1,4 @@
-"""Section of the report on computed stiffness beside the published one: tables 5, 7, figure 14."""
+"""Section of the report that compares computed with published stiffness: tables 5, 7, figure 14."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def published_stiffness_section(results: Results, sheets: Sheets) -> Section:
     title = "Computed stiffness against the paper's finite elements"
     blocks = [*_stiffness_blocks(results, sheets), *line_blocks(results)]
     if not blocks:
-        nothing = "No study of the configuration has published results beside computed ones."
+        nothing = "No study of the configuration has both published and computed results."
         return Section(ReportSection.PUBLISHED_STIFFNESS, title, (Text(nothing),))
     synthetic = sheet_of(sheets, StiffnessAgainstPublished).synthetic
     return Section(ReportSection.PUBLISHED_STIFFNESS, title, tuple(blocks), synthetic)
@@ -52,10 +52,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
     table = results.table(StiffnessAgainstPublished)
     if table.empty:
         return []
-    studies = [
-        results.config.study(name)
-        for name in results.table(StiffnessAgainstPublished)["study"].unique()
-    ]
+    studies = [results.config.study(name) for name in table["study"].unique()]
     bands = joined(f"±{percent:g} %" for percent in BANDS_PERCENT)
     return [
         Text(
@@ -91,9 +88,8 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    return plot(
-        parity(rows, f"study {study.name}", solver_order(results), synthetic), alt, synthetic
-    )
+    figure = parity(rows, f"study {study.name}", solver_order(results), synthetic)
+    return plot(figure, alt, synthetic)
 
 
 def _effects(results: Results, studies: list[Study], *, differences: bool) -> list[Plot]:
@@ -116,7 +112,7 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
 
 
 def _case_comparison(results: Results, sheets: Sheets, study: Study) -> TableView:
-    """Lay the cases of one study out, the solvers beside each other."""
+    """Show the cases of one study, the solvers next to each other."""
     table = results.table(StiffnessAgainstPublished)
     rows = table[table["study"] == study.name]
     view, headings = case_comparison(rows, [factor.name for factor in study.factors])

@@ -1,4 +1,4 @@
-"""Table 9 of the paper beside ours: impact values and their order, solver by solver."""
+"""Impact values and their order compared with table 9 of the paper, solver by solver."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ FILE = "results/tables/impact.csv"
 
 
 def ranking_blocks(results: Results) -> list[PageBlock]:
-    """Build the table of impact values beside table 9, and say whether the order is the same."""
-    printed = results.table(Impact).dropna(subset=["published_impact"])
-    if printed.empty:
+    """Build the table of impact values next to table 9, and say whether the order is the same."""
+    compared = results.table(Impact).dropna(subset=["published_impact"])
+    if compared.empty:
         return []
-    table, headings = published_ranking(printed)
+    table, headings = published_ranking(compared)
     entry = Entry(
         "impact_ranking",
         "Table 9 and ours: impact values with their rank by every rule",
@@ -31,48 +31,48 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
     )
     synthetic = any(
         results.study_is_synthetic(results.config.study(str(study)), str(solver))
-        for solver, study in printed[["solver", "study"]].drop_duplicates().to_numpy()
+        for solver, study in compared[["solver", "study"]].drop_duplicates().to_numpy()
     )
     return [
         Listing(
             "Is the ranking that of table 9?",
-            (*verdicts(results, printed), *near_tie_sentences(results, printed)),
+            (*verdicts(results, compared), *near_tie_sentences(results, compared)),
         ),
         table_view(table, entry, synthetic=synthetic),
     ]
 
 
-def published_ranking(printed: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Heading]]:
-    """Lay |impact| and rank of each solver out beside table 9, a row a rule and factor."""
+def published_ranking(compared: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, Heading]]:
+    """Write |impact| and rank of each solver next to table 9, one row per rule and factor."""
     keys = ["rule", "study", "factor"]
-    theirs = printed.drop_duplicates(keys)[[*keys, "published_impact"]]
-    place = {rule: number for number, rule in enumerate(printed["rule"].unique())}
-    theirs = theirs.assign(place=theirs["rule"].map(place))
-    theirs = theirs.sort_values(["place", "published_impact"], ascending=[True, False])
-    theirs = theirs.drop(columns="place")
-    theirs["published_rank"] = theirs.groupby("rule")["published_impact"].rank(ascending=False)
+    published = compared.drop_duplicates(keys)[[*keys, "published_impact"]]
+    place = {rule: number for number, rule in enumerate(compared["rule"].unique())}
+    published = published.assign(place=published["rule"].map(place))
+    published = published.sort_values(["place", "published_impact"], ascending=[True, False])
+    published = published.drop(columns="place")
+    ranks = published.groupby("rule")["published_impact"].rank(ascending=False)
     headings = {
         "published_impact": Heading("table 9, impact", "N/mm"),
         "published_rank": Heading("table 9, rank"),
     }
-    table = theirs
-    for solver, rows in printed.groupby("solver", sort=True):
-        ours = rows.set_index(keys)
-        table = table.join(ours["impact"].abs().rename(f"impact_{solver}"), on=keys)
-        table = table.join(ours["rank"].astype(float).rename(f"rank_{solver}"), on=keys)
+    table = published.assign(published_rank=ranks)
+    for solver, rows in compared.groupby("solver", sort=True):
+        computed = rows.set_index(keys)
+        table = table.join(computed["impact"].abs().rename(f"impact_{solver}"), on=keys)
+        table = table.join(computed["rank"].astype(float).rename(f"rank_{solver}"), on=keys)
         headings[f"impact_{solver}"] = Heading(f"{solver}, impact", "N/mm")
         headings[f"rank_{solver}"] = Heading(f"{solver}, rank")
     return table.reset_index(drop=True), headings
 
 
-def near_tie_sentences(results: Results, printed: pd.DataFrame) -> list[str]:
+def near_tie_sentences(results: Results, compared: pd.DataFrame) -> list[str]:
     """Name the pairs of factors whose order is not settled."""
     labels = {
         (study.name, name): label.label
         for study in results.config.studies
         for name, label in factor_labels(study).items()
     }
-    tied = printed[printed["near_tie_with"] != ""]
+    tied = compared[compared["near_tie_with"] != ""]
     pairs = {
         (str(study), *sorted((str(factor), partner)))
         for study, factor, partners in tied[["study", "factor", "near_tie_with"]].to_numpy()
@@ -85,7 +85,7 @@ def near_tie_sentences(results: Results, printed: pd.DataFrame) -> list[str]:
     ]
 
 
-def verdicts(results: Results, printed: pd.DataFrame) -> list[str]:
+def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
     """Say for each solver and rule whether its factors are ranked as in table 9."""
     labels = {
         (study.name, name): label.label
@@ -93,11 +93,11 @@ def verdicts(results: Results, printed: pd.DataFrame) -> list[str]:
         for name, label in factor_labels(study).items()
     }
     sentences = []
-    for solver, of_solver in printed.groupby("solver", sort=True):
+    for solver, of_solver in compared.groupby("solver", sort=True):
         for rule, rows in of_solver.groupby("rule", sort=False):
             if len(rows) < 2:
                 continue
-            ours, theirs = (
+            computed, published = (
                 " > ".join(
                     labels[key]
                     for key in rows.sort_values(by)[["study", "factor"]].itertuples(
@@ -107,8 +107,8 @@ def verdicts(results: Results, printed: pd.DataFrame) -> list[str]:
                 for by in ("rank", "published_rank")
             )
             same = bool((rows["rank"] == rows["published_rank"]).all())
-            verdict = "the same as in table 9" if same else f"NOT that of table 9 ({theirs})"
+            verdict = "the same as in table 9" if same else f"NOT that of table 9 ({published})"
             sentences.append(
-                f"{solver}, {words(str(rule))}, {len(rows)} factors: {ours}: {verdict}."
+                f"{solver}, {words(str(rule))}, {len(rows)} factors: {computed}: {verdict}."
             )
     return sentences

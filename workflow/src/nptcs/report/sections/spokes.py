@@ -46,14 +46,14 @@ def spoke_section(results: Results, sheets: Sheets) -> Section:
         Text(
             "One spoke, clamped at the rim; its foot at the band is moved along the radius and "
             "neither slides nor turns (section 4.3.1 of the paper). The stiffness is the slope of "
-            "the line through the origin over all points of the curve. R² stands in both "
+            "the line through the origin over all points of the curve. R² is given in both "
             "conventions, uncentred as software prints it for a line without intercept, and "
             "centred; the paper does not say which one it prints. " + ply_words(results)
         ),
         *(Text(words) for words in what_differs(lines)),
         Plots(
             "Force on one spoke against its displacement (figure 13 of the paper). Full lines are "
-            "computed, dashed ones their lines through the origin; a hollow mark stands where the "
+            "computed, dashed ones their lines through the origin; a hollow mark is where the "
             "line of table 10 ends. The paper draws its curves without numbers.",
             tuple(_plots(results)),
         ),
@@ -80,11 +80,11 @@ def _plots(results: Results) -> list[Plot]:
 
 def what_differs(lines: pd.DataFrame) -> list[str]:
     """Say in words how each solver's spokes differ from table 10."""
-    printed = lines.dropna(subset=[f"{direction}_difference_percent" for direction in DIRECTIONS])
+    compared = lines.dropna(subset=[f"{direction}_difference_percent" for direction in DIRECTIONS])
     return [
         f"{solver} (study {study}) against table 10. "
         + " ".join(_of_direction(rows.sort_values("spoke_c10_mpa"), name) for name in DIRECTIONS)
-        for (study, solver), rows in printed.groupby(["study", "solver"], sort=False)
+        for (study, solver), rows in compared.groupby(["study", "solver"], sort=False)
     ]
 
 
@@ -103,13 +103,13 @@ def _of_direction(rows: pd.DataFrame, direction: str) -> str:
             f"{last[stiffness] / first[stiffness]:.2f} times (table 10: "
             f"{last[f'published_{stiffness}'] / first[f'published_{stiffness}']:.2f} times)"
         )
-    theirs = rows[f"published_{direction}_r2"]
-    if theirs.isna().any():
+    published = rows[f"published_{direction}_r2"]
+    if published.isna().any():
         return text + "."
-    ours = {kind: rows[f"{direction}_r2_{kind}"] for kind in ("uncentred", "centred")}
-    nearer = min(ours, key=lambda kind: float(np.abs(ours[kind] - theirs).mean()))
-    spans = ", ".join(f"{kind} {_span(values)}" for kind, values in ours.items())
-    return f"{text}. R² is {spans}; printed {_span(theirs)}, nearer to the {nearer} one."
+    computed = {kind: rows[f"{direction}_r2_{kind}"] for kind in ("uncentred", "centred")}
+    nearer = min(computed, key=lambda kind: float(np.abs(computed[kind] - published).mean()))
+    spans = ", ".join(f"{kind} {_span(values)}" for kind, values in computed.items())
+    return f"{text}. R² is {spans}; printed {_span(published)}, nearer to the {nearer} one."
 
 
 def _span(values: pd.Series[float]) -> str:

@@ -50,7 +50,7 @@ def spoke_facts(lines: pd.DataFrame) -> list[Fact]:
             for name in DIRECTIONS
         ]
         what = (
-            f"Beside this, single spokes against table 10, by spoke C10 [MPa], study {study}, "
+            f"For comparison, single spokes against table 10, by spoke C10 [MPa], study {study}, "
             f"solver {solver}"
         )
         facts.append(Fact(what, "; ".join(parts), "spoke_stiffness.csv"))
@@ -59,22 +59,22 @@ def spoke_facts(lines: pd.DataFrame) -> list[Fact]:
 
 def _trend(levels: pd.DataFrame) -> str:
     """Compare the direction of the step from each level to the next."""
-    ours, theirs = (
+    computed, published = (
         levels[f"{kind}_mean_n_per_mm"].to_numpy(float) for kind in ("computed", "published")
     )
     level = levels["level"].to_numpy(float)
     steps = range(len(level) - 1)
-    against = [
-        f"{level[step]:g} to {level[step + 1]:g} ({ours[step + 1] - ours[step]:+.2f} N/mm, "
-        f"published {theirs[step + 1] - theirs[step]:+.2f})"
+    opposite = [
+        f"{level[step]:g} to {level[step + 1]:g} ({computed[step + 1] - computed[step]:+.2f} N/mm, "
+        f"published {published[step + 1] - published[step]:+.2f})"
         for step in steps
-        if (ours[step + 1] - ours[step]) * (theirs[step + 1] - theirs[step]) < 0
+        if (computed[step + 1] - computed[step]) * (published[step + 1] - published[step]) < 0
     ]
     change = (
         f"mean stiffness from lowest to highest level "
         f"{levels['computed_change_percent'].iloc[-1]:+.1f} %, published "
         f"{levels['published_change_percent'].iloc[-1]:+.1f} %"
     )
-    if against:
-        return f"{change}; steps in the other direction than published: {joined(against)}"
+    if opposite:
+        return f"{change}; steps in the other direction than published: {joined(opposite)}"
     return f"{change}; every step has the published direction"

@@ -74,7 +74,7 @@ def _fixed(value: object) -> str:
 
 
 def _levels(factor: Factor, design: pd.DataFrame) -> str:
-    """Write the levels as they stand in the design, with the rubber behind each measured one."""
+    """Write the levels as the design has them, with the rubber behind each measured one."""
     numbers = list(dict.fromkeys(design[factor.name]))
     if len(numbers) != len(factor.levels):
         return f"{min(numbers):g} to {max(numbers):g}, {len(numbers)} values"
@@ -108,7 +108,7 @@ def _choices(facts: SolverFacts) -> str:
 
 
 def _cases_of(results: Results, study: Study, entry: entries.Entry) -> TableView:
-    """Lay out the cases of one study; the messages stand last."""
+    """Show the cases of one study; the messages come last."""
     cases = results.table(Cases)[results.table(Cases)["study"] == study.name]
     names = [str(name) for name in cases if name not in ("study", "message", "key")]
     return table_view(
@@ -133,7 +133,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
         Text(
             "Coefficients are fitted in coded units, each factor scaled to [−1, 1] over its range, "
             "and given in both units at full precision: a surface can be evaluated from this "
-            "page. A printed coefficient stands beside ours as the paper rounds it."
+            "page. The published coefficient is next to it, rounded as the paper prints it."
         ),
         sheet_view(sheet_of(sheets, SurfaceQuality)),
     ]
@@ -200,8 +200,8 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
         Text(
             "Comprehensive impact value = average gradient × range of the factor (section 4.2.3 of "
             "the paper). The paper does not state how it averages, and no single rule gives all "
-            f"its numbers: every rule stands here. The ranking and the order of the bars are by "
-            f"{words(rules[0])}."
+            "its numbers, so that every rule is given here. The ranking and the order of the bars "
+            f"are by {words(rules[0])}."
         ),
         Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
         *ranking_blocks(results),

@@ -38,7 +38,7 @@ def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
 
 
 def _remarks(results: Results) -> tuple[str, ...]:
-    """Collect what is no failure but must be seen."""
+    """Collect what is not a failure but must be seen."""
     remarks = []
     if results.any_synthetic:
         synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
@@ -48,7 +48,8 @@ def _remarks(results: Results) -> tuple[str, ...]:
         )
     for name, reason in results.left_out().items():
         remarks.append(f"Specimen {name} is left out by the sheet: {reason}")
-    stray = results.table(Files)[results.table(Files)["status"] == "not named"]
+    files = results.table(Files)
+    stray = files[files["status"] == "not named"]
     if len(stray):
         remarks.append(
             "No row of the sheet names these files of the folder: " + joined(stray["file"])

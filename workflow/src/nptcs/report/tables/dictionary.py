@@ -12,7 +12,7 @@ from nptcs.report.tables.sheets import Sheet
 
 
 def dictionary_table(sheets: Sequence[Sheet]) -> pd.DataFrame:
-    """Lay out the columns of all sheets: heading, unit, name in the file, meaning."""
+    """List the columns of all sheets: heading, unit, name in the file, meaning."""
     rows = []
     for sheet in sheets:
         meanings = _meanings(sheet.entry)

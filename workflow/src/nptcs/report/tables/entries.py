@@ -110,7 +110,7 @@ INPUTS = Entry(
     "Published and configured input files with their SHA-256",
     "(the files named)",
     "report",
-    "files that the configuration names; raw laboratory files stand in the table `files`",
+    "files that the configuration names; raw laboratory files are in the table `files`",
 )
 
 

@@ -15,6 +15,7 @@ UNITS = {
     "_mm": "mm",
     "_deg": "°",
     "_percent": "%",
+    "_c": "°C",
     "_bytes": "bytes",
     "_s": "s",
     "_n": "N",

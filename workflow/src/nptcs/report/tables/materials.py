@@ -21,7 +21,7 @@ CONSTANT_COLUMNS = [
 
 
 def ply_table(results: Results) -> pd.DataFrame:
-    """Lay out the constants of all plies, a row a constant."""
+    """Write the constants of all plies, one row per constant."""
     return pd.DataFrame(
         [
             {
@@ -43,7 +43,7 @@ def ply_table(results: Results) -> pd.DataFrame:
 
 
 def rubber_table(results: Results) -> pd.DataFrame:
-    """Lay out the constants of all rubbers with range and quality of the fit."""
+    """Write the constants of all rubbers, with range and quality of the fit."""
     rows = [
         {
             "material": rubber.name,

@@ -11,18 +11,18 @@ from nptcs.tables.cases import Cases
 
 
 def entries_table(entries: list[Entry]) -> pd.DataFrame:
-    """Lay the catalogue out, a row a table."""
+    """Write the catalogue as a table, one row per table."""
     rows = [(e.sheet, e.title, e.file, e.rule, e.source) for e in entries]
     return pd.DataFrame(rows, columns=["sheet", "what_it_says", "file", "rule", "made_from"])
 
 
 def inputs_table(results: Results) -> pd.DataFrame:
-    """Lay out the configured input files with their SHA-256."""
+    """List the configured input files with their SHA-256."""
     return pd.DataFrame(results.inputs.items(), columns=["file", "sha256"])
 
 
 def software_table(results: Results) -> pd.DataFrame:
-    """Lay out versions of the software and of the solvers that the cases name."""
+    """List the versions of the software and of the solvers that the cases name."""
     solvers = results.table(Cases).drop_duplicates(["solver", "solver_version"])
     rows = list(results.software.items())
     rows += [(f"solver {row.solver}", str(row.solver_version)) for row in solvers.itertuples()]

@@ -12,11 +12,15 @@ _SHEET_NUMBERS = (
     "mean_thickness_mm",
     "area_mm2",
     "gauge_length_mm",
+    "temperature_c",
+    "humidity_percent",
+    "span_mm",
+    "loading_span_mm",
 )
 
 
 def sheet_table(results: Results) -> pd.DataFrame:
-    """Lay the specimen sheet out with mean dimensions."""
+    """Write the specimen sheet as a table, with mean dimensions."""
     return pd.DataFrame(
         [
             {
@@ -34,6 +38,19 @@ def sheet_table(results: Results) -> pd.DataFrame:
                 "force_file": s.force_file,
                 "strain_file": s.strain_file,
                 "remarks": s.remarks,
+                "date": "" if s.date is None else s.date.isoformat(),
+                "operator": s.operator,
+                "machine": s.machine,
+                "temperature_c": s.temperature_c,
+                "humidity_percent": s.humidity_percent,
+                "piece": s.piece,
+                "properties": ", ".join(s.properties),
+                "loading": "" if s.loading == "first" else s.loading,
+                "failed": "" if s.failed is None else ("yes" if s.failed else "no"),
+                "span_mm": s.span_mm,
+                "loading_span_mm": s.loading_span_mm,
+                "platens": s.platens,
+                "area_rule": s.area_rule,
             }
             for s in results.sheet
         ]
@@ -41,7 +58,7 @@ def sheet_table(results: Results) -> pd.DataFrame:
 
 
 def conditioning_table(results: Results) -> pd.DataFrame:
-    """Lay out how each curve came about, a row a specimen."""
+    """Write how each curve came about, one row per specimen."""
     return pd.DataFrame(
         [
             {

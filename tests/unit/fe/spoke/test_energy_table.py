@@ -1,0 +1,211 @@
+from itertools import product
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
+from nptcs.fe.energy_cache import read_table, shared_table, table_key
+from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
+from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit, sample
+from nptcs.fe.spoke.equilibrium import SpokeDesign, SpokeModel
+from nptcs.tables.material_card import PUBLISHED_PLY
+
+OPTIONS = EnergyTableOptions(
+    elongation_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),
+    degrees=(6, 4), narrowing=1.0,
+)  # fmt: skip
+SAMPLE_FIELDS = ("coordinates", "energy", "force", "tangent")
+HEIGHT = SpokeGeometry().height_mm
+COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
+
+
+def manufactured(coordinates):
+    """E = s² (1 + 40 β²) + 300 φ² + 2 s φ + 5000 β², with its derivatives."""
+    s, beta, phi = coordinates.T
+    energy = s**2 * (1 + 40 * beta**2) + 300 * phi**2 + 2 * s * phi + 5000 * beta**2
+    force = np.stack(
+        [
+            2 * s * (1 + 40 * beta**2) + 2 * phi,
+            80 * s**2 * beta + 10000 * beta,
+            600 * phi + 2 * s,
+        ],
+        axis=1,
+    )
+    tangent = np.zeros((len(coordinates), 3, 3))
+    tangent[:, 0, 0] = 2 * (1 + 40 * beta**2)
+    tangent[:, 0, 1] = tangent[:, 1, 0] = 160 * s * beta
+    tangent[:, 1, 1] = 80 * s**2 + 10000
+    tangent[:, 2, 2] = 600
+    tangent[:, 0, 2] = tangent[:, 2, 0] = 2
+    return SpokeSamples(coordinates, energy, force, tangent)
+
+
+def grid_samples():
+    """States with β ≥ 0, as `sample` computes them."""
+    sides = chebyshev_nodes(-OPTIONS.inclination_rad, OPTIONS.inclination_rad, OPTIONS.samples[1])
+    lines = [
+        chebyshev_nodes(*OPTIONS.elongation_mm, OPTIONS.samples[0]),
+        sides[sides > -1e-12],
+        chebyshev_nodes(*OPTIONS.phi_rad, OPTIONS.samples[2]),
+    ]
+    return manufactured(np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 3))
+
+
+TABLE = fit(grid_samples(), OPTIONS, HEIGHT)
+CHORDS = st.tuples(st.floats(-6.0, 3.0), st.floats(-0.045, 0.045), st.floats(-0.04, 0.04))
+
+
+@given(CHORDS)
+@example((0.0, 0.045, 0.004))  # s comes back as -1.4e-14, where β's range is already narrower
+@settings(max_examples=40, deadline=None)
+def test_a_polynomial_energy_is_recovered_everywhere(coordinates):
+    coordinates = np.array([coordinates])
+    motion, first, second = motion_of(coordinates, HEIGHT)
+    energy, force, tangent = TABLE.evaluate(motion)
+    wanted = manufactured(coordinates)
+    assert energy == pytest.approx(wanted.energy, abs=1e-8)
+    assert carried(force, tangent, first, second)[0] == pytest.approx(wanted.force, abs=1e-6)
+    assert carried(force, tangent, first, second)[1] == pytest.approx(wanted.tangent, abs=1e-4)
+
+
+@given(CHORDS)
+@settings(max_examples=20, deadline=None)
+def test_forces_and_tangents_are_derivatives_by_the_motion(coordinates):
+    motion = motion_of(0.9 * np.array([coordinates]), HEIGHT)[0]
+    _, force, tangent = TABLE.evaluate(motion)
+    for axis, step in enumerate((1e-4, 1e-4, 1e-6)):
+        shift = step * np.eye(3)[axis]
+        ahead, behind = TABLE.evaluate(motion + shift), TABLE.evaluate(motion - shift)
+        slope = (ahead[0] - behind[0]) / (2 * step)
+        assert slope == pytest.approx(force[:, axis], rel=1e-6, abs=1e-4)
+        curve = (ahead[1] - behind[1]) / (2 * step)
+        assert curve == pytest.approx(tangent[:, axis], rel=1e-6, abs=1e-3)
+
+
+def test_leaving_the_table_is_an_error_that_names_the_spoke():
+    motion = np.array([[0.0, 0.0, 0.0], [-7.0, 0.0, 0.0]])
+    with pytest.raises(TableRangeError, match=r"spoke 1: elongation \(mm\) = -7"):
+        TABLE.evaluate(motion)
+    with pytest.raises(TableRangeError):
+        TABLE.evaluate(np.array([[np.nan, 0.0, 0.0]]))
+
+
+@pytest.mark.parametrize("corner", list(product((-6.0, 3.0), (-0.045, 0.045), (-0.04, 0.04))))
+def test_the_table_ends_at_its_corners(corner):
+    inside = np.array([corner])
+    TABLE.evaluate(motion_of(inside, HEIGHT)[0])
+    for axis in range(3):
+        beyond = inside.copy()
+        beyond[0, axis] *= 1.0 + 1e-9
+        with pytest.raises(TableRangeError):
+            TABLE.evaluate(motion_of(beyond, HEIGHT)[0])
+
+
+def test_more_terms_than_data_are_refused():
+    few = OPTIONS.model_copy(update={"degrees": (6, 12)})
+    with pytest.raises(ValueError, match="lower degrees"):
+        fit(grid_samples(), few, HEIGHT)
+
+
+def test_a_table_that_ends_early_has_a_lower_degree():
+    samples = grid_samples()
+    kept = samples.coordinates[:, 0] > -4.0
+    short = SpokeSamples(*(getattr(samples, name)[kept] for name in SAMPLE_FIELDS))
+    table = fit(short, OPTIONS, HEIGHT)
+    assert table.exponents[:, 0].max() == 4
+    assert table.low[0] > -4.0
+
+
+def spoke_design(**change):
+    values = {
+        "geometry": SpokeGeometry(),
+        "mesh": COARSE,
+        "pitch_mm": 15.0,
+        "plate_width_mm": 5.0,
+        "thickness_mm": 1.8,
+        "angle_deg": 45.0,
+        "c10_mpa": 1.0,
+        "ply": PUBLISHED_PLY,
+        "plates": 14,
+        "plate_coupling": "embedded",
+    }
+    return SpokeDesign(**{**values, **change})
+
+
+def test_the_table_of_a_spoke_predicts_states_between_its_samples():
+    model = SpokeModel(spoke_design())
+    table = fit(sample(model, OPTIONS), OPTIONS, HEIGHT)
+    for motion in ([-4.1, 1.3, 0.02], [1.9, -0.7, -0.03]):
+        state = model.move(model.rest(), np.array(motion))
+        energy, force, _ = table.evaluate(np.array([motion]))
+        assert energy[0] == pytest.approx(state.energy, rel=2e-3)
+        assert force[0, 0] == pytest.approx(state.force[0], rel=5e-3)
+
+
+def test_a_level_of_the_unloaded_spoke_is_one_state():
+    options = EnergyTableOptions(
+        elongation_mm=(-1.5, 1.5), inclination_rad=0.02, phi_rad=(-0.02, 0.02), samples=(3, 3, 3),
+        degrees=(4, 4),
+    )  # fmt: skip
+    coordinates = sample(SpokeModel(spoke_design()), options).coordinates
+    assert len(coordinates) == 3 * 2 * 3
+    assert np.unique(coordinates[:, 0].round(9)) == pytest.approx([-1.5, 0.0, 1.5])
+
+
+def test_a_half_turn_leaves_the_spoke_as_it_is():
+    """States at β and -β: rim and band change places, with coupled plies as with any."""
+    model = SpokeModel(spoke_design(angle_deg=30.0))
+    coordinates = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
+    motions = motion_of(coordinates, HEIGHT)[0]
+    assert coordinates_of(motions, HEIGHT)[0] == pytest.approx(coordinates, abs=1e-12)
+    assert abs(motions[0, 1] + motions[1, 1]) > 1.0
+    states = [model.move(model.rest(), motion) for motion in motions]
+    assert states[0].energy == pytest.approx(states[1].energy, rel=1e-9)
+    force = np.array([state.force for state in states])
+    tangent = np.array([state.tangent for state in states])
+    force, tangent = carried(force, tangent, *motion_of(coordinates, HEIGHT)[1:])
+    mirror = np.array([1.0, -1.0, 1.0])
+    assert force[1] == pytest.approx(mirror * force[0], rel=1e-6)
+    # tangents are those of the last iterate, where the work left is 1e-9 of the energy
+    size = np.sqrt(np.diag(tangent[0]))
+    mirrored = np.outer(mirror, mirror) * tangent[0]
+    assert np.abs((tangent[1] - mirrored) / np.outer(size, size)).max() < 2e-4
+
+
+def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
+    calls = []
+
+    def computed(model, design):
+        calls.append(design)
+        return TABLE
+
+    monkeypatch.setattr("nptcs.fe.energy_cache.energy_table", computed)
+    model = FeModel(spoke_mesh=COARSE, table=OPTIONS)
+    first = shared_table(model, spoke_design(), tmp_path)
+    again = shared_table(model, spoke_design(), tmp_path)
+    assert len(calls) == 1
+    assert again.coefficients == pytest.approx(first.coefficients, rel=0, abs=0)
+    shared_table(model, spoke_design(c10_mpa=2.0), tmp_path)
+    assert len(calls) == 2
+    assert len(list(tmp_path.iterdir())) == 2
+    path = tmp_path / f"{table_key(spoke_design(), OPTIONS)}.npz"
+    assert read_table(path).force_residual_n == TABLE.force_residual_n
+
+
+def test_every_part_of_the_design_is_in_the_key():
+    base = table_key(spoke_design(), OPTIONS)
+    other_ply = {**PUBLISHED_PLY, "g23_mpa": 2301.0}
+    changes = [
+        {"angle_deg": 46.0},
+        {"ply": other_ply},
+        {"geometry": SpokeGeometry(block_thickness_mm=12.5)},
+        {"mesh": SpokeMesh()},
+        {"plates": 13},
+        {"plate_coupling": "conforming"},
+    ]
+    keys = {table_key(spoke_design(**change), OPTIONS) for change in changes}
+    keys.add(table_key(spoke_design(), EnergyTableOptions()))
+    assert len(keys) == 7
+    assert base not in keys

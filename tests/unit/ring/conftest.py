@@ -1,0 +1,50 @@
+"""An invented spoke whose energy is a formula, so that no finite element spoke is computed."""
+
+import numpy as np
+import pytest
+
+from nptcs.config.fe import EnergyTableOptions
+from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit
+
+HEIGHT_MM = 84.1
+OPTIONS = EnergyTableOptions(samples=(7, 3, 3), degrees=(8, 4))
+
+
+def invented_table(scale=1.0, lean=6.0):
+    """E = scale (6 s² - s³/20 + 9000 β² + 4000 φ² + lean 10 s φ + 60 s β²), N mm.
+
+    Soft in compression as the real spokes; `lean` is the '<' spoke's preference of one side.
+    """
+    grid = [
+        chebyshev_nodes(*limits, count)
+        for limits, count in (((-40.0, 8.0), 7), ((0.0, 0.18), 3), ((-0.15, 0.15), 3))
+    ]
+    s, b, p = (part.ravel() for part in np.meshgrid(*grid, indexing="ij"))
+    k = 10.0 * lean
+    zero, one = 0.0 * s, 1.0 + 0.0 * s
+    energy = 6 * s**2 - s**3 / 20 + 9000 * b**2 + 4000 * p**2 + k * s * p + 60 * s * b**2
+    force = [12 * s - 0.15 * s**2 + k * p + 60 * b**2, 18000 * b + 120 * s * b, 8000 * p + k * s]
+    tangent = [
+        [12 - 0.3 * s, 120 * b, k * one],
+        [120 * b, 18000 + 120 * s, zero],
+        [k * one, zero, 8000 * one],
+    ]
+    samples = SpokeSamples(
+        np.stack([s, b, p], axis=1),
+        scale * energy,
+        scale * np.stack(force, axis=1),
+        scale * np.moveaxis(np.array(tangent), 2, 0),
+    )
+    return fit(samples, OPTIONS, HEIGHT_MM)
+
+
+@pytest.fixture(scope="session")
+def table():
+    """The invented spoke."""
+    return invented_table()
+
+
+@pytest.fixture(scope="session")
+def even_table():
+    """The same without a preferred side."""
+    return invented_table(lean=0.0)

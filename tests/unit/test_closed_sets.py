@@ -1,0 +1,115 @@
+"""Closed sets: a new member fails here or in the type check until every place handles it."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+from typing import get_args
+
+import pytest
+
+import nptcs
+from nptcs.calibrate import invariants, ogden
+from nptcs.calibrate.drucker import PATHS
+from nptcs.calibrate.models import model_named
+from nptcs.config.calibration import ModelName, RubberSettings
+from nptcs.config.fe import PlateCoupling
+from nptcs.config.reduction import ChordMethod, ReductionSettings
+from nptcs.config.sensitivity import AveragingRule
+from nptcs.lca.batch import TARGETS
+from nptcs.lca.newton import Target
+from nptcs.lca.section import SectionKind
+from nptcs.mechanical_tests import COMPOSITE_TESTS, RUBBER_TESTS, TestType
+from nptcs.solvers.contract import Status
+
+PACKAGE = Path(nptcs.__file__).parent
+MODULES = sorted(PACKAGE.rglob("*.py"))
+
+# the words of sets that decide between branches; a comparison with one of them is half a chain
+STANDARDS = ("tension_standard", "shear_standard", "rubber_standard")
+WORDS = {
+    *get_args(ChordMethod),
+    *get_args(AveragingRule),
+    *get_args(PlateCoupling),
+    *get_args(SectionKind),
+    *get_args(ModelName),
+    *get_args(RubberSettings.model_fields["weights"].annotation),
+    *(w for s in STANDARDS for w in get_args(ReductionSettings.model_fields[s].annotation)),
+    *(test.value for test in TestType),
+    *(status.value for status in Status if status is not Status.OK),
+    "contact_angle",
+    "sinking",
+} - {"specimens", "points", "relative", "error", "shear", "tension", "compression"}
+
+
+def comparisons(tree: ast.AST) -> Iterator[ast.Compare]:
+    """Comparisons with one member of a closed set: ``x == "least_squares"``, ``x is Test.A``."""
+    for node in ast.walk(tree):
+        # `in` asks for several members, or whether a word is one: no half of a chain
+        if not isinstance(node, ast.Compare) or isinstance(node.ops[0], ast.In | ast.NotIn):
+            continue
+        for side in (node.left, *node.comparators):
+            word = isinstance(side, ast.Constant) and side.value in WORDS
+            member = isinstance(side, ast.Attribute) and ast.unparse(side.value) == "TestType"
+            if word or member:
+                yield node
+
+
+def open_matches(tree: ast.AST) -> Iterator[ast.Match]:
+    """``match`` statements that do not end in ``case _: assert_never(…)``."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Match):
+            last = node.cases[-1]
+            if "assert_never" not in ast.unparse(last):
+                yield node
+
+
+def test_no_branch_over_a_closed_set_has_a_default() -> None:
+    found = [
+        f"{file.relative_to(PACKAGE)}:{node.lineno}: {ast.unparse(node).splitlines()[0]}"
+        for file in MODULES
+        for tree in [ast.parse(file.read_text("utf-8"))]
+        for node in (*comparisons(tree), *open_matches(tree))
+    ]
+    assert found == []
+
+
+@pytest.mark.parametrize(
+    "code",
+    [
+        "x = 1 if method == 'least_squares' else 2",
+        "if test is TestType.SHEAR: pass",
+        "match a:\n  case 'b': pass\n  case _: c = 1",
+    ],
+)
+def test_the_search_sees_a_chain_with_a_default(code: str) -> None:
+    tree = ast.parse(code)
+    assert [*comparisons(tree), *open_matches(tree)]
+
+
+@pytest.mark.parametrize("test", TestType)
+def test_each_test_type_has_its_rules_and_its_sign(test: TestType) -> None:
+    assert ReductionSettings().rules(test).title
+    assert test.load_sign in (1, -1)
+    assert test.is_rubber == (test in RUBBER_TESTS) == (test not in COMPOSITE_TESTS)
+
+
+def test_an_unknown_test_type_is_not_reduced_as_anything() -> None:
+    with pytest.raises(AssertionError, match="unreachable"):
+        ReductionSettings().rules("torsion")  # type: ignore[arg-type]
+
+
+def test_each_mode_of_a_rubber_test_is_known_to_the_models() -> None:
+    modes = {test.value for test in RUBBER_TESTS}
+    assert set(invariants.MODES) == modes
+    assert set(invariants.SECOND_STRETCH) == modes
+    assert set(invariants.EXPONENTS) == modes
+    assert set(ogden.RATIO) == modes
+    assert set(PATHS.values()) <= modes
+
+
+def test_each_model_of_the_settings_can_be_made() -> None:
+    assert [model_named(name, 2).name for name in get_args(ModelName)] == list(get_args(ModelName))
+
+
+def test_each_target_of_the_load_bearing_model_is_named_once() -> None:
+    assert sorted(TARGETS.values()) == sorted(get_args(Target))

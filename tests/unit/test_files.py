@@ -1,0 +1,32 @@
+"""Records are read back, and a broken one is named with what to do."""
+
+import pytest
+
+from nptcs.errors import InputError
+from nptcs.files import read_model, write_text
+from nptcs.tables.curves import IngestRecord
+
+
+def test_a_record_comes_back(tmp_path):
+    record = IngestRecord(specimen="T0-1", status="ok", flags=("slipped",))
+    write_text(tmp_path / "T0-1.json", record.model_dump_json(indent=1))
+    assert read_model(tmp_path / "T0-1.json", IngestRecord) == record
+
+
+@pytest.mark.parametrize(
+    ("content", "message"),
+    [
+        (None, "does not exist"),
+        (b"{", "is not a sound IngestRecord"),
+        (b'{"specimen": "T0-1"}', "status"),
+        (b"\xff\xfe", "is not a sound"),
+    ],
+)
+def test_a_broken_record_is_named(tmp_path, content, message):
+    file = tmp_path / "T0-1.json"
+    if content is not None:
+        file.write_bytes(content)
+    with pytest.raises(InputError, match=message) as refusal:
+        read_model(file, IngestRecord)
+    assert "T0-1.json" in str(refusal.value)
+    assert "run snakemake again" in str(refusal.value)

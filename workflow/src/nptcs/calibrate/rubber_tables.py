@@ -1,0 +1,56 @@
+"""All that one rubber's curves give: its card, and the tables of other models and ranges."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+
+import pandas as pd
+
+from nptcs.calibrate.compare import c10_against_range, compare_models
+from nptcs.calibrate.rubber import calibrate_rubber
+from nptcs.config.calibration import CalibrationSettings
+from nptcs.reduce.origin import origins_of
+from nptcs.tables.curves import IngestRecord
+from nptcs.tables.material_card import RubberCard
+from nptcs.tables.specimens import Specimen
+
+
+def calibrate_rubber_tables(
+    name: str,
+    curves: Mapping[str, pd.DataFrame],
+    specimens: Sequence[Specimen],
+    settings: CalibrationSettings,
+    records: Sequence[IngestRecord],
+) -> tuple[RubberCard, pd.DataFrame, pd.DataFrame]:
+    """Fit the card's model, the models compared with it and the growing ranges.
+
+    Parameters
+    ----------
+    name : str
+        Material in the sheet.
+    curves : mapping of str to DataFrame
+        `nptcs.tables.curves.Curve` by specimen; an empty one was not read and is passed over.
+    specimens : sequence of Specimen
+        Rows of the sheet, repeated data left out.
+    settings : CalibrationSettings
+        The section ``calibration`` of the configuration.
+    records : sequence of IngestRecord
+        Strain sources and strain origins come from these.
+
+    Returns
+    -------
+    card : RubberCard
+    models : DataFrame
+        `nptcs.tables.hyperelastic.ModelComparison`.
+    ranges : DataFrame
+        `nptcs.tables.hyperelastic.RangeTable`.
+    """
+    usable = {specimen: curve for specimen, curve in curves.items() if len(curve)}
+    data = (name, usable, specimens, settings)
+    sources = {record.specimen: record.strain_source for record in records}
+    origins = origins_of(records)
+    return (
+        calibrate_rubber(*data, sources, origins),
+        compare_models(*data, origins),
+        c10_against_range(*data, origins),
+    )

@@ -1,0 +1,87 @@
+"""What a file calls its own test, against what the sheet says it is."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable
+from typing import Literal
+
+from nptcs.errors import InputError
+from nptcs.ingest.conditioning.signals import Signals
+from nptcs.ingest.reading.raw_file import RawFile
+from nptcs.tables.specimens import Specimen, TestType
+
+Loading = Literal["tension", "compression", "flexure"]
+WORDS: dict[Loading, re.Pattern[str]] = {
+    "tension": re.compile(
+        r"(?i)\btens(ile|ion)|\bzug(versuch|prüf|spann|kraft|dehn)|\btraction|\btracci[oó]n"
+        r"|\btrazione|\btraç[aã]o|rozciąg|\btah(u|em|ov)|растяж|引張|拉伸"
+        r"|\bD ?(3039|638|412|3518)\b|\bISO ?(527|37|14129)\b"
+    ),
+    "compression": re.compile(
+        r"(?i)\bcompressi|\bcompress[aã]o|\bcompresi[oó]n|\bdruck(versuch|prüf|spann|kraft|belast)"
+        r"|\bstauch|ściskan|\btlak(u|em|ov)|сжати|圧縮|压缩|\bD ?(695|6641|3410|575)\b"
+        r"|\bISO ?(604|14126|7743)\b"
+    ),
+    "flexure": re.compile(
+        r"(?i)\bflexur|\bflexion|\bflexi[oó]n|\bflex[aã]o|\bflessione|\bbiege|\bbending\b"
+        r"|\b(3|4|three|four)[- ]?point|\bzginan|\bohyb|изгиб|曲げ|弯曲|\bD ?(790|7264)\b"
+        r"|\bISO ?(178|14125)\b"
+    ),
+}
+"""Words and standards by which files name the loading, in the languages of the profiles."""
+_ABOUT_THE_TEST = re.compile(
+    r"(?i)test|method|type|procedure|norm|standard|prüf|versuch|essai|méthode|ensayo|método|prova"
+    r"|metodo|zkouš|badani|испыт|試験|试验|方法"
+)
+
+
+def loadings_named(texts: Iterable[str]) -> set[Loading]:
+    """Collect the loadings that some texts name."""
+    return {loading for text in texts for loading, words in WORDS.items() if words.search(text)}
+
+
+def loading_of(test: TestType) -> Loading:
+    """Return the loading of a test of the sheet: ±45° shear is a tension test."""
+    if "compression" in test:
+        return "compression"
+    return "flexure" if "flexure" in test else "tension"
+
+
+def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, name: str) -> None:
+    """Stop if a file calls itself compression or flexure and the sheet says another loading.
+
+    The column names count, and the lines of the head that speak of test, method or standard; a
+    loading that the profile states replaces both. A name of file or folder that disagrees is
+    flagged only.
+
+    Raises
+    ------
+    InputError
+        With the words that were found.
+    """
+    stated = loading_of(specimen.test)
+    for where, texts in (
+        ("columns", table.names),
+        ("head", tuple(line for line in table.head if _ABOUT_THE_TEST.search(line))),
+    ):
+        named = {table.profile.loading} if table.profile.loading else loadings_named(texts)
+        if not named or stated in named:
+            continue
+        own = " and ".join(sorted(named))
+        if named == {"tension"}:
+            signals.flags.append(f"{where} of {table.path.name} speak of {own}")
+            continue
+        words = next((text for text in texts if loadings_named([text])), table.profile.name)
+        raise InputError(
+            f"the file calls itself {own} ({where}: '{words[:60]}'), the sheet says "
+            f"{specimen.test}",
+            "correct test in the sheet, or state the loading in a profile ('loading')",
+            table.path,
+            specimen=specimen.specimen,
+        )
+    in_name = loadings_named([name.replace("_", " ")])
+    if in_name and stated not in in_name and not table.profile.loading:
+        signals.flags.append(
+            f"the name '{name}' speaks of {' and '.join(sorted(in_name))}, the sheet of {stated}"
+        )

@@ -1,0 +1,199 @@
+"""Sensors that leave their specimen: taken off, slipped, moved back, stuck."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nptcs.arrays import Array, Rows
+from nptcs.config.ingest import ExtensometerRemoval
+from nptcs.ingest.conditioning.signals import LENGTHS, Signals, largest
+from nptcs.ingest.conditioning.steps import STRAINS
+
+AXIAL_CHANNELS = ("strain", "stretch", "extension", "displacement")
+_LEAST_SIGHT = 6
+
+
+@dataclass(frozen=True)
+class Loss:
+    """The first reading that a sensor did not measure on the specimen, and how it shows."""
+
+    row: int
+    what: str
+
+
+def empty_lost_channels(
+    signals: Signals, settings: ExtensometerRemoval, rubber: bool, gauge_length_mm: float | None
+) -> None:
+    """Empty each axial channel from where its sensor left, before axis and sign are judged.
+
+    A sensor that rests at -3 % after it was taken off would otherwise turn the sign of the strain
+    of the whole test. Lengths are judged as strains over the gauge length.
+    """
+    if not settings.enabled:
+        return
+    force = signals.values["force"]
+    smallest = _smallest(settings, rubber)
+    names = [name for name in AXIAL_CHANNELS if name in signals.values]
+    for name in names:
+        scale = 1.0 if name not in LENGTHS else 1 / (gauge_length_mm or np.inf)
+        readings = signals.values[name]
+        loss = find_jump(readings * scale, force, settings.jump_factor, smallest)
+        if loss is not None:
+            signals.values[name] = np.where(np.arange(len(force)) < loss.row, readings, np.nan)
+            _say(signals, loss, name.replace("_", " "), float(readings[loss.row - 1]))
+    pair = [name for name in ("strain_xx", "strain_yy") if name in signals.values]
+    found = [
+        find_jump(signals.values[name], force, settings.jump_factor, smallest) for name in pair
+    ]
+    first = min((loss.row for loss in found if loss is not None), default=None)
+    if first is not None:
+        for name in pair:
+            kept = np.arange(len(force)) < first
+            signals.values[name] = np.where(kept, signals.values[name], np.nan)
+        _say(
+            signals,
+            Loss(first, "jumps"),
+            "camera's strain",
+            float(signals.values[pair[0]][first - 1]),
+        )
+
+
+def empty_after_removal(
+    signals: Signals, settings: ExtensometerRemoval, rubber: bool, source: str
+) -> None:
+    """Empty the strains from where a sensor was taken off, slipped, moved back or stood still.
+
+    Crosshead travel cannot be taken off nor stand still, but a transducer of travel can slip.
+    """
+    if not settings.enabled:
+        signals.skipped("extensometer")
+        return
+    sign = np.sign(largest(signals.values["force"]))
+    strain, force = sign * signals.values["strain_axial"], sign * signals.values["force"]
+    smallest = _smallest(settings, rubber)
+    losses = [
+        find_jump(strain, force, settings.jump_factor, smallest),
+        find_reversal(strain, force, settings.largest_return, smallest),
+    ]
+    if source != "crosshead":
+        end = min((loss.row for loss in losses if loss is not None), default=None)
+        losses.append(find_stuck(strain[:end], force[:end], settings.stuck_force_share))
+    first = min(
+        (loss for loss in losses if loss is not None), key=lambda loss: loss.row, default=None
+    )
+    if first is None:
+        signals.note("extensometer", "no removal or slip found")
+        return
+    at = float(signals.values["strain_axial"][first.row - 1])
+    for name in STRAINS:
+        kept = np.arange(len(strain)) < first.row
+        signals.values[name] = np.where(kept, signals.values[name], np.nan)
+    _say(signals, first, "strain", at)
+
+
+def _smallest(settings: ExtensometerRemoval, rubber: bool) -> float:
+    return settings.smallest_jump_rubber if rubber else settings.smallest_jump
+
+
+def _say(signals: Signals, loss: Loss, channel: str, at: float) -> None:
+    signals.note(
+        "extensometer",
+        f"{channel} {loss.what} at reading {loss.row + 1}: emptied from there",
+        last_strain=at,
+        rows=len(signals) - loss.row,
+    )
+    sensor = (
+        "transducer of travel slipped"
+        if channel == "displacement"
+        else "extensometer removed or slipped"
+    )
+    signals.flags.append(f"{sensor}: {channel} {loss.what} at {at:.4g}, emptied from there")
+
+
+def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) -> Loss | None:
+    """First reading whose strain leaps while the force does neither fall nor leap.
+
+    Parameters
+    ----------
+    strain, force : ndarray, shape (n,)
+        In any sign; up to the largest force is looked at.
+    jump_factor : float
+        A leap is this many times the usual step.
+    smallest : float
+        Smallest leap, as a strain.
+    """
+    load = np.abs(force)
+    peak = int(np.nanargmax(load))
+    rows = np.flatnonzero(~np.isnan(strain[: peak + 1]) & ~np.isnan(load[: peak + 1]))
+    if len(rows) < _LEAST_SIGHT:
+        return None
+    step, gain = np.diff(strain[rows]), np.diff(load[rows])
+    moving = np.abs(step[step != 0])
+    usual = float(np.median(moving)) if len(moving) else 0.0
+    usual_gain = float(np.median(np.abs(gain)))
+    leaps = np.abs(step) > max(jump_factor * usual, smallest)
+    leaps &= (gain > -0.05 * load[peak]) & (np.abs(gain) < 0.25 * jump_factor * usual_gain)
+    return Loss(int(rows[int(np.argmax(leaps)) + 1]), "jumps") if leaps.any() else None
+
+
+def find_reversal(strain: Array, force: Array, share: float, smallest: float) -> Loss | None:
+    """First reading from which the strain goes back although the force is higher than ever.
+
+    Only readings at which the force exceeds all before count, so that unloading and reloading
+    are no reversal. The strain must lose `share` of what was reached, and `smallest`.
+    """
+    peak = int(np.nanargmax(force))
+    rows = np.flatnonzero(~np.isnan(strain[: peak + 1]) & ~np.isnan(force[: peak + 1]))
+    if len(rows) < _LEAST_SIGHT:
+        return None
+    higher = force[rows] > np.concatenate([[-np.inf], np.maximum.accumulate(force[rows])[:-1]])
+    rows = rows[higher]
+    if len(rows) < _LEAST_SIGHT:
+        return None
+    reached = np.maximum.accumulate(strain[rows])
+    lost = reached - strain[rows]
+    limit = np.maximum(share * (reached - strain[rows][0]), smallest)
+    back = np.flatnonzero(lost > limit)
+    if not len(back):
+        return None
+    turn = int(np.argmax(strain[rows][: int(back[0])]))
+    return Loss(int(rows[turn]) + 1, "moves back")
+
+
+def find_stuck(strain: Array, force: Array, share: float) -> Loss | None:
+    """First reading from which the force climbs by `share` of its peak and more, without strain.
+
+    Standing still counts to the end of the climb only: a start that lags is a toe, and a leap
+    is found by `find_jump`.
+    """
+    if not len(force):
+        return None
+    rising = np.maximum.accumulate(force)
+    levels = np.arange(share, 1.0, share) * rising[-1]
+    rows = np.unique(np.searchsorted(rising, levels))
+    rows = rows[~np.isnan(strain[rows])]
+    if len(rows) < _LEAST_SIGHT:
+        return None
+    gains = np.diff(strain[rows])
+    moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
+    last = int(moving[-1]) + 1 if len(moving) else 0
+    if last >= len(gains):
+        return None
+    return Loss(_stands_from(strain, rows, last) + 1, "stands still")
+
+
+def _stands_from(strain: Array, rows: Rows, last: int) -> int:
+    """First reading at the level at which the strain then stands: at most one step earlier.
+
+    The steps are coarse; a reading of the climb without strain would count at too high a force.
+    """
+    standing = strain[rows[last] + 1 : rows[last + 1] + 1]
+    standing = standing[~np.isnan(standing)]
+    if not len(standing):
+        return int(rows[last])
+    level = float(np.median(standing)) - 3 * float(np.std(standing))
+    before = slice(rows[max(last - 1, 0)], rows[last] + 1)
+    reached = np.flatnonzero(strain[before] >= level)
+    return int(rows[max(last - 1, 0)] + reached[0]) if len(reached) else int(rows[last])

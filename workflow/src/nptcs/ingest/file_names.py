@@ -1,0 +1,200 @@
+"""What the names of files and folders tell: role, number, test, material, fibre angle."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections import Counter
+from collections.abc import Iterable, Mapping
+from pathlib import PurePosixPath
+
+from nptcs.ingest.conditioning.declared_test import loadings_named
+from nptcs.tables.specimens import TestType
+
+ROLE_WORDS = frozenset(
+    [
+        "vic",
+        "vic2d",
+        "vic3d",
+        "dic",
+        "aramis",
+        "gom",
+        "zeiss",
+        "ncorr",
+        "opencorr",
+        "dice",
+        "camera",
+        "cameras",
+        "kamera",
+        "cam",
+        "optical",
+        "strain",
+        "strains",
+        "dehnung",
+        "deformation",
+        "force",
+        "forces",
+        "load",
+        "loads",
+        "kraft",
+        "wdw",
+        "mts",
+        "instron",
+        "bluehill",
+        "zwick",
+        "testxpert",
+        "shimadzu",
+        "trapezium",
+        "tinius",
+        "olsen",
+        "machine",
+        "maschine",
+        "utm",
+        "raw",
+        "rawdata",
+        "data",
+        "daten",
+        "donnees",
+        "extensometer",
+        "export",
+        "exports",
+        "csv",
+        "txt",
+        "curve",
+        "curves",
+        "kurve",
+        "csvs",
+        "file",
+        "files",
+        "measurement",
+        "measurements",
+        "messung",
+        "messungen",
+    ]
+)
+"""Words that say which device or which kind of file it is, and not which specimen."""
+_ROLE_TAIL = re.compile(
+    r"(?i)(?:^|[ _.-]+)(?:" + "|".join(sorted(ROLE_WORDS, key=len, reverse=True)) + r"|vic-[23]d)$"
+)
+_ROLE_HEAD = re.compile(
+    r"(?i)^(?:" + "|".join(sorted(ROLE_WORDS, key=len, reverse=True)) + r"|vic-[23]d)[ _.-]+"
+)
+_RUBBER = re.compile(
+    r"(?i)rubber|gummi|caoutchouc|goma|silicon|elastomer|ecoflex|dragon.?skin|\bNBR\b|\bEPDM\b"
+    r"|\bTPU\b|shore|(?<![a-z0-9])[2-9]\d ?a(?![a-z0-9])"
+)
+_SHEAR = re.compile(r"(?i)shear|schub|cisaillement|\bIPS\b|(?:±|\+-|\+/-|pm) ?45")
+_MATERIALS = {
+    "cfrp": r"cfrp|cfk|carbon|\bcf\b",
+    "gfrp": r"gfrp|gfk|glass|glas\b|\bgf\b",
+    "afrp": r"aramid|kevlar|afrp",
+    "flax": r"\bflax|\blin\b|flachs",
+    "steel": r"steel|stahl|acier",
+    "aluminium": r"alumini?um|\balu\b",
+    "epoxy": r"epoxy|epoxid",
+}
+_ANGLE = re.compile(
+    r"(?i)(?:±|\+-|\+/-)? ?(?<![\d.])(0|10|30|45|60|90) ?(?:°|deg|grad)"
+    r"|(?:^|[/_ -])[tc](0|45|90)(?=[/_ .-])"
+)
+
+
+def tokens(name: str) -> Counter[str]:
+    """Words and numbers of a path without suffix and role words; ``UD_01`` is ``ud`` and ``1``.
+
+    Returns
+    -------
+    Counter
+        How often each occurs in the folders and the file's name together.
+    """
+    text = unicodedata.normalize("NFKC", str(PurePosixPath(name).with_suffix(""))).casefold()
+    parts = re.findall(r"[^\W\d_]+\d[dD](?![^\W_])|[^\W\d_]+|\d+", text)
+    kept = (part.lstrip("0") or "0" if part.isdigit() else part for part in parts)
+    return Counter(part for part in kept if part not in ROLE_WORDS)
+
+
+def specimen_id(name: str) -> str:
+    """Specimen id from a file name: without folder, suffix and role words at its ends."""
+    stem = re.sub(r"\.[A-Za-z]\w{0,5}$", "", PurePosixPath(name).name)
+    while _ROLE_TAIL.search(stem):
+        stem = _ROLE_TAIL.sub("", stem)
+    while _ROLE_HEAD.search(stem):
+        stem = _ROLE_HEAD.sub("", stem)
+    return _safe(stem) or "specimen"
+
+
+def _safe(text: str) -> str:
+    plain = unicodedata.normalize("NFKD", text)
+    plain = "".join(mark for mark in plain if not unicodedata.combining(mark))
+    return re.sub(r"[^A-Za-z0-9._-]+", "_", plain).strip("_.-")
+
+
+def unique_ids(names: Mapping[int, tuple[str, str]]) -> dict[int, str]:
+    """Give each row an id of its own, whatever case: by its folders, then by a number.
+
+    Parameters
+    ----------
+    names : mapping of int to (str, str)
+        Row → id from its file's name, and the file's relative path.
+    """
+    ids = {row: own for row, (own, _) in names.items()}
+    for depth in (1, 2, 3):
+        for row in _doubles(ids):
+            own, path = names[row]
+            folders = [_safe(part) for part in PurePosixPath(path).parent.parts]
+            ids[row] = "_".join([*(part for part in folders[-depth:] if part), own])
+    seen: Counter[str] = Counter()
+    for row, own in ids.items():
+        seen[own.casefold()] += 1
+        number = seen[own.casefold()]
+        while number > 1 and f"{own}_{number}".casefold() in {*seen, *_folded(ids, row)}:
+            number += 1
+        ids[row] = own if number == 1 else f"{own}_{number}"
+    return ids
+
+
+def _folded(ids: Mapping[int, str], row: int) -> set[str]:
+    return {own.casefold() for other, own in ids.items() if other != row}
+
+
+def _doubles(ids: Mapping[int, str]) -> list[int]:
+    count = Counter(own.casefold() for own in ids.values())
+    return [row for row, own in ids.items() if count[own.casefold()] > 1]
+
+
+def proposed_test(path: str, texts: Iterable[str]) -> str:
+    """Propose a test from the words of a path and of the file's head; empty if none tells."""
+    words = [path.replace("_", " "), *texts]
+    known = {test.value for test in TestType}
+    named = loadings_named(words)
+    rubber = any(_RUBBER.search(text) for text in words)
+    if len(named) == 1 and not rubber:
+        loading = next(iter(named))
+        if loading == "tension" and any(_SHEAR.search(text) for text in words):
+            return "shear"
+        return loading if loading in known else ""
+    if any(_SHEAR.search(text) for text in words) and not rubber:
+        return "shear"
+    if rubber and named <= {"tension"}:
+        return "rubber_tension"
+    if rubber and named == {"compression"} and "rubber_compression" in known:
+        return "rubber_compression"
+    return ""
+
+
+def proposed_material(path: str) -> str:
+    """Propose a material from the words of a path; empty if none tells."""
+    words = path.replace("_", " ").replace("-", " ")
+    for material, pattern in _MATERIALS.items():
+        if re.search(f"(?i){pattern}", words):
+            return material
+    if not _RUBBER.search(words):
+        return ""
+    shore = re.search(r"(?i)(?<![a-z0-9])([2-9]\d) ?a(?![a-z0-9])", words)
+    return f"rubber_{shore.group(1)}A" if shore else "rubber"
+
+
+def proposed_angle(path: str) -> str:
+    """Propose a fibre angle from the names; empty if none tells."""
+    found = _ANGLE.search(path)
+    return next((group for group in found.groups() if group), "") if found else ""

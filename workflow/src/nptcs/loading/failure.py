@@ -1,0 +1,127 @@
+"""Evidence of failure: a specimen that failed, or a test that was stopped before it did."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+
+from nptcs.arrays import Array
+from nptcs.loading.cycles import loadings
+
+SMALLEST_DROP = 0.1
+"""Share of its largest value that the force must lose: less is noise, relaxation or a slip."""
+ABRUPT = 5.0
+"""A force that falls so many times faster than it rose is no unloading by the machine, ..."""
+SNAP = 50.0
+"""... and so many times even where the strain goes back with it."""
+UNLOADING_ROWS = 4
+"""Readings over which strain and force go back together when the machine unloads."""
+
+
+@dataclass(frozen=True)
+class Failure:
+    """Whether the record shows the specimen fail, and in words what shows it or why nothing."""
+
+    seen: bool
+    words: str
+
+
+def judge_failure(force: Array, strain: Array) -> Failure:
+    """Judge from the last loading whether the specimen failed.
+
+    A failure is a fall of the force by `SMALLEST_DROP` that is abrupt, or that comes while the
+    strain goes on growing. It is none where strain and force go back together (unloading), where
+    the strain is held (relaxation), or where the record ends at its largest force.
+
+    Parameters
+    ----------
+    force : ndarray, shape (n,)
+        Positive in the direction of the test; NaN does not count.
+    strain : ndarray, shape (n,)
+        Strain or travel in the same direction; NaN where there is none.
+    """
+    kept = np.isfinite(force)
+    force, strain = force[kept], strain[kept]
+    if len(force) < 3 or not force.max() > 0:
+        return Failure(seen=False, words="no load")
+    last = loadings(force, strain)[-1]
+    start, peak = last.start, last.stop - 1
+    largest, rest = float(force[peak]), force[peak:]
+    drop = 1 - float(rest.min()) / largest
+    if drop < SMALLEST_DROP:
+        share = f"{100 * SMALLEST_DROP:g} %"
+        return Failure(seen=False, words=f"the force never falls by {share} of its largest value")
+    low = peak + int(np.argmax(rest <= (1 - SMALLEST_DROP) * largest))
+    # the last reading near the maximum before the fall
+    near = peak + int(np.flatnonzero(force[peak:low] >= (1 - SMALLEST_DROP / 2) * largest)[-1])
+    rise = (largest - float(force[start])) / max(peak - _onset(force, start, peak), 1)
+    ratio = float(force[near] - force[low]) / (low - near) / rise
+    change, rows = _strain_after(force, strain, near, largest)
+    back = change < -0.02 and rows >= UNLOADING_ROWS
+    along = unloads_along(force, strain, near, start)
+    fell = f"the force falls by {100 * drop:.3g} % of its largest value"
+    if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
+        return Failure(seen=True, words=f"{fell}, abruptly")
+    if change > 0.01:
+        return Failure(seen=True, words=f"{fell} while the strain grows")
+    if change < -0.02:
+        return Failure(seen=False, words="unloaded: force and strain go back together")
+    if np.isfinite(change):
+        return Failure(seen=False, words="the force relaxes at a held strain")
+    return Failure(seen=False, words=f"{fell}, slowly, and no strain tells whether by unloading")
+
+
+def unloads_along(force: Array, strain: Array, begin: int, start: int = 0) -> bool:
+    """Whether force and strain go back along the way they came: an unloading, however fast.
+
+    Asks for three readings between 85 and 15 % of the force whose strain is within 15 % of the
+    strain at which the loading had that force; a broken specimen has none such.
+
+    Parameters
+    ----------
+    force, strain : ndarray, shape (n,)
+        Positive in the direction of the test; the strain may hold NaN.
+    begin : int
+        Last reading before the fall.
+    start : int
+        First reading of the loading.
+    """
+    way = slice(start, begin + 1)
+    up = np.isfinite(strain[way])
+    if up.sum() < 3:
+        return False
+    rising = np.maximum.accumulate(force[way][up])
+    known = strain[way][up]
+    below = np.flatnonzero(force[begin:] < 0.15 * force[begin])
+    end = begin + int(below[0]) if len(below) else len(force)
+    rows = np.arange(begin + 1, end)
+    inner = (force[rows] < 0.85 * force[begin]) & np.isfinite(strain[rows])
+    rows = rows[inner]
+    if len(rows) < 3:
+        return False
+    expected = np.interp(force[rows], rising, known)
+    return bool((np.abs(strain[rows] - expected) <= 0.15 * abs(known[-1] - known[0])).all())
+
+
+def _onset(force: Array, start: int, peak: int) -> int:
+    """Row at which a tenth of the rise is reached: before it, slack and idle readings."""
+    level = force[start] + 0.1 * (force[peak] - force[start])
+    return start + int(np.argmax(force[start : peak + 1] >= level))
+
+
+def _strain_after(force: Array, strain: Array, near: int, largest: float) -> tuple[float, int]:
+    """Relative change of the strain over the fall, and the readings that the fall takes.
+
+    The fall goes to half the largest force, or to the lowest that was recorded.
+    """
+    rest = force[near:]
+    goal = max(0.5 * largest, float(rest.min()))
+    end = near + int(np.argmax(rest <= goal))
+    seen = np.flatnonzero(np.isfinite(strain[: end + 1]))
+    if not len(seen) or seen[-1] <= near:
+        return float("nan"), end - near
+    base = float(np.nanmin(strain[: near + 1])) if np.isfinite(strain[: near + 1]).any() else 0.0
+    before = float(strain[seen[seen <= near][-1]]) - base if (seen <= near).any() else 0.0
+    after = float(strain[seen[-1]]) - base
+    return ((after - before) / before if before > 0 else float("nan")), end - near

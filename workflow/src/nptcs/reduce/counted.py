@@ -1,0 +1,76 @@
+"""Which values count: of the runs that the sheet names for them, once for each piece."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+import pandas as pd
+
+from nptcs.tables.specimens import Specimen
+
+GROUP = ["test", "material", "orientation_deg", "property"]
+NOT_ASSESSED = "not assessed: "
+
+
+def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataFrame:
+    """Rows of a property table that enter statistics and cards, one for each piece.
+
+    A row counts if the sheet includes its specimen and takes the property from this run. Runs
+    that give the same property of the same piece count once, with the mean of their values.
+
+    Parameters
+    ----------
+    properties : DataFrame
+        `nptcs.tables.properties.PropertiesTable`.
+    sheet : mapping of str to Specimen
+        Rows of the specimen sheet by id.
+
+    Returns
+    -------
+    DataFrame
+        The same columns; ``specimen`` is the piece where the sheet names one.
+    """
+    pairs = zip(properties["specimen"], properties["property"], strict=True)
+    rows = properties[[sheet[specimen].gives(name) for specimen, name in pairs]]
+    if not any(sheet[name].piece for name in rows["specimen"].unique()):
+        return rows
+    pieces = rows["specimen"].map(lambda name: sheet[name].tested_piece).rename("of_piece")
+    keys = [rows[name] for name in GROUP] + [pieces]
+    parts = [
+        _one_row(str(key[-1]), part) for key, part in rows.groupby(keys, dropna=False, sort=False)
+    ]
+    return pd.concat(parts, ignore_index=True)
+
+
+def _one_row(piece: str, runs: pd.DataFrame) -> pd.DataFrame:
+    assessed = runs[runs["value"].notna()]
+    row = (assessed if len(assessed) else runs).iloc[:1].copy()
+    row["specimen"] = piece
+    if len(assessed) > 1:
+        row["value"] = assessed["value"].mean()
+        row["standard_error"] = np.nan
+        row["points"] = assessed["points"].sum()
+        names = ", ".join(assessed["specimen"])
+        flags = "; ".join(dict.fromkeys(flag for flag in assessed["flags"] if flag))
+        row["flags"] = "; ".join(text for text in (f"mean of the runs {names}", flags) if text)
+    return row
+
+
+def why_not(flags: str) -> str:
+    """Reason of a value that was not assessed, out of its flags."""
+    reasons = [f for f in flags.split("; ") if f.startswith(NOT_ASSESSED)]
+    return reasons[0].removeprefix(NOT_ASSESSED) if reasons else "no value"
+
+
+def left_out(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> str:
+    """Rows of one group that do not count, each with its reason."""
+    words = []
+    for name, prop in zip(properties["specimen"], properties["property"], strict=True):
+        specimen = sheet[name]
+        if not specimen.include:
+            words.append(f"{name}: {specimen.reason}")
+        elif not specimen.gives(prop):
+            reason = specimen.reason or "the sheet takes other properties from this run"
+            words.append(f"{name}: {reason}")
+    return "; ".join(words)

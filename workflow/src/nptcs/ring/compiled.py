@@ -1,0 +1,24 @@
+"""Whether numba is installed (`pip install nptcs[fast]`), and its mark for the ring's formulas."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from importlib.util import find_spec
+from typing import Literal, TypeVar
+
+Kernel = Literal["numpy", "numba"]
+"""What computes an iterate; both give the same numbers up to rounding."""
+
+Function = TypeVar("Function", bound=Callable[..., object])
+
+HAS_NUMBA = find_spec("numba") is not None
+
+
+def compilable(function: Function) -> Function:
+    """Mark a function that compiled code may call; Python calls it as it is written."""
+    if not HAS_NUMBA:
+        return function
+    from numba.extending import register_jitable
+
+    marked: Function = register_jitable(function)
+    return marked

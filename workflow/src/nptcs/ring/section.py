@@ -1,0 +1,235 @@
+"""Cross-section of the ring: what its strains cost, and where its surfaces lie.
+
+The generalised strains of the ring are, in this order,
+
+    v = (e, κs, κf, s', q, γ, s)
+
+stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
+κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ - θ of the core and shift s
+of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
+v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is harder pressed than pulled, and
+under the contact the tread is pressed by three per cent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+
+import numpy as np
+
+from nptcs.arrays import Array
+from nptcs.config.tyre import TyreGeometry
+
+STRAINS = 7
+# those that stretch the rubber along the ring
+ALONG = 4
+POINTS = 8
+# of a circular section (Cowper 1966, Poisson's ratio 0.3)
+SHEAR_CORRECTION = 0.886
+
+
+@dataclass(frozen=True)
+class RingSection:
+    """Stiffness and dimensions of the ring's cross-section.
+
+    Parameters
+    ----------
+    radius_mm : float
+        R, of the middle between the wires.
+    half_distance_mm : float
+        c, half the distance between the wires.
+    surface_mm : float
+        From the outer wires to the tread's surface.
+    foot_mm : float
+        From the inner wires to the spokes' feet.
+    width_mm : float
+        Axial width.
+    stiffness : array (7, 7)
+        C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products ask.
+    hardening : array (4, 4, 4)
+        D for the strains (e, κs, κf, s').
+    thickening : array (3,)
+        Growth of the tread's thickness by κs and κf (mm²) and by s' (mm).
+    compliance_mm_per_mpa : float
+        Thinning of tread and band under the pressure of the ground; 0 for incompressible rubber.
+    """
+
+    radius_mm: float
+    half_distance_mm: float
+    surface_mm: float
+    foot_mm: float
+    width_mm: float
+    stiffness: Array
+    hardening: Array
+    thickening: Array
+    compliance_mm_per_mpa: float
+
+    @property
+    def outer_radius_mm(self) -> float:
+        """Radius of the tread's surface."""
+        return self.radius_mm + self.half_distance_mm + self.surface_mm
+
+
+@dataclass(frozen=True)
+class Rubber:
+    """A rubber in plane strain, small strains: shear modulus and κ/G.
+
+    Parameters
+    ----------
+    c10_mpa : float
+        Neo-Hooke; the shear modulus is 2 C10.
+    bulk_to_shear_ratio : float
+        κ/2C10; infinite is incompressible.
+    """
+
+    c10_mpa: float
+    bulk_to_shear_ratio: float
+
+    @property
+    def shear_mpa(self) -> float:
+        """Shear modulus G."""
+        return 2.0 * self.c10_mpa
+
+    @property
+    def along_mpa(self) -> float:
+        """Modulus along the ring: 4 G (κ + G/3)/(κ + 4G/3), which is 8 C10 if incompressible."""
+        inverse = 1.0 / self.bulk_to_shear_ratio
+        return 4.0 * self.shear_mpa * (1.0 + inverse / 3.0) / (1.0 + 4.0 * inverse / 3.0)
+
+    @property
+    def contraction(self) -> float:
+        """Thickness lost by a stretch along the ring: (κ - 2G/3)/(κ + 4G/3), 1 if incompressible."""
+        inverse = 1.0 / self.bulk_to_shear_ratio
+        return (1.0 - 2.0 * inverse / 3.0) / (1.0 + 4.0 * inverse / 3.0)
+
+    @property
+    def through_compliance_per_mpa(self) -> float:
+        """Strain through the thickness by a pressure where nothing moves along: 1/(κ + 4G/3)."""
+        inverse = 1.0 / self.bulk_to_shear_ratio
+        return inverse / (self.shear_mpa * (1.0 + 4.0 * inverse / 3.0))
+
+
+def ring_section(
+    tyre: TyreGeometry, band: Rubber, tread: Rubber, row_depth_mm: float
+) -> RingSection:
+    """Section of a tyre: two layers of wires in rubber, the tread outside.
+
+    Parameters
+    ----------
+    tyre : TyreGeometry
+    band : Rubber
+        Of the shear band with its covers over the wires.
+    tread : Rubber
+    row_depth_mm : float
+        Depth of rubber around each layer of wires that turns with them and does not shear.
+
+    Raises
+    ------
+    ValueError
+        If the wires' rows fill the band, or the band does not cover its wires.
+    """
+    inner, outer = tyre.inner_wire_diameter_mm / 2.0, tyre.outer_wire_diameter_mm / 2.0
+    radius, half = 0.5 * (inner + outer), 0.5 * (outer - inner)
+    cover = 0.5 * tyre.shear_band_thickness_mm - half
+    surface = tyre.outer_diameter_mm / 2.0 - outer
+    row = row_depth_mm / 2.0
+    if not 0.0 <= row < half:
+        raise ValueError(f"rows of {row_depth_mm:g} mm fill wires {2.0 * half:g} mm apart")
+    if cover <= tyre.wire_diameter_mm / 2.0 or row > cover:
+        raise ValueError(
+            f"a band {tyre.shear_band_thickness_mm:g} mm thick does not cover its wires, "
+            f"{2.0 * half:g} mm apart, with rows {row_depth_mm:g} mm deep"
+        )
+    if surface <= cover:
+        raise ValueError(
+            f"the tread's surface, {surface:g} mm outside the wires, lies inside the band's cover "
+            f"of {cover:g} mm"
+        )
+    stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
+    for sign in (-1.0, 1.0):
+        _add_wires(stiffness, tyre, radius, sign * half)
+    inside, width = half - row, tyre.tread_width_mm
+    layers = [
+        _Layer(band, -half, (-cover, row), partial(_face, -half)),
+        _Layer(band, 0.0, (-inside, inside), partial(_core, half, row)),
+        _Layer(band, half, (-row, row), partial(_face, half)),
+        _Layer(band, half, (row, cover), partial(_tread, half, row, surface)),
+        _Layer(tread, half, (cover, surface), partial(_tread, half, row, surface)),
+    ]
+    for layer in layers:
+        layer.add(stiffness, hardening, radius, width)
+    stiffness[5, 5] += width * band.shear_mpa * 2.0 * half**2 / inside
+    thickening = np.zeros(3)
+    for layer in layers[3:]:
+        z, weight = layer.rule()
+        grow = 1.0 + (half + z) / radius
+        slope = 2.0 * (surface - z) / (surface - row) ** 2
+        shear = width * layer.rubber.shear_mpa
+        stiffness[6, 6] += shear * float(np.sum(weight * grow * slope**2))
+        thickening -= layer.rubber.contraction * (weight / grow) @ layer.strain(z)[:, 1:]
+    squeezed = band.through_compliance_per_mpa * (cover + 0.75 * half)
+    squeezed += tread.through_compliance_per_mpa * (surface - cover)
+    return RingSection(
+        radius, half, surface, cover, width, stiffness, hardening, thickening, squeezed
+    )
+
+
+@dataclass(frozen=True)
+class _Layer:
+    """A layer of rubber: z from `centre` between limits, J ε by the strains (e, κs, κf, s')."""
+
+    rubber: Rubber
+    centre: float
+    limits: tuple[float, float]
+    strain: Callable[[Array], Array]
+
+    def rule(self) -> tuple[Array, Array]:
+        """Points z and weights across the layer."""
+        points, weights = np.polynomial.legendre.leggauss(POINTS)
+        low, high = self.limits
+        return 0.5 * (low + high) + 0.5 * (high - low) * points, 0.5 * (high - low) * weights
+
+    def add(self, stiffness: Array, hardening: Array, radius: float, width: float) -> None:
+        """Add ½ E b ∫ (ε² - ε³) J dz."""
+        z, weight = self.rule()
+        strain = self.strain(z)
+        grow = 1.0 + (self.centre + z) / radius
+        scaled = width * self.rubber.along_mpa * weight / grow
+        stiffness[:ALONG, :ALONG] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
+        hardening += np.einsum("z,zi,zj,zk->ijk", -3.0 * scaled / grow, strain, strain, strain)
+
+
+def _face(face: float, z: Array) -> Array:
+    """J ε of the wires and rows at ±c, z from the wires' axis: e - (±c) κs - z κf."""
+    one = np.ones_like(z)
+    return np.stack([one, -face * one, -z, 0.0 * z], axis=1)
+
+
+def _core(half: float, row: float, z: Array) -> Array:
+    """J ε of the core, z from its middle: e - z (c κs - (t_r/2) κf)/(c - t_r/2)."""
+    inside = half - row
+    return np.stack([np.ones_like(z), -z * half / inside, z * row / inside, 0.0 * z], axis=1)
+
+
+def _tread(half: float, row: float, surface: float, z: Array) -> Array:
+    """J ε of cover and tread, z from the wires' axis: e - c κs - z κf + f s'."""
+    level = (surface - z) / (surface - row)
+    one = np.ones_like(z)
+    return np.stack([one, -half * one, -z, 1.0 - level**2], axis=1)
+
+
+def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float) -> None:
+    """Add a layer of wires: two fibres at a quarter of the diameter from its axis bend as they do.
+
+    Their transverse shear stiffness holds the faces square to them.
+    """
+    area = np.pi / 4.0 * tyre.wire_diameter_mm**2
+    area *= tyre.tread_width_mm / tyre.wire_pitch_mm * tyre.wire_layers / 2.0
+    z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm
+    strain = _face(face, z)
+    scaled = 0.5 * area * tyre.wire_modulus_mpa / (1.0 + (face + z) / radius)
+    stiffness[:ALONG, :ALONG] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
+    shear = SHEAR_CORRECTION * tyre.wire_modulus_mpa / 2.0 / (1.0 + tyre.wire_poisson_ratio)
+    stiffness[4, 4] += shear * area

@@ -1,0 +1,234 @@
+"""Pressing a ring on the ground: Newton's method bordered by the load, along a path of loads."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+
+import numpy as np
+
+from nptcs.arrays import Array
+from nptcs.ring.elementwise import UNKNOWNS
+from nptcs.ring.numpy_kernel import spoke_coordinates
+from nptcs.ring.system import System
+from nptcs.ring.tyre import RingTyre
+
+MAX_ITERATIONS = 30
+# from this iteration on, steps that do not shrink are shortened
+CALM_ITERATIONS = 6
+LARGEST_STEP_MM = 6.0
+SMALLEST_STEP_N = 2.0
+FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
+# the iteration that ends below it has left an error of about its square
+TOLERANCE_MM = 1e-5
+BACKTRACKS = 6
+
+
+class RingError(RuntimeError):
+    """A load could not be reached; `states` holds those that were."""
+
+    def __init__(self, message: str, states: list[RingState]) -> None:
+        # both in args, so that it survives the way back from a worker process
+        super().__init__(message, states)
+        self.states = states
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+
+class SpokeRangeError(RingError):
+    """A spoke leaves the range of its energy table."""
+
+
+class _NoEquilibrium(Exception):
+    """No equilibrium with this step; `outside` says which spoke left its table, if one did."""
+
+    def __init__(self, message: str, outside: bool = False) -> None:
+        super().__init__(message)
+        self.outside = outside
+
+
+@dataclass(frozen=True)
+class RingState:
+    """An equilibrium on the path.
+
+    Parameters
+    ----------
+    u : array (nodes, 5)
+        u_x, u_y (mm), θ, ψ (rad), s (mm) of each node.
+    rise_mm : float
+        Displacement of the ground towards the wheel's centre: the tyre's deflection.
+    force_n : float
+        Vertical load.
+    anchor : array (nodes,)
+        Place x at which each element's surface comes to rest from here on.
+    anchor_before : array (nodes,)
+        The same before this state, with which it was computed.
+    iterations : int
+    """
+
+    u: Array
+    rise_mm: float
+    force_n: float
+    anchor: Array
+    anchor_before: Array
+    iterations: int
+
+
+def load(tyre: RingTyre, loads_n: Sequence[float]) -> list[RingState]:
+    """Press a tyre on the ground through a rising sequence of loads.
+
+    Friction remembers: the states depend, a little, on the loads before them.
+
+    Parameters
+    ----------
+    tyre : RingTyre
+    loads_n : sequence of float
+        Rising, above zero.
+
+    Returns
+    -------
+    list of RingState
+        All converged states: the first touch, the loads, and those between that halved steps
+        needed. The loads are met exactly.
+
+    Raises
+    ------
+    RingError
+        If a load is not reached with steps down to 2 N.
+    SpokeRangeError
+        If a spoke leaves its table.
+    ValueError
+        If the loads do not rise from above zero.
+    """
+    wanted = np.asarray(loads_n, dtype=float)
+    if not (len(wanted) and np.all(np.isfinite(wanted)) and np.all(np.diff(wanted, prepend=0) > 0)):
+        raise ValueError(f"loads must rise from above zero, got {list(loads_n)}")
+    states: list[RingState] = []
+    try:
+        states.append(_first_touch(tyre, float(wanted[0])))
+        for target in wanted:
+            while states[-1].force_n < target:
+                states.append(_next(tyre, states, float(target)))
+    except _NoEquilibrium as error:
+        reached = f"{states[-1].force_n:.1f} N at {states[-1].rise_mm:.3f} mm" if states else "none"
+        kind = SpokeRangeError if error.outside else RingError
+        raise kind(f"{error}; last converged: {reached}", states) from error
+    return states
+
+
+def _first_touch(tyre: RingTyre, first_load_n: float) -> RingState:
+    """Equilibrium at a small rise that stays below the first load."""
+    count = len(tyre.nodes.theta)
+    x, _ = tyre.surface(np.zeros((count, UNKNOWNS)))
+    rest = RingState(np.zeros((count, UNKNOWNS)), 0.0, 0.0, x, x, 0)
+    rise = FIRST_RISE_MM
+    while True:
+        try:
+            state = _equilibrium(tyre, rest, rest.u, rise, None)
+            if state.force_n <= 0.9 * first_load_n:
+                return state
+        except _NoEquilibrium:
+            if rise < SMALLEST_RISE_MM:
+                raise
+        rise /= 2.0
+
+
+def _next(tyre: RingTyre, states: list[RingState], target: float) -> RingState:
+    """One load step from the last state, halved until it converges."""
+    last = states[-1]
+    step = target - last.force_n
+    while True:
+        goal = target if step >= target - last.force_n else last.force_n + step
+        try:
+            return _equilibrium(tyre, last, *_predicted(states, goal), goal)
+        except _NoEquilibrium:
+            step /= 2.0
+            if step < SMALLEST_STEP_N:
+                raise
+
+
+def _predicted(states: list[RingState], goal: float) -> tuple[Array, float]:
+    """Start (u, rise) for a load: the line through the last two states."""
+    last = states[-1]
+    if len(states) < 2:
+        return last.u, last.rise_mm
+    before = states[-2]
+    # no further than the last step: the path bends
+    part = min((goal - last.force_n) / (last.force_n - before.force_n), 1.0)
+    return last.u + part * (last.u - before.u), (1.0 + part) * last.rise_mm - part * before.rise_mm
+
+
+def _equilibrium(
+    tyre: RingTyre, last: RingState, u: Array, rise: float, load_n: float | None
+) -> RingState:
+    """Newton's method at a given load, or at the given rise if `load_n` is None."""
+    count = 0
+    for count, (step, change) in enumerate(_iterates(tyre, last, u, rise, load_n), start=1):
+        u, rise = step, change
+    if outside := tyre.spokes.outside(spoke_coordinates(tyre.ring, u)):
+        raise _NoEquilibrium(outside, outside=True)
+    force = load_n
+    if force is None:
+        pressure = tyre.traction(u, rise, last.anchor)[1]
+        force = float(np.sum(pressure * tyre.areas_mm2()))
+    return RingState(u, rise, force, tyre.anchors(u, rise, last.anchor), last.anchor, count)
+
+
+def _iterates(
+    tyre: RingTyre, last: RingState, u: Array, rise: float, load_n: float | None
+) -> Iterator[tuple[Array, float]]:
+    """Iterates (u, rise) until the last step is below the tolerance."""
+    before, part = np.inf, 1.0
+    back = 0
+    previous: tuple[Array, float] | None = None
+    for count in range(MAX_ITERATIONS):
+        system = tyre.kernel.assemble(tyre.ring, u, rise, last.anchor)
+        if outside := tyre.spokes.outside(system.coordinates):
+            back += 1
+            if previous is None:
+                u, rise = last.u, last.rise_mm if load_n is not None else rise
+            elif back > BACKTRACKS:
+                raise _NoEquilibrium(outside, outside=True)
+            else:
+                u, rise = 0.5 * (u + previous[0]), 0.5 * (rise + previous[1])
+            if back > BACKTRACKS:
+                raise _NoEquilibrium(outside, outside=True)
+            continue
+        step, change = _newton_step(tyre, system, load_n)
+        largest = float(np.abs(step[:, [0, 1, 4]]).max())
+        if not np.isfinite(largest):
+            raise _NoEquilibrium("the iteration has left the range of numbers")
+        if count >= CALM_ITERATIONS:
+            # two contact states that take turns: go half-way, twice as far when that helps
+            part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
+        before = largest
+        damp = min(part, LARGEST_STEP_MM / max(largest, 1e-12))
+        previous = u, rise
+        u, rise = u + damp * step, rise + damp * change
+        yield u, rise
+        if largest < TOLERANCE_MM and abs(change) < TOLERANCE_MM:
+            return
+    raise _NoEquilibrium(f"no equilibrium in {MAX_ITERATIONS} iterations")
+
+
+def _newton_step(tyre: RingTyre, system: System, load_n: float | None) -> tuple[Array, float]:
+    rhs = np.stack([system.force, system.slope], axis=2)
+    try:
+        solved = tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)
+    except (FloatingPointError, np.linalg.LinAlgError) as error:
+        raise _NoEquilibrium(str(error)) from error
+    step, follow = -solved[:, :, 0], -solved[:, :, 1]
+    if load_n is None:
+        return step, 0.0
+    missing = load_n - system.reaction_n - float(np.sum(system.row * step))
+    change = missing / (system.reaction_slope + float(np.sum(system.row * follow)))
+    return step + change * follow, change
+
+
+def tangent_stiffness(tyre: RingTyre, state: RingState) -> float:
+    """dF/dδ at a state, N/mm, with the ground's shear as it was remembered there."""
+    system = tyre.kernel.assemble(tyre.ring, state.u, state.rise_mm, state.anchor_before)
+    rhs = system.slope[:, :, None]
+    follow = -tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)[:, :, 0]
+    return system.reaction_slope + float(np.sum(system.row * follow))

@@ -1,0 +1,224 @@
+"""A spoke's energy table predicted from others: principal components and Gaussian processes.
+
+The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
+Gaussian process over `laminate_features`. A predicted table serves search and exploration; a design
+that is decided on is solved with a computed table.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from warnings import catch_warnings, simplefilter
+
+import numpy as np
+from scipy.stats import qmc
+from sklearn.exceptions import ConvergenceWarning
+from sklearn.gaussian_process import GaussianProcessRegressor
+from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
+
+from nptcs.arrays import Array
+from nptcs.errors import InputError
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
+from nptcs.ring.laminate_features import spoke_features
+
+COMPONENTS = 10
+DESIGN = ("plate_count", "thickness_mm", "angle_deg", "spoke_c10_mpa")
+FEWEST_TABLES = 3 * COMPONENTS
+
+
+@dataclass(frozen=True)
+class PredictedTable:
+    """A predicted table and its uncertainty.
+
+    Parameters
+    ----------
+    table : SpokeEnergyTable
+    modes : array (components, terms)
+        Changes of the coefficients, each by one standard error of a component; they are
+        independent.
+    """
+
+    table: SpokeEnergyTable
+    modes: Array
+
+
+class SpokeSurrogate:
+    """Predictor of energy tables inside the box of the spokes that it was fitted to.
+
+    Parameters
+    ----------
+    designs : array (n, 4)
+        `DESIGN` of each computed spoke.
+    tables : sequence of SpokeEnergyTable
+        Theirs, of one section, one mesh and one range.
+    ply : mapping
+        Constants of the ply of all of them.
+    kernels : sequence of kernels, optional
+        Of an earlier fit; fitted by maximum likelihood if not given.
+
+    Raises
+    ------
+    InputError
+        If there are too few tables, or their ranges differ.
+    """
+
+    def __init__(
+        self,
+        designs: Array,
+        tables: Sequence[SpokeEnergyTable],
+        ply: Mapping[str, float],
+        kernels: Sequence[Kernel] | None = None,
+    ) -> None:
+        designs = np.asarray(designs, dtype=float)
+        _check(designs, tables)
+        self.designs, self.ply = designs, dict(ply)
+        self.low, self.high = designs.min(axis=0), designs.max(axis=0)
+        self._first = tables[0]
+        scaled = np.array([table.coefficients for table in tables]) / designs[:, 3:]
+        self.mean = scaled.mean(axis=0)
+        self.components = np.linalg.svd(scaled - self.mean, full_matrices=False)[2][:COMPONENTS]
+        features = spoke_features(designs, ply)
+        self._middle, self._spread = features.mean(axis=0), features.std(axis=0)
+        self._spread[self._spread == 0.0] = 1.0
+        scores = (scaled - self.mean) @ self.components.T
+        given = kernels if kernels is not None else [None] * COMPONENTS
+        self._processes = [
+            _process(self._unit(designs), scores[:, place], kernel)
+            for place, kernel in enumerate(given)
+        ]
+
+    @property
+    def kernels(self) -> list[Kernel]:
+        """The fitted kernels, for a surrogate of other tables without another search."""
+        return [process.kernel_ for process in self._processes]
+
+    def _unit(self, designs: Array) -> Array:
+        unit: Array = (spoke_features(designs, self.ply) - self._middle) / self._spread
+        return unit
+
+    def check_inside(self, design: Array) -> None:
+        """Refuse a design outside the box of the fitted spokes.
+
+        Raises
+        ------
+        InputError
+            Naming the variable and the box.
+        """
+        if len(design) != len(DESIGN) or not np.isfinite(design).all():
+            raise InputError("a spoke's design is " + ", ".join(DESIGN), value=list(design))
+        room = 1e-9 * (self.high - self.low)
+        for name, value, low, high, slack in zip(
+            DESIGN, design, self.low, self.high, room, strict=True
+        ):
+            if not low - slack <= value <= high + slack:
+                raise InputError(
+                    f"the surrogate knows spokes from {low:g} to {high:g} only",
+                    "compute this spoke's table, or fit the surrogate to a wider box",
+                    column=name,
+                    value=float(value),
+                )
+
+    def predict(self, design: Sequence[float]) -> PredictedTable:
+        """Predict the table of a spoke.
+
+        Parameters
+        ----------
+        design : sequence of 4 float
+            As `DESIGN`.
+
+        Raises
+        ------
+        InputError
+            If the design lies outside the box.
+        """
+        values = np.asarray(design, dtype=float)
+        self.check_inside(values)
+        scores, errors = self._scores(values[None])
+        coefficients = values[3] * (self.mean + scores[0] @ self.components)
+        modes = values[3] * errors[0][:, None] * self.components
+        return PredictedTable(replace(self._first, coefficients=coefficients), modes)
+
+    def _scores(self, designs: Array) -> tuple[Array, Array]:
+        """Components (n, 10) and their standard errors."""
+        unit = self._unit(designs)
+        both = [process.predict(unit, return_std=True) for process in self._processes]
+        return np.stack([mean for mean, _ in both], 1), np.stack([error for _, error in both], 1)
+
+    def next_design(
+        self, importance: Array | None = None, candidates: int = 256, seed: int = 1
+    ) -> tuple[dict[str, float], float]:
+        """Name the spoke whose computed table would lower the mean variance over the box most.
+
+        Parameters
+        ----------
+        importance : array (components,), optional
+            Weight of each component's variance, for example the squares of a displacement's
+            derivatives by the components; its share of the energy's variance is 1 if not given.
+        candidates : int
+            Points of the box that are compared, and as many at which the variance is counted.
+        seed : int
+
+        Returns
+        -------
+        tuple
+            The design by `DESIGN`, and the part of the mean variance that it would take away.
+        """
+        weight = np.ones(COMPONENTS) if importance is None else np.asarray(importance)
+        points = qmc.Sobol(len(DESIGN), seed=seed).random(2 * candidates)
+        designs = self.low + points * (self.high - self.low)
+        designs[:, 0] = np.round(designs[:, 0])
+        unit = self._unit(designs)
+        before, gain = 0.0, np.zeros(candidates)
+        for share, process in zip(weight, self._processes, strict=True):
+            _, covariance = process.predict(unit, return_cov=True)
+            variance = np.maximum(np.diag(covariance), 1e-300)
+            before += share * float(np.mean(variance[candidates:]))
+            cross = covariance[candidates:, :candidates]
+            gain += share * np.mean(cross**2, axis=0) / variance[:candidates]
+        best = int(np.argmax(gain))
+        design = {name: float(value) for name, value in zip(DESIGN, designs[best], strict=True)}
+        return design, float(gain[best] / before)
+
+
+def _check(designs: Array, tables: Sequence[SpokeEnergyTable]) -> None:
+    if designs.shape != (len(tables), len(DESIGN)):
+        raise InputError(f"one design per table is needed, each {', '.join(DESIGN)}")
+    if len(tables) < FEWEST_TABLES:
+        raise InputError(
+            f"{len(tables)} tables are too few for {COMPONENTS} components",
+            f"compute {FEWEST_TABLES} spokes or more",
+        )
+    first = tables[0]
+    for number, table in enumerate(tables):
+        same = (
+            np.array_equal(table.exponents, first.exponents)
+            and np.allclose(table.low, first.low, rtol=1e-9)
+            and np.allclose(table.high, first.high, rtol=1e-9)
+            and np.isclose(table.narrowing, first.narrowing)
+            and np.isclose(table.height_mm, first.height_mm)
+        )
+        if not same:
+            raise InputError(
+                "the tables' ranges differ: a spoke that buckles has a shorter one",
+                "leave this spoke out, or shorten the range of all",
+                specimen=f"table {number}",
+                value=dict(zip(DESIGN, designs[number].tolist(), strict=True)),
+            )
+
+
+def _process(unit: Array, score: Array, kernel: Kernel | None) -> GaussianProcessRegressor:
+    """Fit one component, or take a kernel as it is."""
+    start = ConstantKernel(1.0, (1e-3, 1e6)) * RBF(
+        np.ones(unit.shape[1]), (1e-1, 1e4)
+    ) + WhiteKernel(1e-6, (1e-12, 1e-2))
+    process = GaussianProcessRegressor(
+        kernel if kernel is not None else start,
+        optimizer="fmin_l_bfgs_b" if kernel is None else None,
+        normalize_y=True,
+    )
+    with catch_warnings():
+        # a table has no noise and may not depend on all features: the search ends on these bounds
+        simplefilter("ignore", ConvergenceWarning)
+        process.fit(unit, score)
+    return process

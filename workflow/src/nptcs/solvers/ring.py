@@ -1,0 +1,112 @@
+"""Solver ``ring``: the tyre as a sandwich ring on the energies of finite element spokes."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import ClassVar
+
+import numpy as np
+from pydantic import Field
+
+from nptcs.config.fe import FeModel
+from nptcs.config.ring import RingModel
+from nptcs.errors import InputError
+from nptcs.fe.case import spoke_design
+from nptcs.fe.energy_cache import shared_table
+from nptcs.fe.spoke.equilibrium import SpokeError
+from nptcs.ring.responses import responses
+from nptcs.ring.solution import RingError, RingState, load
+from nptcs.ring.tyre import RingTyre, ring_tyre
+from nptcs.solvers.contract import (
+    CaseInputs,
+    Solver,
+    SolverOptions,
+    SolverResult,
+    Status,
+    neutral_line_columns,
+)
+from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+
+
+class RingSolverOptions(SolverOptions, RingModel):
+    """Options of ``ring``: the ring, its spokes and where these are kept."""
+
+    without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
+
+    spoke_cache: Path | None = Field(
+        None,
+        description="Folder in which cases share the tables of equal spokes, also with `fe_tyre`; "
+        "results do not depend on it",
+    )
+
+
+def solve(inputs: CaseInputs) -> SolverResult:
+    """Return the load–displacement curve and the secant stiffness at the load of the case.
+
+    Raises
+    ------
+    InputError
+        If a value of the case is missing or has no meaning, or the tyre's dimensions contradict
+        each other.
+    """
+    options: RingSolverOptions = inputs.options
+    values = checked_values(inputs, TYRE_FACTORS)
+    design = spoke_design(options, inputs.tyre, ply_constants(inputs), values)
+    # the tables depend on these parts of the finite element model alone
+    spokes = FeModel(**{name: getattr(options, name) for name in RingModel.spoke_parts()})
+    try:
+        table = shared_table(spokes, design, options.spoke_cache)
+    except SpokeError as error:
+        return SolverResult(status=Status.DIVERGED, message=f"spoke: {error}")
+    try:
+        tyre = ring_tyre(inputs.tyre, table, values["shear_band_c10_mpa"], options)
+    except ValueError as error:
+        raise InputError(
+            str(error),
+            "correct the tyre's dimensions or the ring's options",
+            column="tyre",
+            specimen=inputs.case_id,
+        ) from error
+    loads = np.linspace(0.0, inputs.load_n, options.load_steps + 1)[1:]
+    try:
+        states = load(tyre, loads.tolist())
+    except RingError as error:
+        return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
+    last = states[-1]
+    return SolverResult(
+        status=Status.OK,
+        vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
+        displacement_mm=last.rise_mm,
+        extra={
+            "table_force_residual_n": table.force_residual_n,
+            **responses(tyre, last),
+            "iterations": float(sum(state.iterations for state in states)),
+        },
+        curve=_curve(states),
+        neutral_line=_neutral_line(tyre, last),
+    )
+
+
+def _curve(states: list[RingState]) -> dict[str, list[float]]:
+    return {
+        "displacement_mm": [0.0, *(state.rise_mm for state in states)],
+        "force_n": [0.0, *(state.force_n for state in states)],
+    }
+
+
+def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
+    outward, along = tyre.neutral_line(state.u)
+    return neutral_line_columns(np.degrees(tyre.nodes.theta), outward, along)
+
+
+SOLVER = Solver(
+    name="ring",
+    version="1",
+    solve=solve,
+    factors=TYRE_FACTORS,
+    required=TYRE_FACTORS,
+    options=RingSolverOptions,
+    needs_ply=True,
+    realise=realised_spacing,
+    about="the tyre as a sandwich ring on the energies of finite element spokes",
+)
