@@ -1,4 +1,4 @@
-# Factors and levels → the full-factorial table of each study.
+# Factors, levels and kind of design → the design table of each study.
 
 
 def rubber_cards(wildcards):
@@ -12,6 +12,7 @@ def rubber_cards(wildcards):
 def design_job(wildcards):
     return {
         "study": CONFIG.study(wildcards.study).case_definition(),
+        "tyre": plain(CONFIG.tyre),
         "code": code_of("design"),
     }
 

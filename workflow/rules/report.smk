@@ -47,7 +47,8 @@ rule problems:
         records=records(SPECIMENS),
         cases="results/tables/cases.csv",
         tables=expand("results/2_reduce/{series}_problems.csv", series=SERIES)
-        + expand("results/6_surface/{study}_problems.csv", study=SURFACE_STUDIES),
+        + expand("results/6_surface/{study}_problems.csv", study=SURFACE_STUDIES)
+        + ["results/6_surface/sobol/problems.csv"],
     output:
         problems="results/tables/problems.csv",
     log:

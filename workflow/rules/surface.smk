@@ -1,15 +1,21 @@
 # Solved cases → response surfaces → average gradients and comprehensive impact values.
 
 
+FITTED = (
+    "name",
+    "title",
+    "factors",
+    "solvers",
+    "terms",
+    "least_cases",
+    "surfaces",
+)
+
+
 def surface_job(wildcards):
     study = CONFIG.study(wildcards.study)
     return {
-        "fit": {
-            "study": study.name,
-            "factors": [factor.name for factor in study.factors],
-            "solvers": list(study.solvers),
-            "terms": list(study.terms),
-        },
+        "study": study.model_dump(mode="json", include=set(FITTED)),
         "code": code_of("surface"),
     }
 
@@ -19,14 +25,24 @@ def published_coefficients(wildcards):
     return [path] if path else []
 
 
+def surface_ply(wildcards):
+    """The card of the plates' ply, where a surface of the study is made of its constants."""
+    needed = CONFIG.study(wildcards.study).needs_ply()
+    return ["results/3_calibrate/ply.json"] if needed else []
+
+
 rule surface:
     input:
+        ply=surface_ply,
         records=lambda wildcards: batches(wildcards.study),
         published=published_coefficients,
     output:
         table="results/tables/{study}_surface.csv",
         surfaces="results/6_surface/{study}.json",
+        models="results/6_surface/models/{study}.json",
         quality="results/6_surface/{study}_quality.csv",
+        comparison="results/6_surface/{study}_comparison.csv",
+        by_factor="results/6_surface/{study}_by_factor.csv",
         problems="results/6_surface/{study}_problems.csv",
     log:
         "results/logs/surface/{study}.log",
@@ -41,6 +57,10 @@ rule sensitivity:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         designs=expand("results/4_design/{study}.csv", study=SURFACE_STUDIES),
         qualities=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
+        comparisons=expand(
+            "results/6_surface/{study}_comparison.csv", study=SURFACE_STUDIES
+        ),
+        factors=expand("results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES),
         published=(
             [CONFIG.sensitivity.published_impact]
             if CONFIG.sensitivity.published_impact
@@ -49,12 +69,73 @@ rule sensitivity:
     output:
         impact="results/tables/impact.csv",
         quality="results/tables/surface_quality.csv",
+        comparison="results/tables/surface_comparison.csv",
+        by_factor="results/tables/surface_by_factor.csv",
     log:
         "results/logs/sensitivity.log",
     params:
         job={
             "rules": list(CONFIG.sensitivity.rules),
+            "near_tie_ratio": CONFIG.sensitivity.near_tie_ratio,
             "code": code_of("sensitivity"),
         },
     script:
         "../scripts/sensitivity.py"
+
+
+rule diagnostics:
+    input:
+        surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+    output:
+        tests="results/tables/surface_tests.csv",
+        anova="results/tables/surface_anova.csv",
+        influence="results/tables/surface_influence.csv",
+        stationary="results/tables/surface_stationary.csv",
+        selection="results/tables/surface_selection.csv",
+    log:
+        "results/logs/diagnostics.log",
+    params:
+        job={"code": code_of("diagnostics")},
+    script:
+        "../scripts/diagnostics.py"
+
+
+rule sobol:
+    input:
+        models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
+        quality="results/tables/surface_quality.csv",
+    output:
+        indices="results/tables/sobol_indices.csv",
+        effects="results/tables/main_effects.csv",
+        problems="results/6_surface/sobol/problems.csv",
+    log:
+        "results/logs/sobol.log",
+    params:
+        job={"settings": plain(CONFIG.sensitivity), "code": code_of("sobol")},
+    script:
+        "../scripts/sobol.py"
+
+
+rule coverage:
+    input:
+        cases="results/tables/cases.csv",
+        designs=expand("results/4_design/{study}.csv", study=STUDIES),
+    output:
+        coverage="results/tables/case_coverage.csv",
+    log:
+        "results/logs/coverage.log",
+    params:
+        job={
+            "studies": {
+                study.name: {
+                    "factors": [factor.name for factor in study.factors],
+                    "solvers": list(study.solvers),
+                    "terms": list(study.terms),
+                    "least_cases": study.least_solved_cases(),
+                }
+                for study in CONFIG.studies
+            },
+            "code": code_of("coverage"),
+        },
+    script:
+        "../scripts/coverage.py"

@@ -4,8 +4,9 @@ from collections.abc import Sequence
 from typing import Any
 
 from nptcs.config.study import Study
+from nptcs.config.tyre import TyreGeometry
 from nptcs.console import clear_errors
-from nptcs.design import full_factorial
+from nptcs.design import build_design
 from nptcs.files import read_model
 from nptcs.tables.cases import Design
 from nptcs.tables.io import write_table
@@ -15,7 +16,8 @@ from nptcs.tables.material_card import RubberCard
 def build(job: dict[str, Any], design: str, cards: Sequence[str] = ()) -> None:
     rubbers = [read_model(card, RubberCard) for card in cards]
     c10_mpa = {rubber.name: rubber.constants["c10_mpa"].value for rubber in rubbers}
-    write_table(design, full_factorial(Study.model_validate(job["study"]), c10_mpa), Design)
+    tyre = TyreGeometry.model_validate(job["tyre"])
+    write_table(design, build_design(Study.model_validate(job["study"]), c10_mpa, tyre), Design)
 
 
 if __name__ == "__main__":

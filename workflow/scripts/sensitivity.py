@@ -1,4 +1,4 @@
-"""Average gradients and comprehensive impact values of all surfaces, by every rule."""
+"""Average gradients and comprehensive impact values of all polynomials, by every rule."""
 
 from pathlib import Path
 from typing import Any
@@ -11,16 +11,20 @@ from nptcs.tables.cases import Design
 from nptcs.tables.impact import Impact
 from nptcs.tables.io import read_table, read_tables, write_table
 from nptcs.tables.published_inputs import PublishedImpact
-from nptcs.tables.surface import SurfaceQuality
+from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality
 
 
-def assess(job: dict[str, Any], impact: str, quality: str, **source: list[str]) -> None:
-    surfaces = {Path(file).stem: read_surfaces(file) for file in source["surfaces"]}
-    designs = {Path(file).stem: read_table(file, Design) for file in source["designs"]}
-    computed = impact_table(surfaces, designs, job["rules"])
-    published = read_tables(source["published"], PublishedImpact)
+def assess(job: dict[str, Any], impact: str, **files: Any) -> None:
+    surfaces = {Path(file).stem: read_surfaces(file) for file in files["surfaces"]}
+    designs = {Path(file).stem: read_table(file, Design) for file in files["designs"]}
+    qualities = read_tables(files["qualities"], SurfaceQuality)
+    computed = impact_table(surfaces, designs, qualities, job["rules"], job["near_tie_ratio"])
+    published = read_tables(files["published"], PublishedImpact)
     write_table(impact, with_published(computed, published), Impact)
-    write_table(quality, read_tables(source["qualities"], SurfaceQuality), SurfaceQuality)
+    write_table(files["quality"], qualities, SurfaceQuality)
+    comparisons = read_tables(files["comparisons"], SurfaceComparison)
+    write_table(files["comparison"], comparisons, SurfaceComparison)
+    write_table(files["by_factor"], read_tables(files["factors"], SurfaceByFactor), SurfaceByFactor)
 
 
 if __name__ == "__main__":

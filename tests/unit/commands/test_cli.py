@@ -29,8 +29,9 @@ def test_help_lists_every_command():
 def test_check_says_what_is_planned(project, capsys):
     assert main(["check"]) == 0
     printed = capsys.readouterr().out
-    assert "study plate: 63 cases by" in printed
-    assert "study rubber: 15 cases by" in printed
+    assert "study plate: 63 cases (full_factorial)" in printed
+    assert "fe_tyre: 63 cases, time not known" in printed
+    assert "study rubber: 15 cases (full_factorial)" in printed
 
 
 def test_check_names_every_fault_of_the_sheet(project, capsys):

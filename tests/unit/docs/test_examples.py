@@ -56,11 +56,11 @@ def test_what_newcomers_call_first_has_an_example():
     assert named >= {
         "nptcs.calibrate.fit.fit_model",
         "nptcs.design.full_factorial",
-        "nptcs.fe.elements.laminate.abd",
+        "nptcs.laminate.abd",
         "nptcs.lca.single.solve",
         "nptcs.reduce.chord.chord_slope",
         "nptcs.surface.fit.fit",
         "nptcs.surface.sensitivity.impact",
-        "nptcs.surface.terms.Polynomial",
+        "nptcs.terms.Polynomial",
         "nptcs.tables.io.write_table",
     }

@@ -7,10 +7,10 @@ import pandas as pd
 import pytest
 
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.elements.laminate import abd
+from nptcs.laminate import abd
 from nptcs.surface.fit import fit
-from nptcs.surface.terms import parse
 from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.terms import parse
 
 ROOT = Path(__file__).parents[3]
 PUBLISHED = ROOT / "raw_data" / "published"

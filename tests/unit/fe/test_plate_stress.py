@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
-from nptcs.fe.elements.laminate import abd, rotated_stiffness
 from nptcs.fe.output.plate_stress import face_stress, fibre_axes, mises_in_plane, rubber_extremes
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.laminate import abd, rotated_stiffness
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))

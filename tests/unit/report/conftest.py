@@ -25,9 +25,8 @@ from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.report.data import Results, SolverFacts
 from nptcs.solvers.contract import SolverResult
 from nptcs.solvers.spoke_responses import spoke_responses
-from nptcs.surface.fit import fit
-from nptcs.surface.quality import assess
-from nptcs.surface.sensitivity import impact
+from nptcs.surface.impact_table import impact_table
+from nptcs.surface.study import fit_study
 from nptcs.surface.tables import quality_table, surface_table
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.catalogue import TABLES
@@ -112,16 +111,18 @@ def cases_of(study):
 def analysed(study, cases, solver="published"):
     """Fit the study's surface as the pipeline does."""
     names = [factor.name for factor in study.factors]
-    response = cases["vertical_stiffness_n_per_mm"]
-    surface = fit(cases, response, names, study.terms)
+    done = fit_study(
+        cases.assign(solver=solver), study.model_copy(update={"solvers": (solver,), "surfaces": ()})
+    )
+    surface = done.polynomials[solver]
     file = ROOT / study.published_coefficients
     published = by_powers(read_table(file, PublishedCoefficients), names)
-    quality = quality_table(study.name, {solver: assess(surface, cases, response)})
-    impacts = [
-        impact(surface, cases, rule).assign(study=study.name, solver=solver)
-        for rule in ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
-    ]
-    return surface, surface_table({solver: surface}, published), quality, pd.concat(impacts)
+    quality = quality_table(study.name, done)
+    rules = ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
+    impacts = impact_table(
+        {study.name: {solver: surface}}, {study.name: cases[names]}, quality, rules, 0.8
+    )
+    return surface, surface_table({solver: surface}, published), quality, impacts
 
 
 def card(synthetic=True):

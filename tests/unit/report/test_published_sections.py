@@ -20,7 +20,7 @@ from nptcs.report.sections.compared_cases import case_comparison
 from nptcs.report.sections.neutral_lines import line_words
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.sections.published_stiffness import published_stiffness_section
-from nptcs.report.sections.ranking import published_ranking, verdicts
+from nptcs.report.sections.ranking import near_tie_sentences, published_ranking, verdicts
 from nptcs.report.sections.spokes import spoke_section, what_differs
 from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
 from nptcs.report.sections.studies import cases_section
@@ -234,6 +234,13 @@ def test_the_ranking_is_compared_with_table_9(compared):
     assert list(table["published_rank"][:5]) == [1, 2, 3, 4, 5]
     assert list(table["published_impact"][:5]) == [319.83, 54.93, 38.60, 21.91, 15.97]
     assert str(headings["impact_fe_tyre"]) == "fe_tyre, impact [N/mm]"
+
+
+def test_near_ties_are_named_with_the_ranking(compared):
+    sentences = near_tie_sentences(compared, compared.table(Impact))
+    assert any("thickness T and fibre angle A" in text or "fibre angle A and" in text
+               for text in sentences)  # fmt: skip
+    assert all("near tie" in text for text in sentences)
 
 
 def test_another_ranking_is_said_to_be_another(compared):

@@ -1,28 +1,47 @@
-"""Full-factorial design tables, numbered as tables 5 and 7 of the paper are."""
+"""Design tables: full factorial, numbered as tables 5 and 7 of the paper are, and others."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping
 from itertools import product
+from typing import assert_never
 
+import numpy as np
 import pandas as pd
 
+from nptcs.arrays import Array
+from nptcs.config.design import (
+    BoxBehnken,
+    CentralComposite,
+    DOptimal,
+    FullFactorial,
+    SpaceFilling,
+)
 from nptcs.config.study import Level, MeasuredRubber, Study
+from nptcs.config.tyre import TyreGeometry
+from nptcs.doe.d_optimal import d_optimal
+from nptcs.doe.points import box_behnken, central_composite, space_filling
+from nptcs.doe.whole_plates import whole_plates
 from nptcs.errors import InputError
+from nptcs.terms import parse
+
+DIGITS = 6
+"""Significant digits of the values of cases between the levels."""
 
 
-def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.DataFrame:
-    """Build the design table of a study.
-
-    The last factor of the configuration changes fastest, so that spacing × thickness × angle
-    gives the numbering of table 5 and T-C × S-C that of table 7.
+def build_design(
+    study: Study, rubber_c10_mpa: Mapping[str, float], tyre: TyreGeometry
+) -> pd.DataFrame:
+    """Build the design table that a study asks for.
 
     Parameters
     ----------
     study : Study
-        Factors with their levels, and the fixed values.
+        Factors with their levels, the fixed values, and the kind of design.
     rubber_c10_mpa : mapping of str to float
         C10 of each tested rubber that a level or a fixed value names.
+    tyre : TyreGeometry
+        Its width decides which spacings have a whole number of plates.
 
     Returns
     -------
@@ -33,7 +52,41 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
     Raises
     ------
     InputError
-        When a level names a rubber that has no card, or two levels of a factor coincide.
+        When a level names a rubber that has no card, two levels of a factor coincide, tested
+        rubbers would have to be spread, or a design is not made for so many factors or cases.
+    """
+    levels = _levels(study, rubber_c10_mpa)
+    design = study.design
+    match design:
+        case FullFactorial():
+            points = _combinations(levels)
+        case SpaceFilling():
+            coded = space_filling(design.kind, design.cases, len(levels), design.seed)
+            points = _between(study, levels, coded)
+        case CentralComposite():
+            coded = central_composite(len(levels), design.axial, design.centre_cases)
+            points = _between(study, levels, coded)
+        case BoxBehnken():
+            points = _between(study, levels, box_behnken(len(levels), design.centre_cases))
+        case DOptimal():
+            points = _chosen(levels, design, tyre)
+        case _:
+            assert_never(design)
+    if not isinstance(design, FullFactorial | DOptimal) and design.whole_plates:
+        points = whole_plates(points, list(levels), tyre)
+    table = pd.DataFrame(points, columns=list(levels), dtype=float)
+    if study.further_cases:
+        further = pd.DataFrame(list(study.further_cases))[list(levels)]
+        table = pd.concat([table, further], ignore_index=True)
+    return _numbered(table, study, rubber_c10_mpa)
+
+
+def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.DataFrame:
+    """Build the table of all combinations of the levels, whatever design the study asks for.
+
+    The last factor of the configuration changes fastest, so that spacing × thickness × angle
+    gives the numbering of table 5 and T-C × S-C that of table 7. Parameters, result and errors
+    as `build_design`.
 
     Examples
     --------
@@ -50,6 +103,13 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
     plate_005     5        20.0       45.0
     plate_006     6        20.0       90.0
     """
+    points = _combinations(_levels(study, rubber_c10_mpa))
+    names = [factor.name for factor in study.factors]
+    return _numbered(pd.DataFrame(points, columns=names), study, rubber_c10_mpa)
+
+
+def _levels(study: Study, rubber_c10_mpa: Mapping[str, float]) -> dict[str, list[float]]:
+    """Return the numbers of the levels of each factor."""
     levels = {
         factor.name: [
             _number(level, rubber_c10_mpa, f"studies.{study.name}.factors.{factor.name}")
@@ -65,7 +125,45 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
                 value=values,
                 remedy="give levels that differ",
             )
-    table = pd.DataFrame(list(product(*levels.values())), columns=list(levels), dtype=float)
+    return levels
+
+
+def _combinations(levels: Mapping[str, list[float]]) -> Array:
+    return np.array(list(product(*levels.values())), dtype=float)
+
+
+def _between(study: Study, levels: Mapping[str, list[float]], coded: Array) -> Array:
+    """Map coded points to the box between the lowest and the highest level of each factor."""
+    for factor in study.factors:
+        if any(isinstance(level, MeasuredRubber) for level in factor.levels):
+            raise InputError(
+                "there are no rubbers between tested ones",
+                column=f"studies.{study.name}.factors.{factor.name}",
+                value=study.design.kind,
+                remedy="use full_factorial or d_optimal, or give numbers as levels",
+            )
+    low, high = (np.array([side(values) for values in levels.values()]) for side in (min, max))
+    points = (low + high) / 2 + coded * (high - low) / 2
+    rounded = [[float(f"{value:.{DIGITS}g}") for value in point] for point in points]
+    return np.clip(np.array(rounded), low, high)
+
+
+def _chosen(levels: Mapping[str, list[float]], design: DOptimal, tyre: TyreGeometry) -> Array:
+    """Choose the best cases among all combinations of the levels."""
+    factors = list(levels)
+    points = _combinations(levels)
+    if design.whole_plates:
+        points = np.unique(whole_plates(points, factors, tyre), axis=0)
+    low, high = points.min(axis=0), points.max(axis=0)
+    polynomial = parse(design.terms, factors)
+    matrix = polynomial.matrix((points - (low + high) / 2) / ((high - low) / 2))
+    return points[d_optimal(matrix, design.cases, design.starts, design.seed)]
+
+
+def _numbered(
+    table: pd.DataFrame, study: Study, rubber_c10_mpa: Mapping[str, float]
+) -> pd.DataFrame:
+    """Add the fixed values and the numbers of the cases."""
     for name, level in study.fixed.items():
         table[name] = _number(level, rubber_c10_mpa, f"studies.{study.name}.fixed.{name}")
     digits = max(3, len(str(len(table))))

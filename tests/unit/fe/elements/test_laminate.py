@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.elements.laminate import abd, reduced_stiffness, rotated_stiffness, transverse_shear
+from nptcs.laminate import abd, reduced_stiffness, rotated_stiffness, transverse_shear
 
 
 def test_reduced_stiffness_inverts_the_ply_compliance(ply):
@@ -45,3 +45,10 @@ def test_a_strip_that_may_bow_is_softest_near_60_degrees_and_one_that_may_not_at
     assert moduli[:3] == pytest.approx([8138.0, 8470.0, 8800.0], abs=1.0)
     assert moduli[3:6] == pytest.approx([11526.0, 9166.0, 8878.0], abs=1.0)
     assert moduli[6:] == pytest.approx([16613.0, 9491.0, 8878.0], abs=1.0)
+
+
+def test_many_plates_at_once_are_the_plates_one_by_one(ply):
+    angles, thicknesses = np.array([0.0, 17.0, 45.0, 90.0]), np.array([1.2, 1.8, 2.4, 0.7])
+    together = abd(ply, angles, thicknesses)
+    for number, (angle, thickness) in enumerate(zip(angles, thicknesses, strict=True)):
+        np.testing.assert_allclose(together[number], abd(ply, angle, thickness), rtol=1e-13)

@@ -3,7 +3,6 @@ import pytest
 
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
-from nptcs.fe.elements.laminate import rotated_stiffness
 from nptcs.fe.output.fields import (
     at_points,
     extreme,
@@ -15,6 +14,7 @@ from nptcs.fe.output.fields import (
     rubber_fields,
 )
 from nptcs.fe.spoke.mesh import ElementSet
+from nptcs.laminate import rotated_stiffness
 
 CORNERS = (lattice(3, 3) * [1.0, 2.0, 1.5])[None]
 NODES = np.arange(27)[None]

@@ -3,10 +3,10 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.elements.laminate import abd
 from nptcs.fe.spoke.element_groups import plate_blocks
 from nptcs.fe.spoke.embedded_plates import straight_block
 from nptcs.fe.spoke.mesh import ElementSet
+from nptcs.laminate import abd
 
 LAYER = 1.0
 LENGTH, WIDTH = 60.0, 5.0

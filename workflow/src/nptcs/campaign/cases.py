@@ -7,7 +7,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.tables.cases import RESPONSES
+from nptcs.tables.cases import RESPONSES, realised_column
 
 
 def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
@@ -22,10 +22,13 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
     -------
     DataFrame
         ``study, case_id, solver, status, message``, the factors and fixed values of all studies,
-        ``load_n``, the responses, what else solvers report, and where each row came from.
+        ``load_n``, ``realised_FACTOR`` for each factor of which a solver reports the value that it
+        really used (empty: the given one), the responses, what else solvers report, and where each
+        row came from.
     """
     values = list(dict.fromkeys(name for record in records for name in record.values))
     extra = list(dict.fromkeys(name for record in records for name in record.result.extra))
+    realised = list(dict.fromkeys(name for record in records for name in record.result.realised))
     rows = [
         {
             "study": record.study,
@@ -35,6 +38,7 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
             "message": record.result.message,
             **{name: record.values.get(name) for name in values},
             "load_n": record.load_n,
+            **{realised_column(name): record.result.realised.get(name) for name in realised},
             **{name: getattr(record.result, name) for name in RESPONSES},
             **{name: record.result.extra.get(name) for name in extra},
             "wall_time_s": record.wall_time_s,
@@ -44,6 +48,6 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
         for record in records
     ]
     table = pd.DataFrame(rows)
-    numbers = [*values, "load_n", *RESPONSES, *extra]
+    numbers = [*values, "load_n", *map(realised_column, realised), *RESPONSES, *extra]
     table[numbers] = table[numbers].astype(float)
     return table

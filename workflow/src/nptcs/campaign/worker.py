@@ -38,6 +38,9 @@ def solve(job: CaseJob) -> SolverResult:
                 status=Status.ERROR,
                 message=f"solver '{solver.name}' says ok but gives no {', '.join(missing)}",
             )
+        if solver.realise is not None and result.status == Status.OK:
+            realised = solver.realise(inputs.values, inputs.tyre)
+            result.realised = {**realised, **result.realised}
         return result
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
         where = traceback.extract_tb(error.__traceback__)[-1]

@@ -15,12 +15,19 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "config", nargs="?", default="config/config.yaml", help="default: %(default)s"
     )
+    parser.add_argument(
+        "--cases",
+        default="results/tables/cases.csv",
+        help="cases of an earlier run, from whose wall times the time is estimated; default: "
+        "%(default)s",
+    )
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what is planned, or every fault; exit code 1 if there is one."""
     from nptcs.calibrate.plan import check_materials
+    from nptcs.campaign.times import seconds_per_case, time_in_words
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
     from nptcs.ingest.reading.profiles import load_profiles
@@ -36,12 +43,13 @@ def run(arguments: argparse.Namespace) -> int:
     if not isinstance(values, dict):
         raise InputError("is not a configuration", "write 'key: value' lines", path)
     config = read_config(values, str(path))
+    seconds = seconds_per_case(Path(arguments.cases))
     for study in config.studies:
         check_study(study, config.solver_options(study))
-        cases = 1
-        for factor in study.factors:
-            cases *= len(factor.levels)
-        print(f"study {study.name}: {cases} cases by {', '.join(study.solvers)}")
+        cases = study.number_of_cases()
+        print(f"study {study.name}: {cases} cases ({study.design.kind}) by each of its solvers")
+        for solver in study.solvers:
+            print(f"  {solver}: {time_in_words(cases, seconds.get(solver))}")
     specimens, errors = read_sheet(config.lab_data.specimen_sheet)
     folder = Path(config.lab_data.specimen_sheet).parent
     missing = [

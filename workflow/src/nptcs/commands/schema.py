@@ -120,7 +120,7 @@ def _type(value: dict[str, Any]) -> str:
         return str(value["$ref"]).rsplit("/", 1)[-1]
     if "enum" in value or "const" in value:
         return " \\| ".join(f"`{item}`" for item in value.get("enum", [value.get("const")]))
-    if options := value.get("anyOf") or value.get("allOf"):
+    if options := value.get("anyOf") or value.get("oneOf") or value.get("allOf"):
         return " or ".join(_type(option) for option in options)
     if value.get("type") == "array":
         if "prefixItems" in value:

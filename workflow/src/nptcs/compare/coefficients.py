@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from nptcs.surface.terms import parse
+from nptcs.terms import parse
 
 
 def by_powers(published: pd.DataFrame, factors: Sequence[str]) -> dict[tuple[int, ...], float]:

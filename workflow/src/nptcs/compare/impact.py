@@ -14,21 +14,22 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
     Parameters
     ----------
     impact : DataFrame
-        ``solver, study, factor, rule, gradient, range, impact``.
+        ``solver, study, factor, rule, gradient, range, impact, nominal_range, values_used, cases,
+        failed_cases``.
     published : DataFrame
         ``study, factor, gradient, range, impact`` as printed; may be empty.
 
     Returns
     -------
     DataFrame
-        As `Impact`. A published value is given only where the range is the same; only
-        these factors are ranked, over all studies, for each solver and rule.
+        As `Impact`. A published value is given only where the range of the levels is the same;
+        only these factors are ranked, over all studies, for each solver and rule.
     """
     table_9 = published.rename(
         columns={"gradient": "published_gradient", "impact": "published_impact"}
     )
     table = impact.merge(table_9, how="left", on=["study", "factor"], suffixes=("", "_published"))
-    other_range = ~np.isclose(table["range"], table.pop("range_published").astype(float))
+    other_range = ~np.isclose(table["nominal_range"], table.pop("range_published").astype(float))
     table.loc[other_range, ["published_gradient", "published_impact"]] = np.nan
     table["difference_percent"] = 100 * (table["impact"].abs() / table["published_impact"] - 1)
     size = pd.DataFrame(

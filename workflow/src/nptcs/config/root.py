@@ -100,6 +100,13 @@ class Config(Strict):
             raise ValueError(f"studies: a name is used twice: {names}")
         return self
 
+    @model_validator(mode="after")
+    def _distributions_are_of_factors(self) -> Self:
+        factors = {factor.name for study in self.studies for factor in study.factors}
+        if stray := sorted(set(self.sensitivity.distributions) - factors):
+            raise ValueError(f"sensitivity.distributions: not a factor of any study: {stray}")
+        return self
+
     def study(self, name: str) -> Study:
         """Return the study of that name."""
         return next(study for study in self.studies if study.name == name)

@@ -2,17 +2,59 @@
 
 from __future__ import annotations
 
-from typing import Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
 
 AveragingRule = Literal["domain_mean_absolute", "design_mean_absolute", "domain_mean_signed"]
 
 
+class UniformFactor(Strict):
+    """A factor that takes every value of a range equally often."""
+
+    kind: Literal["uniform"]
+    low: float = Field(description="Unit of the factor")
+    high: float
+
+    @model_validator(mode="after")
+    def _in_order(self) -> Self:
+        if self.low >= self.high:
+            raise ValueError(f"low must be below high, got {self.low:g} and {self.high:g}")
+        return self
+
+
+class NormalFactor(Strict):
+    """A factor that scatters normally, as a manufactured dimension or a tested rubber does."""
+
+    kind: Literal["normal"]
+    mean: float = Field(description="Unit of the factor")
+    sd: float = Field(gt=0, description="Standard deviation, unit of the factor")
+
+
+Distribution = Annotated[UniformFactor | NormalFactor, Field(discriminator="kind")]
+
+
+class Sobol(Strict):
+    """How Sobol indices are estimated."""
+
+    points: int = Field(
+        2048, ge=64, description="Base points, a power of two; n factors take points × (2n + 2)"
+    )
+    confidence: float = Field(0.95, gt=0, lt=1, description="Of the intervals (bootstrap)")
+    seed: int = Field(1, ge=0, description="Of the scrambled Sobol sequence and the bootstrap")
+
+    @field_validator("points")
+    @classmethod
+    def _power_of_two(cls, points: int) -> int:
+        if points & (points - 1):
+            raise ValueError(f"must be a power of two, got {points}")
+        return points
+
+
 class Sensitivity(Strict):
-    """How gradients of the response surfaces are averaged."""
+    """How gradients of the response surfaces are averaged, and how variance is shared out."""
 
     rules: tuple[AveragingRule, ...] = Field(
         ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed"),
@@ -21,4 +63,18 @@ class Sensitivity(Strict):
     )
     published_impact: str | None = Field(
         None, description="CSV with the paper's table 9 (study, factor, gradient, range, impact)"
+    )
+    sobol: Sobol = Sobol()
+    distributions: dict[str, Distribution] = Field(
+        default_factory=dict,
+        description="By factor, how it is distributed; cut to the range of the cases. Indices are "
+        "then given twice: for uniform factors, and for these distributions. Without an entry a "
+        "factor stays uniform over its range",
+    )
+    near_tie_ratio: float = Field(
+        0.8,
+        gt=0,
+        lt=1,
+        description="Two factors are a near tie where the smaller effect is at least this share "
+        "of the larger one, or where solvers, surfaces or rules disagree on their order",
     )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from math import prod
 from typing import Annotated, Any, ClassVar, Self
 
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
+from nptcs.config.design import Design, DOptimal, FullFactorial, number_of_cases
+from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
+from nptcs.terms import parse
 
 Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
@@ -46,12 +48,22 @@ class Factor(Strict):
 
 
 class Study(Strict):
-    """One full-factorial study of the tyre."""
+    """One study of the tyre: factors, how its cases are chosen, solvers, surfaces."""
 
     name: Name = Field(description="Stem of the case ids and of the result files")
     title: str = Field(description="Heading in the report")
     factors: tuple[Factor, ...] = Field(
         min_length=1, description="Factors; the last one changes fastest from case to case"
+    )
+    design: Design = Field(
+        FullFactorial(),
+        description="How the cases are chosen; kinds other than full_factorial and d_optimal take "
+        "the lowest and the highest level of each factor as the box",
+    )
+    further_cases: tuple[dict[Name, float], ...] = Field(
+        (),
+        description="Cases after those of the design, a value for each factor; `nptcs augment` "
+        "proposes some",
     )
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
@@ -75,6 +87,17 @@ class Study(Strict):
         description="Terms of the response surface: '1', 'a', 'a^2', 'a*b', with factor names; "
         "without terms no surface is fitted",
     )
+    least_cases: int | None = Field(
+        None,
+        ge=2,
+        description="Solved cases of a solver below which no surface is fitted; none: one more "
+        "than `terms` has",
+    )
+    surfaces: tuple[SurfaceModel, ...] = Field(
+        (),
+        description="Surfaces that are fitted and compared with the polynomial of `terms`: other "
+        "polynomials, the lamination form, Gaussian processes",
+    )
     published_coefficients: str | None = Field(
         None, description="CSV with the paper's coefficients (term, coefficient), shown beside ours"
     )
@@ -97,6 +120,8 @@ class Study(Strict):
     AFTERWARDS: ClassVar[frozenset[str]] = frozenset(
         {
             "terms",
+            "least_cases",
+            "surfaces",
             "published_coefficients",
             "published_spoke_stiffness",
             "calibration_cases",
@@ -130,8 +155,45 @@ class Study(Strict):
         return self
 
     @model_validator(mode="after")
+    def _further_cases_are_complete(self) -> Self:
+        names = {factor.name for factor in self.factors}
+        for number, case in enumerate(self.further_cases, start=1):
+            if set(case) != names:
+                raise ValueError(
+                    f"study {self.name}: further_cases, case {number}: give {sorted(names)}, got "
+                    f"{sorted(case)}"
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _terms_can_be_read(self) -> Self:
+        factors = [factor.name for factor in self.factors]
+        if isinstance(self.design, DOptimal):
+            parse(self.design.terms, factors)
+        if self.terms:
+            parse(self.terms, factors)
+        for model in self.surfaces:
+            terms, through_origin = own_terms(model)
+            if terms or through_origin:
+                parse(terms, factors, through_origin)
+        return self
+
+    @model_validator(mode="after")
+    def _surfaces_differ(self) -> Self:
+        names = [name_of(model) for model in self.surfaces]
+        names += ["polynomial"] if self.terms else []
+        if len(set(names)) < len(names):
+            raise ValueError(f"study {self.name}: two surfaces are the same: {names}")
+        if self.surfaces and not self.terms:
+            raise ValueError(
+                f"study {self.name}: surfaces are compared with the polynomial of `terms`, which "
+                "are missing"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _cases_exist(self) -> Self:
-        last = prod(len(factor.levels) for factor in self.factors)
+        last = self.number_of_cases()
         named = {"neutral_line_cases": self.neutral_line_cases}
         named |= {
             f"calibration_cases.{key}": value for key, value in self.calibration_cases.items()
@@ -150,6 +212,19 @@ class Study(Strict):
                 f"published_spoke_stiffness the only factor is spoke_c10_mpa, got {names}"
             )
         return self
+
+    def number_of_cases(self) -> int:
+        """Return how many cases its design has, further ones included."""
+        of_design = number_of_cases(self.design, [len(factor.levels) for factor in self.factors])
+        return of_design + len(self.further_cases)
+
+    def least_solved_cases(self) -> int:
+        """Return the number of solved cases below which no surface is fitted."""
+        return len(self.terms) + 1 if self.least_cases is None else self.least_cases
+
+    def needs_ply(self) -> bool:
+        """Tell whether one of its surfaces is made of the ply's constants."""
+        return any(needs_ply(model) for model in self.surfaces)
 
     def rubbers(self) -> tuple[str, ...]:
         """Name the tested rubbers that levels or fixed values refer to."""

@@ -12,7 +12,7 @@ from collections.abc import Mapping
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.fe.elements.laminate import rotated_stiffness
+from nptcs.laminate import rotated_stiffness
 
 
 def spoke_features(designs: Array, ply: Mapping[str, float]) -> Array:

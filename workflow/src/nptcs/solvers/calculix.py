@@ -15,7 +15,7 @@ from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM
 from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
 from nptcs.solvers.external import CommandStopped, run_command, time_for_command
-from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
+from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants, realised_spacing
 from nptcs.solvers.spoke_responses import spoke_responses
 
 STEPS = 4
@@ -92,4 +92,5 @@ SOLVER = Solver(
     options=CalculixOptions,
     needs_ply=True,
     loads_tyre=False,
+    realise=realised_spacing,
 )

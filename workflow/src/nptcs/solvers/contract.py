@@ -89,6 +89,11 @@ class SolverResult(BaseModel):
     extra: dict[str, float] = Field(
         default_factory=dict, description="Further scalars, unit in the name (theta_c_deg, …)"
     )
+    realised: dict[str, float] = Field(
+        default_factory=dict,
+        description="Values that were really used, of those factors of which the solver can use "
+        "some values only (a whole number of plates); a factor that is not named was used as given",
+    )
     curve: dict[str, list[float]] | None = Field(
         None, description="Columns of equal length, e.g. displacement_mm and force_n"
     )
@@ -184,6 +189,9 @@ class Solver:
     loads_tyre : bool
         Whether it loads a tyre: the study's load is handed to it (and is part of the key) and
         it gives `TYRE_RESPONSES`. A solver of single spokes does not; it gives `SPOKE_RESPONSES`.
+    realise : callable, optional
+        ``(values, tyre) → values`` that the solver really uses for the factors of which it can
+        use some values only; the campaign records them with each solved case.
     """
 
     name: str
@@ -195,6 +203,7 @@ class Solver:
     options: type[SolverOptions] = SolverOptions
     needs_ply: bool = False
     loads_tyre: bool = True
+    realise: Callable[[Mapping[str, float], TyreGeometry], dict[str, float]] | None = None
 
     def missing_responses(self, result: SolverResult) -> list[str]:
         """Name what a result that says ``ok`` must give and does not."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers.contract import CaseInputs
 from nptcs.tables.material_card import PLY_CONSTANTS
@@ -65,3 +66,8 @@ def ply_constants(inputs: CaseInputs) -> Mapping[str, float]:
             specimen=inputs.case_id,
         )
     return inputs.ply
+
+
+def realised_spacing(values: Mapping[str, float], tyre: TyreGeometry) -> dict[str, float]:
+    """Return the pitch of the plates in mm: a whole number of them shares the tyre's width."""
+    return {"spacing_mm": tyre.tread_width_mm / tyre.plates_across(values["spacing_mm"])}

@@ -9,7 +9,7 @@ from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
-from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants
+from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants, realised_spacing
 from nptcs.solvers.spoke_responses import spoke_responses
 
 
@@ -52,4 +52,5 @@ SOLVER = Solver(
     options=FeSpokeOptions,
     needs_ply=True,
     loads_tyre=False,
+    realise=realised_spacing,
 )

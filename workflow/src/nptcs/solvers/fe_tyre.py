@@ -29,7 +29,7 @@ from nptcs.solvers.contract import (
     Status,
     neutral_line_columns,
 )
-from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
+from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
 
 
 class FeTyreOptions(SolverOptions, FeModel):
@@ -141,4 +141,5 @@ SOLVER = Solver(
     required=TYRE_FACTORS,
     options=FeTyreOptions,
     needs_ply=True,
+    realise=realised_spacing,
 )

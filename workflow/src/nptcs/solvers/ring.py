@@ -25,7 +25,7 @@ from nptcs.solvers.contract import (
     Status,
     neutral_line_columns,
 )
-from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
+from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
 
 
 class RingSolverOptions(SolverOptions, RingModel):
@@ -107,5 +107,6 @@ SOLVER = Solver(
     required=TYRE_FACTORS,
     options=RingSolverOptions,
     needs_ply=True,
+    realise=realised_spacing,
     about="the tyre as a sandwich ring on the energies of finite element spokes",
 )

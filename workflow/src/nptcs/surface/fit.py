@@ -4,14 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy import linalg, stats
+from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.surface.terms import Polynomial, coded_to_natural, parse
+from nptcs.surface import least_squares
+from nptcs.surface.response_surface import Outside, box, refuse_unusable
+from nptcs.terms import Polynomial, coded_to_natural, parse
 
 RANK_TOLERANCE = 1e-9
 """Share of a coded column, outside the space of those before it, below which it is aliased."""
@@ -19,37 +22,68 @@ RANK_TOLERANCE = 1e-9
 
 @dataclass(frozen=True)
 class Surface:
-    """A fitted response surface.
+    """A fitted polynomial.
 
     Parameters
     ----------
     polynomial : Polynomial
         Terms, in n factors.
-    lower, upper : ndarray of shape (n,)
-        Range of validity: the smallest and largest level of each factor.
+    x, y : ndarray of shape (m, n) and (m,)
+        The cases that it was fitted to, natural units; their box is its range of validity.
     coefficients_coded, coefficients_natural : ndarray of shape (p,)
         For c = (x - centre)/half range, and for x itself.
     covariance_coded : ndarray of shape (p, p)
         s² (XᵀX)⁻¹ in coded units. For results of a solver, which have no noise, s² measures what
         the polynomial cannot follow (lack of fit).
-    points : int
-        Cases that it was fitted to.
     residual_sd : float
-        s = √(SSE / (points - p)), in the unit of the response.
+        s = √(SSE / (m - p)), in the unit of the response.
+    through_origin : bool
+        No intercept: c = x / largest |x|, so that the origin stays where it is.
     """
 
     polynomial: Polynomial
-    lower: Array
-    upper: Array
+    x: Array
+    y: Array
     coefficients_coded: Array
     coefficients_natural: Array
     covariance_coded: Array
-    points: int
     residual_sd: float
+    through_origin: bool = False
+    outside = Outside.REFUSED
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """Names of the factors."""
+        return self.polynomial.factors
+
+    @property
+    def coefficients(self) -> int:
+        """Number of terms."""
+        return len(self.polynomial)
+
+    @property
+    def points(self) -> int:
+        """Cases that it was fitted to."""
+        return len(self.y)
+
+    @property
+    def lower(self) -> Array:
+        """Smallest value of each factor, shape (n,)."""
+        return box(self.x)[0]
+
+    @property
+    def upper(self) -> Array:
+        """Largest value of each factor, shape (n,)."""
+        return box(self.x)[1]
+
+    def coding(self) -> tuple[Array, Array]:
+        """Return centre and half range of the coded units, each of shape (n,)."""
+        return coding(self.x, self.through_origin)
 
     def coded(self, x: Array) -> Array:
-        """Map natural units, shape (m, n), to coded units in [-1, 1]."""
-        return (x - (self.upper + self.lower) / 2) / ((self.upper - self.lower) / 2)
+        """Map natural units, shape (m, n), to coded units, in [-1, 1] inside the box."""
+        centre, half = self.coding()
+        return (x - centre) / half
 
     def predict(self, x: Array) -> Array:
         """Evaluate the surface at points in natural units, shape (m, n) → (m,)."""
@@ -57,8 +91,7 @@ class Surface:
 
     def gradient(self, x: Array, factor: str) -> Array:
         """Evaluate ∂f/∂(factor) in natural units at points of shape (m, n) → (m,)."""
-        axis = self.polynomial.factors.index(factor)
-        half = (self.upper[axis] - self.lower[axis]) / 2
+        half = self.coding()[1][self.polynomial.factors.index(factor)]
         matrix = self.polynomial.derivative_matrix(self.coded(x), factor)
         return matrix @ self.coefficients_coded / half
 
@@ -69,21 +102,56 @@ class Surface:
         factor = stats.t.ppf(0.5 + confidence / 2, self.points - len(self.polynomial))
         return factor * np.sqrt(variance + self.residual_sd**2)
 
+    def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
+        """Bounds of the prediction interval, shape (m, n) → two of (m,)."""
+        value, half_width = self.predict(x), self.prediction_half_width(x, confidence)
+        return value - half_width, value + half_width
+
+    def refit(self, x: Array, y: Array) -> Surface:
+        """Fit the same terms to other cases."""
+        return fit_points(x, y, self.polynomial, self.through_origin)
+
+    def content(self) -> dict[str, Any]:
+        """All that makes the surface, as plain values."""
+        return {
+            "factors": self.polynomial.factors,
+            "exponents": self.polynomial.exponents,
+            "terms": self.polynomial.names,
+            "x": self.x.tolist(),
+            "y": self.y.tolist(),
+            "coefficients_coded": self.coefficients_coded.tolist(),
+            "coefficients_natural": self.coefficients_natural.tolist(),
+            "covariance_coded": self.covariance_coded.tolist(),
+            "residual_sd": self.residual_sd,
+            "through_origin": self.through_origin,
+        }
+
     def coded_standard_errors(self) -> Array:
         """Return the standard errors of the coded coefficients, shape (p,)."""
         return np.sqrt(np.diag(self.covariance_coded))
 
     def natural_standard_errors(self) -> Array:
         """Return the standard errors of the natural coefficients, shape (p,)."""
-        middle, half = (self.upper + self.lower) / 2, (self.upper - self.lower) / 2
-        to_natural = coded_to_natural(self.polynomial, middle, half)
+        to_natural = coded_to_natural(self.polynomial, *self.coding()).astype(float)
         return np.sqrt(np.diag(to_natural @ self.covariance_coded @ to_natural.T))
 
 
+def coding(x: Array, through_origin: bool = False) -> tuple[Array, Array]:
+    """Return centre and half range by which cases, shape (m, n), are coded; each of shape (n,)."""
+    lower, upper = box(x)
+    if through_origin:
+        return np.zeros_like(lower), np.abs(x).max(axis=0)
+    return (upper + lower) / 2, (upper - lower) / 2
+
+
 def fit(
-    design: pd.DataFrame, response: pd.Series, factors: Sequence[str], terms: Sequence[str]
+    design: pd.DataFrame,
+    response: pd.Series,
+    factors: Sequence[str],
+    terms: Sequence[str],
+    through_origin: bool = False,
 ) -> Surface:
-    """Fit a response surface by ordinary least squares.
+    """Fit a polynomial by ordinary least squares.
 
     Parameters
     ----------
@@ -94,11 +162,28 @@ def fit(
     factors : sequence of str
         Columns of `design` that are factors.
     terms : sequence of str
-        See `nptcs.surface.terms.parse`.
+        See `nptcs.terms.parse`.
+    through_origin : bool
+        Fit without an intercept.
 
     Returns
     -------
     Surface
+
+    Raises
+    ------
+    InputError
+        As `fit_points`, and for terms that cannot be read.
+    """
+    polynomial = parse(terms, factors, through_origin)
+    x = design[list(factors)].to_numpy(float)
+    return fit_points(x, response.to_numpy(float), polynomial, through_origin)
+
+
+def fit_points(x: Array, y: Array, polynomial: Polynomial, through_origin: bool = False) -> Surface:
+    """Fit a polynomial to points of shape (m, n) with responses of shape (m,).
+
+    Coded units and their expansion into natural ones are computed in more digits than double.
 
     Raises
     ------
@@ -118,52 +203,22 @@ def fit(
     >>> surface.predict(np.array([[16.0]])).astype(float).round(6).tolist()
     [293.6]
     """
-    polynomial = parse(terms, factors)
-    x = design[list(factors)].to_numpy(float)
-    y = response.to_numpy(float)
-    if len(y) <= len(polynomial):
-        raise InputError(
-            f"{len(y)} solved cases cannot carry {len(polynomial)} terms",
-            column="terms",
-            remedy="solve more cases or fit fewer terms",
-        )
-    if not np.isfinite(y).all():
-        raise InputError(
-            "solved cases have no response to fit",
-            value=f"{int(np.sum(~np.isfinite(y)))} of {len(y)}",
-            remedy="fit surfaces to solvers that give the vertical stiffness",
-        )
-    if np.ptp(y) == 0:
-        raise InputError(
-            "the response is the same in all cases",
-            value=y[0],
-            remedy="check that the solver sees the factors of this study",
-        )
-    lower, upper = x.min(axis=0), x.max(axis=0)
-    if (lower == upper).any():
-        constant = [name for name, same in zip(factors, lower == upper, strict=True) if same]
-        raise InputError(
-            "only one level of a factor has results",
-            column=", ".join(constant),
-            remedy="solve cases at two levels or more, or leave the factor out",
-        )
-    middle, half = (upper + lower) / 2, (upper - lower) / 2
-    matrix = polynomial.matrix((x - middle) / half)
-    refuse_aliased(matrix, polynomial.names)
-    q, r = linalg.qr(matrix, mode="economic")
-    coded = linalg.solve_triangular(r, q.T @ y)
-    inverse = linalg.solve_triangular(r, np.eye(len(polynomial)))
-    residual = y - matrix @ coded
+    refuse_unusable(x, y, polynomial.factors, len(polynomial))
+    centre, half = (least_squares.widened(side) for side in coding(x, through_origin))
+    matrix = polynomial.matrix((least_squares.widened(x) - centre) / half)
+    refuse_aliased(matrix.astype(float), polynomial.names)
+    coded, inverse = least_squares.solve(matrix, y)
+    residual = (least_squares.widened(y) - matrix @ coded).astype(float)
     residual_sd = float(np.sqrt(residual @ residual / (len(y) - len(polynomial))))
     return Surface(
         polynomial=polynomial,
-        lower=lower,
-        upper=upper,
-        coefficients_coded=coded,
-        coefficients_natural=coded_to_natural(polynomial, middle, half) @ coded,
+        x=x,
+        y=y,
+        coefficients_coded=coded.astype(float),
+        coefficients_natural=(coded_to_natural(polynomial, centre, half) @ coded).astype(float),
         covariance_coded=residual_sd**2 * inverse @ inverse.T,
-        points=len(y),
         residual_sd=residual_sd,
+        through_origin=through_origin,
     )
 
 

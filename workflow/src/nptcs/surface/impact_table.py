@@ -4,19 +4,26 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
+import numpy as np
 import pandas as pd
 
 from nptcs.config.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
 from nptcs.surface.sensitivity import impact
+from nptcs.surface.ties import near_ties
 
-COLUMNS = ["solver", "study", "factor", "rule", "gradient", "range", "impact"]
+COLUMNS = [
+    "solver", "study", "factor", "rule", "gradient", "range", "impact", "nominal_range",
+    "values_used", "cases", "failed_cases", "near_tie_with",
+]  # fmt: skip
 
 
 def impact_table(
     surfaces: Mapping[str, Mapping[str, Surface]],
     designs: Mapping[str, pd.DataFrame],
+    qualities: pd.DataFrame,
     rules: Sequence[AveragingRule],
+    near_tie_ratio: float,
 ) -> pd.DataFrame:
     """Take the impact values of every study, solver and rule.
 
@@ -25,19 +32,48 @@ def impact_table(
     surfaces : mapping of str to mapping of str to Surface
         By study and solver.
     designs : mapping of str to DataFrame
-        Design tables by study.
+        Design tables by study: the given values, and how many cases there should be.
+    qualities : DataFrame
+        `nptcs.tables.surface.SurfaceQuality` of these surfaces.
     rules : sequence of str
         Averaging rules.
+    near_tie_ratio : float
+        `nptcs.config.sensitivity.Sensitivity.near_tie_ratio`.
 
     Returns
     -------
     DataFrame
         The columns `COLUMNS` (and no rows without surfaces).
     """
+    failed = qualities.set_index(["study", "solver"])["failed_cases"]
     tables = [
-        impact(surface, designs[study], rule).assign(solver=solver, study=study)
+        _with_basis(
+            impact(surface, rule), surface, designs[study], int(failed[study, solver])
+        ).assign(solver=solver, study=study)
         for study, by_solver in surfaces.items()
         for solver, surface in by_solver.items()
         for rule in rules
     ]
-    return pd.concat(tables) if tables else pd.DataFrame(columns=COLUMNS)
+    if not tables:
+        return pd.DataFrame(columns=COLUMNS)
+    table = pd.concat(tables, ignore_index=True)
+    for _, rows in table.groupby("study"):
+        ties = near_ties(rows, ["solver", "rule"], "factor", "impact", near_tie_ratio)
+        table.loc[rows.index, "near_tie_with"] = ties
+    return table[COLUMNS]
+
+
+def _with_basis(
+    table: pd.DataFrame, surface: Surface, design: pd.DataFrame, failed: int
+) -> pd.DataFrame:
+    """Add in what values the index is computed, and on how many cases it rests."""
+    used = [
+        np.isin(surface.x[:, axis].round(9), design[factor].to_numpy(float).round(9)).all()
+        for axis, factor in enumerate(surface.factors)
+    ]
+    return table.assign(
+        nominal_range=np.ptp(design[list(surface.factors)].to_numpy(float), axis=0),
+        values_used=["given" if given else "realised" for given in used],
+        cases=surface.points,
+        failed_cases=failed,
+    )

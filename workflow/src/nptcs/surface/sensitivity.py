@@ -15,22 +15,20 @@ GRID_POINTS = 2_000_000
 """Points of the midpoint rule over the domain; its relative error is then below 1e-4."""
 
 
-def impact(surface: Surface, design: pd.DataFrame, rule: AveragingRule) -> pd.DataFrame:
+def impact(surface: Surface, rule: AveragingRule) -> pd.DataFrame:
     """Average the gradient of each factor and multiply it by the factor's range.
 
     The comprehensive impact value of section 4.2.3 is (average gradient) × (range). The paper
     does not say how it averages; the rules are
 
     - ``domain_mean_absolute``: mean of |∂f/∂x| over the box of all factor ranges,
-    - ``design_mean_absolute``: mean of |∂f/∂x| over the design points,
+    - ``design_mean_absolute``: mean of |∂f/∂x| over the cases that the surface was fitted to,
     - ``domain_mean_signed``: mean of ∂f/∂x over the box.
 
     Parameters
     ----------
     surface : Surface
-        Fitted response surface.
-    design : DataFrame
-        Design points, a column for each factor.
+        Fitted polynomial; its factors and their ranges are those that the solver realised.
     rule : str
         Averaging rule.
 
@@ -54,12 +52,12 @@ def impact(surface: Surface, design: pd.DataFrame, rule: AveragingRule) -> pd.Da
          a       2.0    4.0     8.0
          b       0.0    1.0     0.0
     """
-    factors = surface.polynomial.factors
+    factors = surface.factors
     gradients = []
     for factor in factors:
         match rule:
             case "design_mean_absolute":
-                gradient = abs(surface.gradient(design[list(factors)].to_numpy(float), factor))
+                gradient = abs(surface.gradient(surface.x, factor))
             case "domain_mean_absolute":
                 gradient = abs(_gradient_over_domain(surface, factor))
             case "domain_mean_signed":
@@ -98,4 +96,4 @@ def _gradient_over_domain(surface: Surface, factor: str) -> Array:
     for _ in range(tensor.ndim):
         values = np.vander(midpoints, tensor.shape[0], increasing=True)
         tensor = np.tensordot(tensor, values, axes=(0, 1))
-    return tensor / ((surface.upper[axis] - surface.lower[axis]) / 2)
+    return tensor / surface.coding()[1][axis]

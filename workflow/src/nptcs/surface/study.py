@@ -1,18 +1,24 @@
-"""The response surfaces of one study, one for each solver that answered."""
+"""The surfaces of one study: for each solver that answered, one of every kind that is asked for."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+import time
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 import pandas as pd
 
+from nptcs.config.study import Study
 from nptcs.errors import InputError
-from nptcs.surface.fit import Surface, fit
-from nptcs.surface.quality import assess
+from nptcs.surface.cases import SolvedCases, solved_cases
+from nptcs.surface.fit import Surface
+from nptcs.surface.models import Cases, fit_model, models_of
+from nptcs.surface.response_surface import ResponseSurface
 from nptcs.tables.problems import problems_table
 
 RESPONSE = "vertical_stiffness_n_per_mm"
+POLYNOMIAL = "polynomial"
+"""Name of the surface of the study's own terms: that of tables 6 and 8."""
 
 
 @dataclass(frozen=True)
@@ -21,25 +27,33 @@ class StudySurfaces:
 
     Parameters
     ----------
-    surfaces : mapping of str to Surface
-        By solver; without the solvers whose cases determine no surface.
-    quality : mapping of str to mapping of str to float
-        How well each of them follows its cases.
+    models : mapping of str to mapping of str to ResponseSurface
+        By solver and name; without those that the cases do not determine.
+    solved : mapping of str to SolvedCases
+        What they were fitted to, by solver.
+    fit_cpu_s : mapping of (str, str) to float
+        Processor time of each fit, by solver and name.
     problems : DataFrame
-        `nptcs.tables.problems.Problems` of the others.
+        `nptcs.tables.problems.Problems` of the fits that were refused.
     """
 
-    surfaces: Mapping[str, Surface]
-    quality: Mapping[str, Mapping[str, float]]
+    models: Mapping[str, Mapping[str, ResponseSurface]]
+    solved: Mapping[str, SolvedCases]
+    fit_cpu_s: Mapping[tuple[str, str], float]
     problems: pd.DataFrame
+
+    @property
+    def polynomials(self) -> dict[str, Surface]:
+        """The polynomial of the study's terms, by solver."""
+        return {
+            solver: surface
+            for solver, named in self.models.items()
+            if isinstance(surface := named.get(POLYNOMIAL), Surface)
+        }
 
 
 def fit_study(
-    cases: pd.DataFrame,
-    study: str,
-    factors: Sequence[str],
-    solvers: Sequence[str],
-    terms: Sequence[str],
+    cases: pd.DataFrame, study: Study, ply: Mapping[str, float] | None = None
 ) -> StudySurfaces:
     """Fit the vertical stiffness of the solved cases, solver by solver.
 
@@ -47,19 +61,44 @@ def fit_study(
     ----------
     cases : DataFrame
         `nptcs.tables.cases.Cases` of the study.
-    study : str
-        Name of the study, for the problems.
-    factors, solvers, terms : sequences of str
-        As the configuration names them.
+    study : Study
+        Factors, solvers, terms and further surfaces.
+    ply : mapping of str to float or None
+        Constants of the plates' ply, for surfaces that are made of them.
+
+    Returns
+    -------
+    StudySurfaces
     """
-    surfaces: dict[str, Surface] = {}
-    quality: dict[str, Mapping[str, float]] = {}
+    factors = [factor.name for factor in study.factors]
+    models: dict[str, dict[str, ResponseSurface]] = {}
+    solved: dict[str, SolvedCases] = {}
+    times: dict[tuple[str, str], float] = {}
     problems = []
-    for solver in solvers:
-        solved = cases[(cases["solver"] == solver) & (cases["status"] == "ok")]
-        try:
-            surfaces[solver] = fit(solved, solved[RESPONSE], list(factors), list(terms))
-            quality[solver] = assess(surfaces[solver], solved, solved[RESPONSE])
-        except InputError as error:
-            problems.append(("surface", study, solver, "refused", str(error)))
-    return StudySurfaces(surfaces, quality, problems_table(problems))
+    for solver in study.solvers:
+        solved[solver] = solved_cases(cases, solver, factors)
+        table = solved[solver].table
+        x, y = table[factors].to_numpy(float), table[RESPONSE].to_numpy(float)
+        models[solver] = {}
+        least = study.least_solved_cases()
+        if len(table) < least:
+            counts = f"{len(table)} cases solved, {solved[solver].failed} failed"
+            why = InputError(
+                f"no surface from so few cases: {counts}",
+                column=f"studies.{study.name}.least_cases",
+                value=least,
+                remedy="see case_coverage.csv for the levels that failed, and solve more cases",
+            )
+            problems.append(("surface", study.name, solver, "refused", str(why)))
+            continue
+        for name, model in models_of(study).items():
+            start = time.process_time()
+            try:
+                surface = fit_model(model, Cases(x, y, factors, study.terms, ply))
+            except InputError as error:
+                about = solver if name == POLYNOMIAL else f"{solver}, {name}"
+                problems.append(("surface", study.name, about, "refused", str(error)))
+                continue
+            models[solver][name] = surface
+            times[solver, name] = time.process_time() - start
+    return StudySurfaces(models, solved, times, problems_table(problems))

@@ -10,6 +10,11 @@ from nptcs.tables.status import Status
 RESPONSES = ("vertical_stiffness_n_per_mm", "displacement_mm")
 
 
+def realised_column(factor: str) -> str:
+    """Name the column of ``cases.csv`` with the value of a factor that a solver really used."""
+    return f"realised_{factor}"
+
+
 class Design(pa.DataFrameModel):
     """A design table: one row per case, then a column for each factor and each fixed value."""
 

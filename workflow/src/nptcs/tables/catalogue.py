@@ -10,6 +10,14 @@ import pandera.pandas as pa
 
 from nptcs.tables import column_headings as headings
 from nptcs.tables.cases import Cases
+from nptcs.tables.coverage import CaseCoverage
+from nptcs.tables.diagnostics import (
+    SurfaceAnova,
+    SurfaceInfluence,
+    SurfaceSelection,
+    SurfaceStationary,
+    SurfaceTests,
+)
 from nptcs.tables.files import Files
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
@@ -29,9 +37,15 @@ from nptcs.tables.result_table import (
     RowMark,
     SyntheticBy,
 )
+from nptcs.tables.sobol import MainEffects, SobolIndices
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 from nptcs.tables.statistics import StatisticsTable
-from nptcs.tables.surface import SurfaceQuality, SurfaceTable
+from nptcs.tables.surface import (
+    SurfaceByFactor,
+    SurfaceComparison,
+    SurfaceQuality,
+    SurfaceTable,
+)
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 TABLES: dict[str, ResultTable] = {
@@ -93,6 +107,14 @@ TABLES: dict[str, ResultTable] = {
         mark=RowMark.STATUS,
         synthetic=SyntheticBy.STUDIES,
     ),
+    "case_coverage.csv": ResultTable(
+        CaseCoverage,
+        "Solved, failed and missing cases by level of each factor",
+        "coverage",
+        "cases.csv and the design tables; estimability of the terms with the solved cases",
+        section=ReportSection.CASES,
+        synthetic=SyntheticBy.STUDIES,
+    ),
     "STUDY_surface.csv": ResultTable(
         SurfaceTable,
         "Response surfaces of the study STUDY: coefficients",
@@ -105,11 +127,74 @@ TABLES: dict[str, ResultTable] = {
     ),
     "surface_quality.csv": ResultTable(
         SurfaceQuality,
-        "How well each response surface follows its cases",
+        "How well each polynomial follows its cases",
         "surface, sensitivity",
         "the solved cases and the surfaces fitted to them",
         section=ReportSection.SURFACES,
         headings=headings.QUALITY,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_comparison.csv": ResultTable(
+        SurfaceComparison,
+        "Surfaces of every kind: how they predict cases that they have not seen",
+        "surface, sensitivity",
+        "the solved cases; each surface fitted again without each case and without each level",
+        section=ReportSection.SURFACES,
+        headings=headings.COMPARISON,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_by_factor.csv": ResultTable(
+        SurfaceByFactor,
+        "Surfaces of every kind along each factor: range of validity, levels left out, direction",
+        "surface, sensitivity",
+        "the same surfaces; direction over a grid in the box of the cases",
+        section=ReportSection.SURFACES,
+        headings=headings.COMPARISON,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_tests.csv": ResultTable(
+        SurfaceTests,
+        "Tests of the polynomials' coefficients: t, p, confidence interval, variance inflation",
+        "diagnostics",
+        "the polynomials of equations 21 and 22, or those configured; coded coefficients",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_anova.csv": ResultTable(
+        SurfaceAnova,
+        "Analysis of variance of the polynomials, sequential and partial, with lack of fit",
+        "diagnostics",
+        "the polynomials and the cases that they were fitted to",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_influence.csv": ResultTable(
+        SurfaceInfluence,
+        "What each case does to the polynomials: residual, leverage, Cook's distance",
+        "diagnostics",
+        "the polynomials and the cases that they were fitted to",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_stationary.csv": ResultTable(
+        SurfaceStationary,
+        "Stationary points of the polynomials with their kind, and paths of the extremes",
+        "diagnostics",
+        "the polynomials; paths on spheres about the centre in coded units",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "surface_selection.csv": ResultTable(
+        SurfaceSelection,
+        "Terms of the polynomials dropped one after the other, by AICc and by PRESS",
+        "diagnostics",
+        "the polynomials' terms; only a term that no other one needs may go",
+        section=ReportSection.SURFACES,
+        headings=headings.DIAGNOSTICS,
         synthetic=SyntheticBy.STUDIES,
     ),
     "impact.csv": ResultTable(
@@ -119,6 +204,24 @@ TABLES: dict[str, ResultTable] = {
         "the response surfaces; printed values are those of table 9",
         section=ReportSection.SENSITIVITY,
         headings=headings.IMPACT,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "sobol_indices.csv": ResultTable(
+        SobolIndices,
+        "Shares of the variance by factor and by pair (Sobol indices), every surface",
+        "sobol",
+        "the surfaces, sampled over independent factors; intervals by bootstrap",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.SOBOL,
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "main_effects.csv": ResultTable(
+        MainEffects,
+        "Main effect of each factor over its range, every surface",
+        "sobol",
+        "the surfaces, averaged over the other factors",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.SOBOL,
         synthetic=SyntheticBy.STUDIES,
     ),
     "spoke_stiffness.csv": ResultTable(

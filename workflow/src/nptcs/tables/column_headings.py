@@ -7,6 +7,7 @@ from nptcs.tables.result_table import Heading
 IMPACT = {
     "gradient": Heading("gradient", "N/mm per unit of the factor"),
     "range": Heading("range", "unit of the factor"),
+    "nominal_range": Heading("range of the levels", "unit of the factor"),
     "impact": Heading("impact", "N/mm"),
     "published_gradient": Heading("published gradient", "N/mm per unit of the factor"),
     "published_impact": Heading("published impact", "N/mm"),
@@ -38,7 +39,42 @@ LEVELS = {
     "compared": Heading("cases compared"),
 }
 QUALITY = {
+    "press": Heading("PRESS", "(N/mm)²"),
     "residual_sd": Heading("residual SD", "N/mm"),
     "largest_residual": Heading("largest residual", "N/mm"),
 }
 RESPONSES = {"value": Heading("value", "unit of the row")}
+COMPARISON = {
+    "largest_residual": Heading("largest residual", "N/mm"),
+    "leave_one_out_largest": Heading("leave-one-out, largest", "N/mm"),
+    "leave_one_out_rms": Heading("leave-one-out, rms", "N/mm"),
+    "leave_one_out_not_fitted": Heading("leave-one-out, not fitted"),
+    "coverage_percent": Heading("in the 95 % interval", "%"),
+    "level_out_largest": Heading("level left out, largest", "N/mm"),
+    "level_out_not_fitted": Heading("level left out, not fitted"),
+    "lowest": Heading("lowest", "unit of the factor"),
+    "highest": Heading("highest", "unit of the factor"),
+    "rising_percent": Heading("steps that rise", "%"),
+    "falling_percent": Heading("steps that fall", "%"),
+}
+DIAGNOSTICS = {
+    "coefficient_coded": Heading("coefficient, coded", "N/mm"),
+    "confidence_low": Heading("95 % interval from", "N/mm"),
+    "confidence_high": Heading("95 % interval to", "N/mm"),
+    "sequential_ss": Heading("sequential sum of squares", "(N/mm)²"),
+    "partial_ss": Heading("partial sum of squares", "(N/mm)²"),
+    "mean_square": Heading("mean square", "(N/mm)²"),
+    "response": Heading("response", "N/mm"),
+    "residual": Heading("residual", "N/mm"),
+    "left_out_residual": Heading("left-out residual", "N/mm"),
+    "value": Heading("value", "unit of the factor"),
+    "press": Heading("PRESS", "(N/mm)²"),
+}
+SOBOL = {
+    "cut_percent": Heading("cut off", "%"),
+    "index": Heading("first order, or interaction"),
+    "index_confidence": Heading("± first order"),
+    "total_confidence": Heading("± total"),
+    "value": Heading("value", "unit of the factor"),
+    "effect_n_per_mm": Heading("effect", "N/mm"),
+}

@@ -15,8 +15,23 @@ class Impact(pa.DataFrameModel):
     factor: Series[str]
     rule: Series[str] = pa.Field(description="How the gradient is averaged")
     gradient: Series[float] = pa.Field(description="N/mm per unit of the factor")
-    range: Series[float] = pa.Field(gt=0, description="Highest minus lowest level")
+    range: Series[float] = pa.Field(
+        gt=0, description="Highest minus lowest value that the solver realised"
+    )
     impact: Series[float] = pa.Field(description="gradient × range, N/mm")
+    nominal_range: Series[float] = pa.Field(gt=0, description="Highest minus lowest level")
+    values_used: Series[str] = pa.Field(
+        description="'realised' where the solver used other values of the factor than the given "
+        "ones, otherwise 'given'"
+    )
+    cases: Series[int] = pa.Field(gt=0, description="Cases that the surface was fitted to")
+    failed_cases: Series[int] = pa.Field(
+        ge=0, description="Cases of the design without a result: they are not in the index"
+    )
+    near_tie_with: Series[str] = pa.Field(
+        description="Factors of the study whose order relative to this one is not settled: near "
+        "in size, or in another order by another rule or solver"
+    )
     published_gradient: Series[float] = pa.Field(nullable=True)
     published_impact: Series[float] = pa.Field(nullable=True)
     difference_percent: Series[float] = pa.Field(

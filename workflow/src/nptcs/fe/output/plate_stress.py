@@ -9,10 +9,10 @@ import numpy as np
 from nptcs.arrays import Array, Index
 from nptcs.fe.elements.groups import LinearGroup, deformation_gradient
 from nptcs.fe.elements.lagrange import jacobians, tensor_shape
-from nptcs.fe.elements.laminate import rotated_stiffness
 from nptcs.fe.output.fields import rubber_fields
 from nptcs.fe.spoke.equilibrium import SpokeModel, SpokeState
 from nptcs.fe.spoke.mesh import LAYER_ORDERS
+from nptcs.laminate import rotated_stiffness
 
 # sides of the plate in the elements' first coordinate, along x: the ply +A comes first, then -A
 SIDES = (-1.0, 1.0)

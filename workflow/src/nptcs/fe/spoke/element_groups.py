@@ -9,8 +9,8 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
-from nptcs.fe.elements.laminate import rotated_stiffness, transverse_shear
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, ElementSet
+from nptcs.laminate import rotated_stiffness, transverse_shear
 
 Rule = tuple[Array, Array]
 

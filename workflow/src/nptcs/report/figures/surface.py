@@ -95,8 +95,8 @@ def contours(
     x, y, z = _grid(surface, cases, *pair)
     title = _title(cases["solver"].iloc[0], held, labels)
     figure, axes = panel(title, str(labels[pair[0]]), str(labels[pair[1]]))
-    low = min(z.min(), shown[STIFFNESS].min())
-    high = max(z.max(), shown[STIFFNESS].max())
+    heights = np.concatenate([z.ravel(), shown[STIFFNESS]])  # no case may be at the middle
+    low, high = heights.min(), heights.max()
     levels = np.linspace(low, high, 13)
     filled = axes.contourf(x, y, z, levels=levels, cmap=MAP)
     lines = axes.contour(x, y, z, levels=levels[1::2], colors="white", linewidths=0.6)
@@ -118,6 +118,19 @@ def contours(
     axes.grid(visible=False)
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def _line_levels(
+    surface: Surface, shown: pd.DataFrame, varied: Sequence[str]
+) -> Sequence[float | None]:
+    """List the levels that get a line: those of the cases shown, else ends and middle."""
+    if len(varied) == 1:
+        return [None]
+    if len(shown):
+        return sorted(set(shown[varied[1]]))
+    axis = surface.factors.index(varied[1])
+    low, high = float(surface.lower[axis]), float(surface.upper[axis])
+    return [low, (low + high) / 2, high]
 
 
 @styled
@@ -145,7 +158,7 @@ def slices(
     factors = list(surface.polynomial.factors)
     axis = factors.index(varied[0])
     x = np.linspace(surface.lower[axis], surface.upper[axis], GRID)
-    levels = sorted(set(shown[varied[1]])) if len(varied) > 1 else [None]
+    levels = _line_levels(surface, shown, varied)
     for number, level in enumerate(levels):
         at_level = shown if level is None else shown[shown[varied[1]] == level]
         fixed = held if level is None else {**held, varied[1]: level}

@@ -34,7 +34,10 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
         for solver, study in compared[["solver", "study"]].drop_duplicates().to_numpy()
     )
     return [
-        Listing("Is the ranking that of table 9?", tuple(verdicts(results, compared))),
+        Listing(
+            "Is the ranking that of table 9?",
+            (*verdicts(results, compared), *near_tie_sentences(results, compared)),
+        ),
         table_view(table, entry, synthetic=synthetic),
     ]
 
@@ -60,6 +63,26 @@ def published_ranking(compared: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, H
         headings[f"impact_{solver}"] = Heading(f"{solver}, impact", "N/mm")
         headings[f"rank_{solver}"] = Heading(f"{solver}, rank")
     return table.reset_index(drop=True), headings
+
+
+def near_tie_sentences(results: Results, compared: pd.DataFrame) -> list[str]:
+    """Name the pairs of factors whose order is not settled."""
+    labels = {
+        (study.name, name): label.label
+        for study in results.config.studies
+        for name, label in factor_labels(study).items()
+    }
+    tied = compared[compared["near_tie_with"] != ""]
+    pairs = {
+        (str(study), *sorted((str(factor), partner)))
+        for study, factor, partners in tied[["study", "factor", "near_tie_with"]].to_numpy()
+        for partner in str(partners).split(", ")
+    }
+    return [
+        f"{labels[study, one]} and {labels[study, other]} are a near tie: their order is not "
+        "settled, because they are close, or rules or solvers disagree on it."
+        for study, one, other in sorted(pairs)
+    ]
 
 
 def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:

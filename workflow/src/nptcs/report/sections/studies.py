@@ -21,6 +21,7 @@ from nptcs.report.tables.headings import words
 from nptcs.report.tables.row_classes import by_status
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
+from nptcs.surface.cases import solved_cases
 from nptcs.tables.cases import Cases
 from nptcs.tables.impact import Impact
 from nptcs.tables.result_table import ReportSection
@@ -75,6 +76,8 @@ def _fixed(value: object) -> str:
 def _levels(factor: Factor, design: pd.DataFrame) -> str:
     """Write the levels as the design has them, with the rubber behind each measured one."""
     numbers = list(dict.fromkeys(design[factor.name]))
+    if len(numbers) != len(factor.levels):
+        return f"{min(numbers):g} to {max(numbers):g}, {len(numbers)} values"
     return ", ".join(
         f"{number:.5g} ({level.rubber})" if isinstance(level, MeasuredRubber) else f"{number:g}"
         for number, level in zip(numbers, factor.levels, strict=True)
@@ -170,9 +173,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
 def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     surface, labels = results.surfaces[study.name][solver], factor_labels(study)
     cases = results.table(Cases)
-    solved = cases[
-        (cases["study"] == study.name) & (cases["solver"] == solver) & (cases["status"] == "ok")
-    ]
+    solved = solved_cases(cases[cases["study"] == study.name], solver, surface.factors).table
     synthetic = results.study_is_synthetic(study, solver)
     about = f"study {study.name}, solver {solver}"
     maps, lines = [], []

@@ -23,8 +23,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from itertools import product
 from math import comb, prod
+from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
@@ -66,9 +68,9 @@ class Polynomial:
         """The terms as text: ``1``, ``thickness_mm``, ``thickness_mm*angle_deg``, …."""
         return tuple(_name(self.factors, powers) for powers in self.exponents)
 
-    def matrix(self, x: Array) -> Array:
+    def matrix(self, x: NDArray[Any]) -> NDArray[Any]:
         """Evaluate the terms: points of shape (m, n) give a design matrix of shape (m, p)."""
-        return np.prod(x[:, None, :] ** np.array(self.exponents)[None, :, :], axis=2)
+        return np.asarray(np.prod(x[:, None, :] ** np.array(self.exponents)[None, :, :], axis=2))
 
     def derivative_matrix(self, x: Array, factor: str) -> Array:
         """Evaluate ∂(term)/∂(factor): points of shape (m, n) give a matrix of shape (m, p)."""
@@ -79,7 +81,7 @@ class Polynomial:
         return powers[:, axis] * np.prod(x[:, None, :] ** lowered[None, :, :], axis=2)
 
 
-def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
+def parse(terms: Sequence[str], factors: Sequence[str], through_origin: bool = False) -> Polynomial:
     """Read terms such as ``1``, ``x``, ``x^2``, ``x*y``.
 
     Parameters
@@ -88,6 +90,9 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
         As written in the configuration.
     factors : sequence of str
         Names of the study's factors.
+    through_origin : bool
+        The surface has no intercept. Its origin is then meant, so that no other term needs its
+        relatives either.
 
     Returns
     -------
@@ -97,9 +102,9 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
     Raises
     ------
     InputError
-        For a term that cannot be read, an unknown factor, a term named twice, or a term whose
-        lower-order relatives are missing (the fit in coded units and the one in natural units
-        would then be two different surfaces).
+        For a term that cannot be read, an unknown factor, a term named twice, an intercept in a
+        surface through the origin, or a term whose lower-order relatives are missing (the fit in
+        coded units and the one in natural units would then be two different surfaces).
     """
     exponents = [_exponents(term, factors) for term in terms]
     polynomial = Polynomial(tuple(factors), tuple(exponents))
@@ -108,6 +113,15 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
             raise InputError(
                 "this term stands twice", column="terms", value=terms[position], remedy="drop one"
             )
+    if through_origin:
+        if (0,) * len(factors) in exponents:
+            raise InputError(
+                "a surface through the origin has no intercept",
+                column="terms",
+                value="1",
+                remedy="leave '1' out, or through_origin",
+            )
+        return polynomial
     missing = _missing_lower_terms(polynomial)
     if missing:
         raise InputError(
@@ -120,19 +134,24 @@ def parse(terms: Sequence[str], factors: Sequence[str]) -> Polynomial:
     return polynomial
 
 
-def coded_to_natural(polynomial: Polynomial, centre: Array, half_range: Array) -> Array:
+def coded_to_natural(
+    polynomial: Polynomial, centre: NDArray[Any], half_range: NDArray[Any]
+) -> NDArray[Any]:
     """Build the matrix M with b_natural = M b_coded, for c = (x - centre) / half_range.
 
-    Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem. Shape (p, p).
+    Each coded term Π ((x_i - m_i)/h_i)^e_i is expanded by the binomial theorem, in the type of
+    the numbers given. Shape (p, p).
     """
     index = {powers: row for row, powers in enumerate(polynomial.exponents)}
-    matrix = np.zeros((len(polynomial), len(polynomial)))
+    matrix = np.zeros((len(polynomial), len(polynomial)), centre.dtype)
     for column, powers in enumerate(polynomial.exponents):
         for lower in product(*(range(power + 1) for power in powers)):
-            matrix[index[lower], column] = prod(
+            weight = prod(
                 comb(power, low) * (-middle) ** (power - low) / half**power
                 for power, low, middle, half in zip(powers, lower, centre, half_range, strict=True)
             )
+            if weight:
+                matrix[index[lower], column] = weight
     return matrix
 
 
@@ -153,7 +172,7 @@ def _exponents(term: str, factors: Sequence[str]) -> tuple[int, ...]:
         name, power = match.group(1), int(match.group(2) or 1)
         if name not in factors:
             raise InputError(
-                f"'{name}' is no factor of the study",
+                f"'{name}' is not a factor of the study",
                 column="terms",
                 value=term,
                 remedy=f"use {', '.join(factors)}",

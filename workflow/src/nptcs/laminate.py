@@ -22,8 +22,10 @@ def reduced_stiffness(ply: Mapping[str, float]) -> Array:
     )
 
 
-def rotated_stiffness(ply: Mapping[str, float], angle_deg: float) -> Array:
-    """Plane-stress stiffness Q̄ (3, 3) with the fibres at an angle from the plate's axis, MPa.
+def rotated_stiffness(ply: Mapping[str, float], angle_deg: float | Array) -> Array:
+    """Plane-stress stiffness Q̄ with the fibres at an angle from the plate's axis, MPa.
+
+    Shape (3, 3) for one angle, (m, 3, 3) for m angles.
 
     Examples
     --------
@@ -35,10 +37,11 @@ def rotated_stiffness(ply: Mapping[str, float], angle_deg: float) -> Array:
     """
     c, s = np.cos(np.radians(angle_deg)), np.sin(np.radians(angle_deg))
     # strains of the plate's axes to those of the fibre, engineering shear
-    turn = np.array(
+    rows = np.array(
         [[c * c, s * s, c * s], [s * s, c * c, -c * s], [-2 * c * s, 2 * c * s, c * c - s * s]]
     )
-    return turn.T @ reduced_stiffness(ply) @ turn
+    turn = np.moveaxis(rows, (0, 1), (-2, -1))
+    return np.swapaxes(turn, -1, -2) @ reduced_stiffness(ply) @ turn
 
 
 def transverse_shear(ply: Mapping[str, float], angle_deg: float) -> Array:
@@ -48,10 +51,11 @@ def transverse_shear(ply: Mapping[str, float], angle_deg: float) -> Array:
     return turn.T @ np.diag([ply["g13_mpa"], ply["g23_mpa"]]) @ turn
 
 
-def abd(ply: Mapping[str, float], angle_deg: float, thickness_mm: float) -> Array:
-    """Laminate stiffness [[A, B], [B, D]] (6, 6) of [+A/-A]; the ply +A lies at z < 0.
+def abd(ply: Mapping[str, float], angle_deg: float | Array, thickness_mm: float | Array) -> Array:
+    """Laminate stiffness [[A, B], [B, D]] of [+A/-A]; the ply +A lies at z < 0.
 
-    A in N/mm, B in N, D in N mm; strains and curvatures in the order 11, 22, 12.
+    Shape (6, 6) for one plate, (m, 6, 6) for m angles and thicknesses. A in N/mm, B in N, D in
+    N mm; strains and curvatures in the order 11, 22, 12.
 
     Examples
     --------
@@ -64,11 +68,10 @@ def abd(ply: Mapping[str, float], angle_deg: float, thickness_mm: float) -> Arra
     >>> round(float(stiffness[3, 3] / reduced_stiffness(PUBLISHED_PLY)[0, 0] / 1.2**3 * 12), 6)
     1.0
     """
-    edges = np.array([-0.5, 0.0, 0.5]) * thickness_mm
-    plies = [rotated_stiffness(ply, angle) for angle in (angle_deg, -angle_deg)]
-    membrane, coupling, bending = np.zeros((3, 3)), np.zeros((3, 3)), np.zeros((3, 3))
-    for bottom, top, stiffness in zip(edges[:-1], edges[1:], plies, strict=True):
-        membrane += stiffness * (top - bottom)
-        coupling += stiffness * (top**2 - bottom**2) / 2.0
-        bending += stiffness * (top**3 - bottom**3) / 3.0
+    half = np.asarray(thickness_mm)[..., None, None] / 2.0
+    below = rotated_stiffness(ply, angle_deg)
+    above = rotated_stiffness(ply, -np.asarray(angle_deg))
+    membrane = (below + above) * half
+    coupling = (above - below) * half**2 / 2.0
+    bending = (below + above) * half**3 / 3.0
     return np.block([[membrane, coupling], [coupling, bending]])

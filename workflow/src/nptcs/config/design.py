@@ -1,0 +1,97 @@
+"""How the cases of a study are chosen: ``studies[].design``."""
+
+from __future__ import annotations
+
+from math import prod
+from typing import Annotated, Literal, assert_never
+
+from pydantic import Field
+
+from nptcs.config.base import Strict
+
+
+class FullFactorial(Strict):
+    """Every combination of the levels."""
+
+    kind: Literal["full_factorial"] = "full_factorial"
+
+
+class SpaceFilling(Strict):
+    """Cases spread over the box between the lowest and highest level of each factor."""
+
+    kind: Literal["latin_hypercube", "sobol"] = Field(
+        description="latin_hypercube: each factor's range is covered evenly, points far apart; "
+        "sobol: a scrambled Sobol sequence, best with a power of two"
+    )
+    cases: int = Field(ge=2, description="Number of cases")
+    seed: int = Field(1, ge=0, description="Of the random numbers: the same seed, the same cases")
+    whole_plates: bool = Field(
+        False, description="Move each spacing to the nearest one with a whole number of plates"
+    )
+
+
+class CentralComposite(Strict):
+    """Corners, axial cases and centre: second-order polynomials in few cases."""
+
+    kind: Literal["central_composite"]
+    axial: Literal["face", "inscribed"] = Field(
+        "face",
+        description="face: axial cases in the middle of the box's faces, corners in its corners; "
+        "inscribed: axial cases there, corners drawn in until the design is rotatable",
+    )
+    centre_cases: int = Field(
+        1, ge=1, description="Cases at the centre; more than one only for results with noise"
+    )
+    whole_plates: bool = Field(
+        False, description="Move each spacing to the nearest one with a whole number of plates"
+    )
+
+
+class BoxBehnken(Strict):
+    """Middles of the box's edges, and the centre: no case in a corner. Three to five factors."""
+
+    kind: Literal["box_behnken"]
+    centre_cases: int = Field(
+        1, ge=1, description="Cases at the centre; more than one only for results with noise"
+    )
+    whole_plates: bool = Field(
+        False, description="Move each spacing to the nearest one with a whole number of plates"
+    )
+
+
+class DOptimal(Strict):
+    """The cases among all combinations of the levels that determine the study's terms best."""
+
+    kind: Literal["d_optimal"]
+    cases: int = Field(ge=2, description="Number of cases, more than the study has terms")
+    terms: tuple[str, ...] = Field(
+        min_length=1, description="Terms that the cases must determine, as in `terms` of the study"
+    )
+    starts: int = Field(20, ge=1, description="Random starts of the exchange")
+    seed: int = Field(1, ge=0, description="Of the random numbers: the same seed, the same cases")
+    whole_plates: bool = Field(
+        False, description="Candidates have the nearest spacing with a whole number of plates"
+    )
+
+
+Design = Annotated[
+    FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal,
+    Field(discriminator="kind"),
+]
+AnyDesign = FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal
+
+
+def number_of_cases(design: AnyDesign, levels: list[int]) -> int:
+    """Return how many cases a design has, for the number of levels of each factor."""
+    factors = len(levels)
+    match design:
+        case FullFactorial():
+            return prod(levels)
+        case SpaceFilling() | DOptimal():
+            return design.cases
+        case CentralComposite():
+            return int(2**factors) + 2 * factors + design.centre_cases
+        case BoxBehnken():
+            return 2 * factors * (factors - 1) + design.centre_cases
+        case _:
+            assert_never(design)

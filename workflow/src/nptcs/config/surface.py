@@ -1,0 +1,105 @@
+"""The surfaces that a study fits next to its polynomial: ``studies[].surfaces``."""
+
+from __future__ import annotations
+
+from typing import Annotated, Literal, assert_never
+
+from pydantic import Field
+
+from nptcs.config.base import Strict
+
+Link = Literal["identity", "log", "reciprocal"]
+Choice = Literal["as_given", "aicc", "press"]
+LaminationCoefficients = Literal[6, 7, 8]
+
+
+class PolynomialModel(Strict):
+    """A polynomial in the study's factors, fitted to the response or to a function of it."""
+
+    kind: Literal["polynomial"]
+    link: Link = Field(
+        "identity",
+        description="What is a polynomial: the response K (identity), log K, or 1/K (reciprocal)",
+    )
+    terms: tuple[str, ...] = Field((), description="Terms; empty: those of the study")
+    choose: Choice = Field(
+        "as_given",
+        description="as_given: all terms; aicc, press: the subset of the terms, hierarchy kept, "
+        "with the smallest corrected Akaike criterion or the smallest PRESS",
+    )
+    through_origin: bool = Field(
+        False, description="No intercept: leave '1' out of `terms`; factors are scaled, not centred"
+    )
+
+
+class LaminationModel(Strict):
+    """The lamination form: compliance of ring, rubber and plates, with [+A/-A] plates."""
+
+    kind: Literal["lamination"]
+    coefficients: LaminationCoefficients = Field(
+        7,
+        description="8: all; 7 and 6: one or two of the exponent m and the rubber's additions to "
+        "A66 and D11 are left out, those with the smallest sum of squares",
+    )
+
+
+Mean = Annotated[PolynomialModel | LaminationModel, Field(discriminator="kind")]
+
+
+class GaussianProcessModel(Strict):
+    """A Gaussian process (Matérn 5/2, a length scale for each factor) on a mean."""
+
+    kind: Literal["gaussian_process"]
+    mean: Mean | None = Field(
+        None, description="Surface whose residuals it follows; none: the mean of the cases"
+    )
+
+
+SurfaceModel = Annotated[
+    PolynomialModel | LaminationModel | GaussianProcessModel, Field(discriminator="kind")
+]
+
+
+def name_of(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> str:
+    """Return the name of a surface in tables, e.g. ``gaussian process on lamination 7``."""
+    match model:
+        case PolynomialModel():
+            link = "" if model.link == "identity" else f" of {model.link}"
+            origin = " through the origin" if model.through_origin else ""
+            own = f" with {len(model.terms)} own terms" if model.terms else ""
+            chosen = "" if model.choose == "as_given" else f", terms by {model.choose}"
+            return f"polynomial{link}{origin}{own}{chosen}"
+        case LaminationModel():
+            return f"lamination {model.coefficients}"
+        case GaussianProcessModel():
+            return f"gaussian process on {name_of(model.mean) if model.mean else 'the mean'}"
+        case _:
+            assert_never(model)
+
+
+def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> bool:
+    """Tell whether a surface is made of the ply's constants."""
+    match model:
+        case PolynomialModel():
+            return False
+        case LaminationModel():
+            return True
+        case GaussianProcessModel():
+            return model.mean is not None and needs_ply(model.mean)
+        case _:
+            assert_never(model)
+
+
+def own_terms(
+    model: PolynomialModel | LaminationModel | GaussianProcessModel,
+) -> tuple[tuple[str, ...], bool]:
+    """Return the terms that a surface names itself, and whether it goes through the origin."""
+    match model:
+        case PolynomialModel():
+            return model.terms, model.through_origin
+        case LaminationModel():
+            return (), False
+        case GaussianProcessModel():
+            return own_terms(model.mean) if model.mean is not None else ((), False)
+        case _:
+            assert_never(model)

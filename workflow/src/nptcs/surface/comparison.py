@@ -1,0 +1,110 @@
+"""How surfaces of every kind predict cases that they have not seen: one protocol for all."""
+
+from __future__ import annotations
+
+import time
+from dataclasses import dataclass
+
+import numpy as np
+
+from nptcs.arrays import Array, Mask
+from nptcs.errors import InputError
+from nptcs.surface.response_surface import ResponseSurface, box
+
+CONFIDENCE = 0.95
+GRID_POINTS = 10_000
+"""Points of the grid over the box on which the direction of each factor's effect is read."""
+
+MOST_LEVELS = 10
+"""A factor with more values than this has no levels that could be left out."""
+
+FLAT = 1e-9
+"""Share of the response's range below which a step along a factor has no direction."""
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Errors of a surface at cases left out one at a time.
+
+    Parameters
+    ----------
+    error : ndarray of shape (m,)
+        Prediction minus response; not a number where the rest could not carry the surface.
+    covered : ndarray of shape (m,)
+        Whether the response lies in the prediction interval.
+    cpu_s : float
+        Processor time of all refits.
+    """
+
+    error: Array
+    covered: Mask
+    cpu_s: float
+
+
+@dataclass(frozen=True)
+class LevelError:
+    """The largest error at the levels of one factor, each left out whole.
+
+    Parameters
+    ----------
+    largest : float
+        Not a number where none could be left out.
+    refused : str
+        Why the surface could not be fitted without a level; empty if it could, for all.
+    """
+
+    largest: float
+    refused: str
+
+
+def leave_one_out(surface: ResponseSurface) -> LeftOut:
+    """Fit the surface again without each case, all its parameters anew, and predict that case."""
+    start = time.process_time()
+    error, covered = np.full(len(surface.y), np.nan), np.zeros(len(surface.y), bool)
+    for case in range(len(surface.y)):
+        kept = np.arange(len(surface.y)) != case
+        try:
+            other = surface.refit(surface.x[kept], surface.y[kept])
+        except InputError:
+            continue
+        point = surface.x[[case]]
+        low, high = other.interval(point, CONFIDENCE)
+        error[case] = other.predict(point)[0] - surface.y[case]
+        covered[case] = low[0] <= surface.y[case] <= high[0]
+    return LeftOut(error, covered, time.process_time() - start)
+
+
+def leave_one_level_out(surface: ResponseSurface, axis: int) -> LevelError:
+    """Fit the surface again without each level of a factor, and predict the cases at that level.
+
+    At the ends of the range this extrapolates: no box is checked here. A factor with many values,
+    as in a Latin hypercube, has no levels, and nothing is assessed.
+    """
+    levels = np.unique(surface.x[:, axis])
+    if len(levels) > MOST_LEVELS:
+        return LevelError(np.nan, f"not assessed: {len(levels)} values and no levels")
+    errors, refusals = [], []
+    for level in levels:
+        kept = surface.x[:, axis] != level
+        try:
+            other = surface.refit(surface.x[kept], surface.y[kept])
+        except InputError as error:
+            refusals.append(f"without {level:g}: {error.message}")
+            continue
+        errors.append(np.abs(other.predict(surface.x[~kept]) - surface.y[~kept]).max())
+    return LevelError(float(max(errors, default=np.nan)), "; ".join(refusals))
+
+
+def directions(surface: ResponseSurface) -> list[tuple[float, float]]:
+    """Share of the steps along each factor, over a grid in the box, that rise and that fall.
+
+    A surface that is monotone in a factor has one of the two at zero.
+    """
+    lower, upper = box(surface.x)
+    cells = max(3, round(GRID_POINTS ** (1 / len(lower))))
+    axes = [np.linspace(low, high, cells) for low, high in zip(lower, upper, strict=True)]
+    points = np.stack([axis.ravel() for axis in np.meshgrid(*axes, indexing="ij")], axis=1)
+    values = surface.predict(points).reshape([cells] * len(lower))
+    flat = FLAT * np.ptp(surface.y)
+    steps = [np.diff(values, axis=axis) for axis in range(len(lower))]
+    return [(float(np.mean(step > flat)), float(np.mean(step < -flat))) for step in steps]

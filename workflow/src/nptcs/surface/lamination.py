@@ -1,0 +1,262 @@
+"""The lamination form: a response surface that carries the mechanics of plates in rubber.
+
+The compliance of the tyre is that of ring and rubber plus that of the plates' bending,
+
+    1/K = c0 + 15 c1 (S/15)^m + c2 (S/15)^n d(T, A),
+    d(T, A) = [(ABD + diag(0, 0, r, a, p, 0))⁻¹]_44,
+
+with the laminate stiffness ABD of the plate [+A/-A] of thickness T. The rubber around a plate adds
+r to A66, a to D11 and p to D22; a twist spring has no effect, because D16 = 0. Fitted by least
+squares on K.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from itertools import combinations, product
+from typing import Any
+
+import numpy as np
+from scipy import stats
+from scipy.optimize import least_squares
+
+from nptcs.arrays import Array
+from nptcs.errors import InputError
+from nptcs.laminate import abd
+from nptcs.surface.response_surface import Outside, refuse_unusable
+
+FACTORS = ("spacing_mm", "thickness_mm", "angle_deg")
+REFERENCE_SPACING_MM = 15.0
+"""Spacing at which the two exponents have no effect: the fiducial one."""
+
+FIXED_SHAPE = ("n", "log_p")
+OPTIONAL_SHAPE = ("log_r", "log_a", "m")
+"""Shape parameters that forms with fewer than eight coefficients leave out, in part."""
+
+ABSENT = {"log_r": -np.inf, "log_a": -np.inf, "m": 1.0}
+"""What a shape parameter is where it is left out: nothing added, a linear effect of S."""
+
+RUBBER_PLACE = {"log_r": 2, "log_a": 3, "log_p": 4}
+"""Where the rubber adds to the diagonal of ABD: A66, D11, D22."""
+
+STARTS = {"n": (0.2,), "log_p": (5.0, 8.0), "log_r": (8.0, 11.0), "log_a": (3.0, 6.0), "m": (1.0,)}
+"""Shapes from which a first fit starts, all combined; moduli in N/mm and N mm."""
+
+
+@dataclass(frozen=True)
+class Lamination:
+    """A fitted lamination form.
+
+    Parameters
+    ----------
+    x, y : ndarray of shape (m, 3) and (m,)
+        Cases: spacing and thickness in mm, angle in degrees; stiffness in N/mm.
+    ply : mapping of str to float
+        ``e1_mpa, e2_mpa, nu12, g12_mpa`` of the plates' ply.
+    shape : tuple of str
+        Shape parameters that are fitted, of `FIXED_SHAPE` and `OPTIONAL_SHAPE`.
+    parameters : ndarray of shape (p,)
+        c0 in mm/N, c1 in 1/N, c2 in 1/mm², then the shape parameters.
+    covariance : ndarray of shape (p, p)
+        s² (JᵀJ)⁺ with the Jacobian J of K.
+    residual_sd : float
+        s, N/mm.
+    """
+
+    x: Array
+    y: Array
+    ply: Mapping[str, float]
+    shape: tuple[str, ...]
+    parameters: Array
+    covariance: Array
+    residual_sd: float
+    outside = Outside.FLAGGED
+
+    @property
+    def factors(self) -> tuple[str, ...]:
+        """Names of the factors."""
+        return FACTORS
+
+    @property
+    def coefficients(self) -> int:
+        """Fitted coefficients."""
+        return len(self.parameters)
+
+    def predict(self, x: Array) -> Array:
+        """Evaluate the stiffness at points of shape (m, 3) → (m,), N/mm."""
+        return _stiffness(self.parameters, self.shape, x, laminates(x, self.ply))
+
+    def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
+        """Bounds of the prediction interval, linear in the parameters: two of shape (m,)."""
+        jacobian = _jacobian(self.parameters, self.shape, x, laminates(x, self.ply))
+        variance = np.einsum("ij,jk,ik->i", jacobian, self.covariance, jacobian)
+        quantile = stats.t.ppf(0.5 + confidence / 2, len(self.y) - self.coefficients)
+        half_width = quantile * np.sqrt(variance + self.residual_sd**2)
+        value = self.predict(x)
+        return value - half_width, value + half_width
+
+    def refit(self, x: Array, y: Array) -> Lamination:
+        """Fit the same form to other cases, from the parameters found here."""
+        return _best(x, y, self.ply, {self.shape: [self.parameters]})
+
+    def content(self) -> dict[str, Any]:
+        """All that makes the surface, as plain values."""
+        return {
+            "x": self.x.tolist(),
+            "y": self.y.tolist(),
+            "ply": dict(self.ply),
+            "shape": self.shape,
+            "parameters": self.parameters.tolist(),
+            "covariance": self.covariance.tolist(),
+            "residual_sd": self.residual_sd,
+        }
+
+
+def fit_lamination(
+    x: Array,
+    y: Array,
+    factors: Sequence[str],
+    ply: Mapping[str, float] | None,
+    coefficients: int,
+) -> Lamination:
+    """Fit the lamination form from several starts.
+
+    Parameters
+    ----------
+    x, y : ndarray of shape (m, n) and (m,)
+        Cases in the order of `factors`, natural units; stiffness in N/mm.
+    factors : sequence of str
+        Must be spacing, thickness and angle, in any order.
+    ply : mapping of str to float or None
+        Constants of the plates' ply.
+    coefficients : int
+        6, 7 or 8. Of the forms with that number, the one with the smallest sum of squares.
+
+    Returns
+    -------
+    Lamination
+
+    Raises
+    ------
+    InputError
+        For other factors, a ply that is missing, a response that is not positive, or cases to
+        which so many coefficients cannot be fitted.
+    """
+    if sorted(factors) != sorted(FACTORS):
+        raise InputError(
+            f"the lamination form has the factors {', '.join(FACTORS)}",
+            column="surfaces",
+            value=", ".join(factors),
+            remedy="leave the lamination form out of this study",
+        )
+    if ply is None:
+        raise InputError(
+            "the lamination form needs the constants of the plates' ply",
+            column="surfaces",
+            remedy="give the specimens of a ply, or leave the lamination form out",
+        )
+    ordered = x[:, [list(factors).index(name) for name in FACTORS]]
+    refuse_unusable(ordered, y, FACTORS, coefficients)
+    if (y <= 0).any() or (ordered[:, :2] <= 0).any():
+        raise InputError(
+            "the lamination form needs positive stiffness, spacing and thickness",
+            column="surfaces",
+            value=float(min(y.min(), ordered[:, :2].min())),
+            remedy="correct the cases",
+        )
+    optional = combinations(OPTIONAL_SHAPE, coefficients - 3 - len(FIXED_SHAPE))
+    stiffness = laminates(ordered, ply)
+    starts = {
+        (*FIXED_SHAPE, *chosen): _starts((*FIXED_SHAPE, *chosen), ordered, y, stiffness)
+        for chosen in optional
+    }
+    return _best(ordered, y, ply, starts)
+
+
+def laminates(x: Array, ply: Mapping[str, float]) -> Array:
+    """Laminate stiffness ABD of the plates of each case, shape (m, 6, 6), in N and mm."""
+    return abd(ply, x[:, 2], x[:, 1])
+
+
+def _best(
+    x: Array, y: Array, ply: Mapping[str, float], starts: Mapping[tuple[str, ...], list[Array]]
+) -> Lamination:
+    """Fit each form from each of its starts and keep the one with the smallest sum of squares."""
+    stiffness = laminates(x, ply)
+    rivals = {
+        shape: min((_fitted(start, shape, x, y, stiffness) for start in given), key=lambda f: f[0])
+        for shape, given in starts.items()
+    }
+    shape = min(rivals, key=lambda name: rivals[name][0])
+    sum_of_squares, parameters = rivals[shape]
+    variance = sum_of_squares / (len(y) - len(parameters))
+    jacobian = _jacobian(parameters, shape, x, stiffness)
+    scale = np.linalg.norm(jacobian, axis=0)
+    scale[scale == 0] = 1.0
+    inverse = np.linalg.pinv((jacobian / scale).T @ (jacobian / scale), hermitian=True)
+    return Lamination(
+        x=x,
+        y=y,
+        ply={name: ply[name] for name in ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")},
+        shape=shape,
+        parameters=parameters,
+        covariance=variance * inverse / np.outer(scale, scale),
+        residual_sd=float(np.sqrt(variance)),
+    )
+
+
+def _fitted(
+    start: Array, shape: tuple[str, ...], x: Array, y: Array, stiffness: Array
+) -> tuple[float, Array]:
+    """Return the sum of squares and the parameters of one fit."""
+    scale = np.where(np.arange(len(start)) < 3, np.abs(start) + 1e-12, 1.0)
+    found = least_squares(
+        lambda parameters: _stiffness(parameters, shape, x, stiffness) - y,
+        start,
+        x_scale=scale,
+        max_nfev=300,
+    )
+    return 2 * float(found.cost), found.x
+
+
+def _starts(shape: tuple[str, ...], x: Array, y: Array, stiffness: Array) -> list[Array]:
+    """Combine the starting shapes, each with its best c0, c1, c2 (linear least squares on 1/K)."""
+    starts = []
+    for values in product(*(STARTS[name] for name in shape)):
+        spacing, plates = _compliance_terms(np.array(values), shape, x, stiffness)
+        matrix = np.column_stack([np.ones(len(y)), spacing, plates])
+        weights = y**2  # dK = -K² d(1/K)
+        linear = np.linalg.lstsq(matrix * weights[:, None], weights / y)[0]
+        starts.append(np.concatenate([linear, values]))
+    return starts
+
+
+def _compliance_terms(
+    values: Array, shape: tuple[str, ...], x: Array, stiffness: Array
+) -> tuple[Array, Array]:
+    """Return the factors of c1 and c2 at each case, for the values of the shape parameters."""
+    chosen = {**ABSENT, **dict(zip(shape, values, strict=True))}
+    held = stiffness.copy()
+    for name, place in RUBBER_PLACE.items():
+        held[:, place, place] += np.exp(np.minimum(chosen[name], 50.0))
+    bending = np.linalg.inv(held)[:, 3, 3]
+    ratio = x[:, 0] / REFERENCE_SPACING_MM
+    return REFERENCE_SPACING_MM * ratio ** chosen["m"], ratio ** chosen["n"] * bending
+
+
+def _stiffness(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:
+    spacing, plates = _compliance_terms(parameters[3:], shape, x, stiffness)
+    return 1 / (parameters[0] + parameters[1] * spacing + parameters[2] * plates)
+
+
+def _jacobian(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:
+    """Differentiate K by each parameter with central differences, shape (m, p)."""
+    columns = []
+    for place, value in enumerate(parameters):
+        step = np.zeros_like(parameters)
+        step[place] = 1e-5 * (abs(value) if place < 3 else 1.0)
+        above = _stiffness(parameters + step, shape, x, stiffness)
+        below = _stiffness(parameters - step, shape, x, stiffness)
+        columns.append((above - below) / (2 * step[place]))
+    return np.column_stack(columns)

@@ -1,0 +1,92 @@
+"""From the configuration of a surface to the surface."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import assert_never
+
+from nptcs.arrays import Array
+from nptcs.config.study import Study
+from nptcs.config.surface import (
+    GaussianProcessModel,
+    LaminationModel,
+    PolynomialModel,
+    SurfaceModel,
+    name_of,
+)
+from nptcs.surface.fit import Surface, fit_points
+from nptcs.surface.gaussian_process import GaussianProcess, fit_process
+from nptcs.surface.lamination import Lamination, fit_lamination
+from nptcs.surface.linked import LinkedSurface, fit_linked
+from nptcs.surface.response_surface import ResponseSurface
+from nptcs.surface.selection import chosen_terms
+from nptcs.terms import parse
+
+
+@dataclass(frozen=True)
+class Cases:
+    """What a surface is fitted to.
+
+    Parameters
+    ----------
+    x, y : ndarray of shape (m, n) and (m,)
+        Factors, as the solver realised them, and response of the solved cases.
+    factors : sequence of str
+        Names of the columns of `x`.
+    terms : sequence of str
+        Terms of the study, for polynomials without terms of their own.
+    ply : mapping of str to float or None
+        Constants of the plates' ply.
+    """
+
+    x: Array
+    y: Array
+    factors: Sequence[str]
+    terms: Sequence[str]
+    ply: Mapping[str, float] | None = None
+
+
+def models_of(study: Study) -> dict[str, SurfaceModel]:
+    """Name the surfaces of a study: the polynomial of its terms, then those that it lists."""
+    first = [PolynomialModel(kind="polynomial")] if study.terms else []
+    return {name_of(model): model for model in [*first, *study.surfaces]}
+
+
+def fit_model(model: SurfaceModel, cases: Cases) -> ResponseSurface:
+    """Fit the surface that the configuration describes.
+
+    Raises
+    ------
+    InputError
+        When these cases cannot carry it; see the kinds of surfaces.
+    """
+    match model:
+        case PolynomialModel():
+            return _polynomial(model, cases)
+        case LaminationModel():
+            return _lamination(model, cases)
+        case GaussianProcessModel():
+            return _process(model, cases)
+        case _:
+            assert_never(model)
+
+
+def _polynomial(model: PolynomialModel, cases: Cases) -> Surface | LinkedSurface:
+    terms = model.terms or cases.terms
+    polynomial = parse(terms, cases.factors, model.through_origin)
+    if model.choose != "as_given":
+        polynomial = chosen_terms(polynomial, cases.x, cases.y, model)
+    if model.link == "identity":
+        return fit_points(cases.x, cases.y, polynomial, model.through_origin)
+    return fit_linked(model.link, cases.x, cases.y, polynomial, model.through_origin)
+
+
+def _lamination(model: LaminationModel, cases: Cases) -> Lamination:
+    return fit_lamination(cases.x, cases.y, cases.factors, cases.ply, model.coefficients)
+
+
+def _process(model: GaussianProcessModel, cases: Cases) -> GaussianProcess:
+    mean = model.mean
+    fit_mean = None if mean is None else (lambda: fit_model(mean, cases))
+    return fit_process(cases.x, cases.y, tuple(cases.factors), fit_mean)

@@ -1,0 +1,196 @@
+"""Sobol indices and main effects of any surface, for independent factors."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, assert_never
+
+import numpy as np
+from SALib.analyze import sobol as sobol_analysis
+from SALib.sample import sobol as sobol_sample
+from scipy import stats
+
+from nptcs.arrays import Array
+from nptcs.config.sensitivity import Distribution, NormalFactor, Sobol, UniformFactor
+from nptcs.errors import InputError
+
+EFFECT_POINTS = 11
+"""Values of a factor at which its main effect is given."""
+
+RESAMPLES = 200
+
+
+@dataclass(frozen=True)
+class Inputs:
+    """One factor as it is sampled.
+
+    Parameters
+    ----------
+    low, high : float
+        Range, inside the box of the cases.
+    kind : str
+        ``unif`` or ``truncnorm``, as SALib names them.
+    bounds : tuple of float
+        As SALib takes them: low and high, then mean and standard deviation of a normal.
+    words : str
+        The distribution in words.
+    cut_percent : float
+        Share of the distribution outside the range: it is cut off.
+    """
+
+    low: float
+    high: float
+    kind: str
+    bounds: tuple[float, ...]
+    words: str
+    cut_percent: float = 0.0
+
+
+@dataclass(frozen=True)
+class Indices:
+    """Sobol indices of n factors.
+
+    Parameters
+    ----------
+    first, total, first_confidence, total_confidence : ndarray of shape (n,)
+        Indices, and the half widths of their confidence intervals.
+    second, second_confidence : ndarray of shape (n, n)
+        Interactions, in the upper triangle; not a number elsewhere.
+    sd : float
+        Standard deviation of the response over the inputs.
+    samples : int
+        Evaluations of the surface.
+    """
+
+    first: Array
+    first_confidence: Array
+    total: Array
+    total_confidence: Array
+    second: Array
+    second_confidence: Array
+    sd: float
+    samples: int
+
+
+def inputs_of(factor: str, low: float, high: float, given: Distribution | None) -> Inputs:
+    """Return how a factor is sampled: uniform over its range, or as given, cut to the range.
+
+    Raises
+    ------
+    InputError
+        For a distribution that lies outside the range of the cases.
+    """
+    bounds: tuple[float, ...]
+    match given:
+        case None:
+            return Inputs(low, high, "unif", (low, high), f"uniform {low:.6g} to {high:.6g}")
+        case UniformFactor():
+            bottom, top = max(low, given.low), min(high, given.high)
+            inside = max(top - bottom, 0.0) / (given.high - given.low)
+            words = f"uniform {given.low:g} to {given.high:g}"
+            kind, bounds = "unif", (bottom, top)
+        case NormalFactor():
+            bottom, top = low, high
+            normal = stats.norm(given.mean, given.sd)
+            inside = float(normal.cdf(high) - normal.cdf(low))
+            words = f"normal, mean {given.mean:g}, SD {given.sd:g}"
+            kind, bounds = "truncnorm", (low, high, given.mean, given.sd)
+        case _:
+            assert_never(given)
+    if inside < 0.01:
+        raise InputError(
+            f"this distribution lies outside the cases ({low:g} to {high:g})",
+            column=f"sensitivity.distributions.{factor}",
+            value=words,
+            remedy="give a distribution inside the range of the levels",
+        )
+    return Inputs(bottom, top, kind, bounds, words, 100 * (1 - inside))
+
+
+def sobol_indices(
+    predict: Callable[[Array], Array], inputs: Mapping[str, Inputs], settings: Sobol
+) -> Indices:
+    """Estimate first-order, second-order and total indices (Saltelli's scheme, SALib).
+
+    Parameters
+    ----------
+    predict : callable
+        Points of shape (m, n) → responses of shape (m,).
+    inputs : mapping of str to Inputs
+        The n factors in the order of the columns of the points.
+    settings : Sobol
+        Points, confidence and seed.
+
+    Returns
+    -------
+    Indices
+
+    Raises
+    ------
+    InputError
+        When the response does not vary, or is not a number somewhere.
+    """
+    problem = _problem(inputs)
+    points = sobol_sample.sample(
+        problem, settings.points, calc_second_order=True, seed=settings.seed
+    )
+    response = predict(points)
+    if not np.isfinite(response).all() or np.ptp(response) == 0:
+        raise InputError(
+            "the surface is the same everywhere, or not a number somewhere, and has no indices",
+            value=float(response.min()),
+            remedy="look at surface_comparison.csv",
+        )
+    found = sobol_analysis.analyze(
+        problem,
+        response,
+        calc_second_order=True,
+        num_resamples=RESAMPLES,
+        conf_level=settings.confidence,
+        seed=settings.seed,
+    )
+    return Indices(
+        first=found["S1"],
+        first_confidence=found["S1_conf"],
+        total=found["ST"],
+        total_confidence=found["ST_conf"],
+        second=found["S2"],
+        second_confidence=found["S2_conf"],
+        sd=float(np.std(response)),
+        samples=len(response),
+    )
+
+
+def main_effect(
+    predict: Callable[[Array], Array], inputs: Sequence[Inputs], axis: int, settings: Sobol
+) -> tuple[Array, Array]:
+    """Mean of the response over all other factors at values of one, less its overall mean.
+
+    Returns
+    -------
+    values, effects : ndarray of shape (11,)
+        Evenly spaced over the factor's range; in the unit of the response.
+    """
+    names = [str(number) for number in range(len(inputs))]
+    problem = _problem(dict(zip(names, inputs, strict=True)))
+    points = sobol_sample.sample(
+        problem, settings.points, calc_second_order=False, seed=settings.seed
+    )[:: len(inputs) + 2]
+    values = np.linspace(inputs[axis].low, inputs[axis].high, EFFECT_POINTS)
+    overall = float(predict(points).mean())
+    means = []
+    for value in values:
+        points[:, axis] = value
+        means.append(float(predict(points).mean()))
+    return values, np.array(means) - overall
+
+
+def _problem(inputs: Mapping[str, Inputs]) -> dict[str, Any]:
+    """Describe the inputs as SALib does."""
+    return {
+        "num_vars": len(inputs),
+        "names": list(inputs),
+        "bounds": [list(one.bounds) for one in inputs.values()],
+        "dists": [one.kind for one in inputs.values()],
+    }
