@@ -6,7 +6,7 @@ from typing import Any
 from nptcs.calibrate import calibrate_ply
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
-from nptcs.files import write_text
+from nptcs.files import write_model
 from nptcs.tables.io import read_tables
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
@@ -16,7 +16,7 @@ def calibrate(job: dict[str, Any], properties: Sequence[str], card: str) -> None
     specimens = [Specimen.model_validate(row) for row in job["specimens"]]
     settings = CalibrationSettings.model_validate(job["settings"])
     ply = calibrate_ply(read_tables(properties, PropertiesTable), specimens, settings)
-    write_text(card, ply.model_dump_json(indent=1))
+    write_model(card, ply)
 
 
 if __name__ == "__main__":

@@ -5,7 +5,7 @@ from typing import Any
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
-from nptcs.files import read_model, write_text
+from nptcs.files import read_model, write_model
 from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import write_table
@@ -19,7 +19,7 @@ def calibrate(job: dict[str, Any], curves: list[str], records: list[str], **outp
     outcomes = [read_model(file, IngestRecord) for file in records]
     sources = {record.specimen: record.strain_source for record in outcomes}
     data = (job["rubber"], usable, specimens, settings)
-    write_text(output["card"], calibrate_rubber(*data, sources).model_dump_json(indent=1))
+    write_model(output["card"], calibrate_rubber(*data, sources))
     write_table(output["models"], compare_models(*data), ModelComparison)
     write_table(output["ranges"], c10_against_range(*data), RangeTable)
 

@@ -80,7 +80,7 @@ class CaseInputs:
 class SolverResult(BaseModel):
     """What a solver returns: a status with a message, and the responses if it has any."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     status: Status
     message: str = ""
@@ -191,8 +191,13 @@ class Solver:
 
     def missing_responses(self, result: SolverResult) -> list[str]:
         """Name what a result that says ``ok`` must give and does not."""
-        if result.status != Status.OK:
-            return []
-        given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
-        promised = TYRE_RESPONSES if self.loads_tyre else SPOKE_RESPONSES
-        return [name for name in promised if given.get(name) is None]
+        return missing_responses(result, self.loads_tyre)
+
+
+def missing_responses(result: SolverResult, loads_tyre: bool) -> list[str]:
+    """Name what a result that says ``ok`` must give, by a solver of tyres or of single spokes."""
+    if result.status != Status.OK:
+        return []
+    given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
+    promised = TYRE_RESPONSES if loads_tyre else SPOKE_RESPONSES
+    return [name for name in promised if given.get(name) is None]

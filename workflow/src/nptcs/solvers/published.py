@@ -42,21 +42,24 @@ def solve(inputs: CaseInputs) -> SolverResult:
     rows = inputs.tables["archive"]
     factors = [column for column in rows[0] if column not in ("case", RESPONSE)]
     wanted = {name: inputs.values[name] for name in factors if name in inputs.values}
-    for row in rows:
-        if len(wanted) == len(factors) and all(
-            math.isclose(row[name], value) for name, value in wanted.items()
-        ):
-            stiffness = float(row[RESPONSE])
-            return SolverResult(
-                status=Status.OK,
-                message=f"row {row['case']:g} of {options.archive}",
-                vertical_stiffness_n_per_mm=stiffness,
-                displacement_mm=inputs.load_n / stiffness,
-            )
+    place = ", ".join(f"{name} = {inputs.values.get(name, math.nan):g}" for name in factors)
+    found = [
+        row
+        for row in rows
+        if len(wanted) == len(factors)
+        and all(math.isclose(row[name], value) for name, value in wanted.items())
+    ]
+    if len(found) != 1:
+        how_many = f"{len(found)} rows" if found else "no case"
+        return SolverResult(
+            status=Status.ERROR, message=f"{options.archive} holds {how_many} with {place}"
+        )
+    stiffness = float(found[0][RESPONSE])
     return SolverResult(
-        status=Status.ERROR,
-        message=f"{options.archive} holds no case with "
-        + ", ".join(f"{name} = {inputs.values.get(name, math.nan):g}" for name in factors),
+        status=Status.OK,
+        message=f"row {found[0]['case']:g} of {options.archive}",
+        vertical_stiffness_n_per_mm=stiffness,
+        displacement_mm=inputs.load_n / stiffness,
     )
 
 

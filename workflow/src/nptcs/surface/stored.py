@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
 
+from nptcs.errors import InputError
+from nptcs.files import REWRITE, read_stored
+from nptcs.seal import BrokenSealError, open_object, sealed_object
 from nptcs.surface.fit import Surface
 from nptcs.surface.terms import Polynomial
 
@@ -29,16 +31,31 @@ def dump(surfaces: Mapping[str, Surface]) -> str:
         }
         for solver, surface in surfaces.items()
     }
-    return json.dumps(content, indent=1)
+    return sealed_object(content, "Surfaces")
 
 
 def read_surfaces(path: str | Path) -> dict[str, Surface]:
-    """Read a file of surfaces, by the name of their solver."""
-    return load(Path(path).read_text(encoding="utf-8"))
+    """Read a file of surfaces, by the name of their solver.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, damaged or edited.
+    """
+    try:
+        return load(read_stored(path, "file of surfaces"))
+    except BrokenSealError as error:
+        raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
 
 
 def load(text: str) -> dict[str, Surface]:
-    """Read what `dump` has written."""
+    """Read what `dump` has written.
+
+    Raises
+    ------
+    BrokenSealError
+        For a text that was damaged or edited.
+    """
     return {
         solver: Surface(
             polynomial=Polynomial(
@@ -52,5 +69,5 @@ def load(text: str) -> dict[str, Surface]:
             points=content["points"],
             residual_sd=content["residual_sd"],
         )
-        for solver, content in json.loads(text).items()
+        for solver, content in open_object(text, "Surfaces").items()
     }
