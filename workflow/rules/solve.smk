@@ -8,16 +8,20 @@ def ply_card(wildcards):
 
 def solver_tables(wildcards):
     _, options = solver_of(wildcards.study, wildcards.solver)
-    return list(options.tables().values())
+    return [ancient(path) for path in options.tables().values()]
 
 
 def solve_job(wildcards):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
+    _, checked = solver_of(wildcards.study, wildcards.solver)
     return {
         "study": study.case_definition(),
         "solver": wildcards.solver,
-        "options": options,
+        "options": {
+            k: v for k, v in options.items() if k not in checked.without_effect
+        },
+        "tables": contents(checked.tables().values()),
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": CONFIG.campaign.batches,

@@ -10,13 +10,14 @@ def surface_job(wildcards):
             "solvers": list(study.solvers),
             "terms": list(study.terms),
         },
+        "published": contents(published_coefficients(wildcards)),
         "code": code_of("surface"),
     }
 
 
 def published_coefficients(wildcards):
     path = CONFIG.study(wildcards.study).published_coefficients
-    return [path] if path else []
+    return [ancient(path)] if path else []
 
 
 rule surface:
@@ -36,16 +37,15 @@ rule surface:
         "../scripts/surface.py"
 
 
+PUBLISHED_IMPACT = list(filter(None, [CONFIG.sensitivity.published_impact]))
+
+
 rule sensitivity:
     input:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         designs=expand("results/4_design/{study}.csv", study=SURFACE_STUDIES),
         qualities=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
-        published=(
-            [CONFIG.sensitivity.published_impact]
-            if CONFIG.sensitivity.published_impact
-            else []
-        ),
+        published=[ancient(path) for path in PUBLISHED_IMPACT],
     output:
         impact="results/tables/impact.csv",
         quality="results/tables/surface_quality.csv",
@@ -54,6 +54,7 @@ rule sensitivity:
     params:
         job={
             "rules": list(CONFIG.sensitivity.rules),
+            "published": contents(PUBLISHED_IMPACT),
             "code": code_of("sensitivity"),
         },
     script:

@@ -4,6 +4,7 @@ from typing import Any
 
 from nptcs.campaign.batch import solve_batch
 from nptcs.campaign.record import RecordStore, write_records
+from nptcs.config.root import read_config
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.tables.cases import Design
@@ -11,16 +12,18 @@ from nptcs.tables.io import read_table
 from nptcs.tables.material_card import PlyCard
 
 
-def solve(
-    job: dict[str, Any], store: str, cores: int, tokens: int, *, design: str, records: str, **more
-) -> None:
+def solve(job: dict[str, Any], store: str, records: str, design: str, **more) -> None:
     constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
     ply = constants[0] if constants else None
+    # time limits and cache places are in the configuration alone: as params they would rerun it
+    options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
+    granted = RecordStore(store), more["cores"], more["tokens"]
     cases = read_table(design, Design)
-    write_records(records, solve_batch(job, cases, ply, RecordStore(store), cores, tokens))
+    write_records(records, solve_batch({**job, "options": options}, cases, ply, *granted))
 
 
 if __name__ == "__main__":
     granted = {"cores": snakemake.threads, "tokens": snakemake.resources.licence_tokens}
     with clear_errors(snakemake.log[0]):
-        solve(**snakemake.params, **granted, **snakemake.input, **snakemake.output)
+        files = {**snakemake.params, **snakemake.input, **snakemake.output}
+        solve(**files, **granted, config=snakemake.config)

@@ -109,6 +109,10 @@ class Config(Strict):
             for name in study.solvers
         }
 
+    def options_of(self, study: str, solver: str) -> dict[str, Any]:
+        """Return the options of one solver of a study."""
+        return self.solver_options(self.study(study))[solver]
+
 
 def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> Config:
     """Check configuration values against the schema.
