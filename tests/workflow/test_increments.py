@@ -1,4 +1,4 @@
-"""What a change reruns: by content, never by date, and words rerun only the pages that print them."""
+"""What a change reruns: content counts, dates do not, words only where they are printed."""
 
 import os
 

@@ -5,13 +5,13 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
+from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.files import sha256_of_file
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import (
-    check_study,
     load,
     model_choices,
     module_of,
@@ -24,10 +24,10 @@ STARTED = time.time()
 
 try:
     CONFIG = read_config(config)
-    for study in CONFIG.studies:
-        check_study(study, CONFIG.solver_options(study))
     SHEET = Path(CONFIG.lab_data.specimen_sheet)
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
+    if workflow.is_main_process:
+        refuse_faults([*study_faults(CONFIG), *name_faults(SPECIMENS, CONFIG)])
 except InputError as error:
     raise WorkflowError(str(error)) from None
 

@@ -66,6 +66,9 @@ class CaseRecord(BaseModel):
     values: dict[str, float]
     load_n: float | None
     wall_time_s: float = Field(description="Time of the run that made the result")
+    peak_memory_mb: float | None = Field(
+        None, description="Largest memory of the case's process; none if it died"
+    )
     result: SolverResult
 
     @model_validator(mode="after")
@@ -76,7 +79,9 @@ class CaseRecord(BaseModel):
         return self
 
 
-def make_record(job: CaseJob, result: SolverResult, wall_time_s: float) -> CaseRecord:
+def make_record(
+    job: CaseJob, result: SolverResult, wall_time_s: float, peak_memory_mb: float | None = None
+) -> CaseRecord:
     """Join a job and its result."""
     return CaseRecord(
         study=job.study,
@@ -87,6 +92,7 @@ def make_record(job: CaseJob, result: SolverResult, wall_time_s: float) -> CaseR
         values=job.values,
         load_n=job.load_n,
         wall_time_s=wall_time_s,
+        peak_memory_mb=peak_memory_mb,
         result=result,
     )
 

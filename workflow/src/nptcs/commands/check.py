@@ -15,6 +15,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "config", nargs="?", default="config/config.yaml", help="default: %(default)s"
     )
+    parser.add_argument(
+        "--results",
+        default="results",
+        help="folder of earlier results, for known cases and times; default: %(default)s",
+    )
     parser.set_defaults(run=run)
 
 
@@ -22,9 +27,10 @@ def run(arguments: argparse.Namespace) -> int:
     """Print what is planned, or every fault; exit code 1 if there is one."""
     import yaml
 
+    from nptcs.campaign.checks import name_faults, study_faults
+    from nptcs.campaign.plan import plan_lines
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
-    from nptcs.solvers.registry import check_study
     from nptcs.tables.specimens import read_sheet
 
     path = Path(arguments.config)
@@ -37,12 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
     except yaml.YAMLError as error:
         raise InputError(f"is not YAML: {error}", file=path, remedy="correct the syntax") from None
     config = read_config(values, str(path))
-    for study in config.studies:
-        check_study(study, config.solver_options(study))
-        cases = 1
-        for factor in study.factors:
-            cases *= len(factor.levels)
-        print(f"study {study.name}: {cases} cases by {', '.join(study.solvers)}")
+    faults = study_faults(config)
+    if not faults:
+        print(*plan_lines(config, arguments.results), sep="\n")
     specimens, errors = read_sheet(config.lab_data.specimen_sheet)
     folder = Path(config.lab_data.specimen_sheet).parent
     missing = [
@@ -57,6 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
         if not (folder / name).is_file()
     ]
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
-    for fault in [*errors, *missing]:
+    faults += [*errors, *missing, *name_faults(specimens, config)]
+    for fault in faults:
         print(f"nptcs: {fault}", file=sys.stderr)
-    return 1 if errors or missing else 0
+    return 1 if faults else 0

@@ -33,9 +33,15 @@ class LabData(Strict):
 class Campaign(Strict):
     """How solver cases are run."""
 
+    most_cases: int = Field(
+        2000,
+        ge=1,
+        description="Cases of a study above which a run is refused; raise it to ask for more",
+    )
     batches: int = Field(
         1,
         ge=1,
+        le=1000,
         description="Jobs into which each solver's cases of a study are divided (for clusters)",
     )
     cores_per_batch: int = Field(

@@ -34,6 +34,10 @@ class SolverOptions(Strict):
         """Name the CSV files that the solver reads: a key for the solver → path."""
         return {}
 
+    def load_fault(self, load_n: float) -> str:
+        """Say why no case can be solved at this load; empty where cases can."""
+        return ""
+
     def cores_per_case(self) -> int:
         """Return the cores that the solver of one case keeps busy."""
         return 1
