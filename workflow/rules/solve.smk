@@ -1,5 +1,7 @@
 # Design tables → one record per case. A failed case is a record too; records are kept by content.
 
+from nptcs.campaign.tries import read_tries
+
 
 def ply_card(wildcards):
     solver, _ = solver_of(wildcards.study, wildcards.solver)
@@ -25,6 +27,9 @@ def solve_job(wildcards):
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": CONFIG.campaign.batches,
+        "tries": read_tries(
+            "results/5_solve/{study}/{solver}/batch_{batch}.jsonl".format(**wildcards)
+        ),
         "code": code_of("solve", module_of(wildcards.solver, options)),
     }
 

@@ -4,6 +4,7 @@ from typing import Any
 
 from nptcs.campaign.batch import solve_batch
 from nptcs.campaign.record import RecordStore, write_records
+from nptcs.campaign.tries import note_ends
 from nptcs.config.root import read_config
 from nptcs.console import clear_errors
 from nptcs.files import read_model
@@ -18,8 +19,10 @@ def solve(job: dict[str, Any], store: str, records: str, design: str, **more) ->
     # time limits and cache places are in the configuration alone: as params they would rerun it
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
     granted = RecordStore(store), more["cores"], more["tokens"]
-    cases = read_table(design, Design)
-    write_records(records, solve_batch({**job, "options": options}, cases, ply, *granted))
+    job = {**job, "options": options}
+    done = solve_batch(job, read_table(design, Design), ply, *granted)
+    note_ends(records, done)
+    write_records(records, done)
 
 
 if __name__ == "__main__":

@@ -147,7 +147,7 @@ def test_ordinary_names_are_not_refused(archive):
 def test_the_plan_counts_what_is_known_and_what_it_took(archive, tmp_path):
     config = configuration(archive)
     assert plan_lines(config, tmp_path)[:2] == [
-        "study plate: 9 cases",
+        "study plate: 9 cases by published",
         "  published: 0 known, 9 to solve; time not known, no case of it is stored",
     ]
     study = config.studies[0]

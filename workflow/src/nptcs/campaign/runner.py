@@ -23,6 +23,9 @@ THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 KILL_AFTER_S = 2.0
 """Grace between the polite and the final signal to a case that is out of time."""
 
+SENT_FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
+"""Signals that no case sends to itself: a user, the queue or the kernel (out of memory) did."""
+
 Progress = Callable[[CaseRecord, bool, int, int], None]
 """Called with the record, whether it was reused, how many are done, how many there are."""
 
@@ -144,7 +147,9 @@ def _collect(case: _Running) -> Outcome:
     except EOFError:
         case.process.join(KILL_AFTER_S)
         code = case.process.exitcode
-        return SolverResult(status=Status.ERROR, message=_cause_of_death(code)), seconds, None
+        died = code is not None and -code in SENT_FROM_OUTSIDE
+        message = _cause_of_death(code)
+        return SolverResult(status=Status.ERROR, message=message, died=died), seconds, None
     finally:
         case.channel.close()
         _stop(case.process)

@@ -41,6 +41,8 @@ def solve(job: CaseJob) -> SolverResult:
                 message=f"solver '{solver.name}' says ok but gives no {', '.join(missing)}",
             )
         return result
+    except MemoryError as error:
+        return SolverResult(status=Status.ERROR, message=f"out of memory: {error}", died=True)
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
         where = traceback.extract_tb(error.__traceback__)[-1]
         file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open

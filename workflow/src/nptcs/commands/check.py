@@ -24,7 +24,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what is planned, or every fault; exit code 1 if there is one."""
+    """Print what is planned, or every fault; exit code 2 for the studies, 1 for the sheet."""
     import yaml
 
     from nptcs.campaign.checks import name_faults, study_faults
@@ -60,7 +60,7 @@ def run(arguments: argparse.Namespace) -> int:
         if not (folder / name).is_file()
     ]
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
-    faults += [*errors, *missing, *name_faults(specimens, config)]
-    for fault in faults:
+    of_rows = [*errors, *missing, *name_faults(specimens, config)]
+    for fault in [*faults, *of_rows]:
         print(f"nptcs: {fault}", file=sys.stderr)
-    return 1 if faults else 0
+    return 2 if faults else 1 if of_rows else 0

@@ -88,6 +88,9 @@ class SolverResult(BaseModel):
 
     status: Status
     message: str = ""
+    died: bool = Field(
+        False, description="It ended for a reason outside the case: killed, or out of memory"
+    )
     vertical_stiffness_n_per_mm: float | None = Field(None, description="Secant F/δ at the load")
     displacement_mm: float | None = Field(None, description="Vertical displacement δ at the load")
     extra: dict[str, float] = Field(
