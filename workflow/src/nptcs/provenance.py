@@ -137,15 +137,15 @@ def code_digest(source: str, words: bool = False) -> str:
 class _WithoutWords(ast.NodeTransformer):
     """Take from code the words that only a reader sees."""
 
-    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:  # noqa: N802 - name of the base class
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         return self.generic_visit(_without_docstring(node))
 
-    def visit_Raise(self, node: ast.Raise) -> ast.AST:  # noqa: N802 - name of the base class
+    def visit_Raise(self, node: ast.Raise) -> ast.AST:
         if isinstance(node.exc, ast.Call):
             node.exc = _Silent().visit(node.exc)
         return self.generic_visit(node)
 
-    def visit_Call(self, node: ast.Call) -> ast.AST:  # noqa: N802 - name of the base class
+    def visit_Call(self, node: ast.Call) -> ast.AST:
         name = _last_name(node.func)
         if name.endswith(("Error", "Warning")) or name in ("print", "warn"):
             return _Silent().visit(node)
@@ -153,7 +153,7 @@ class _WithoutWords(ast.NodeTransformer):
         node.keywords = [keyword for keyword in node.keywords if keyword.arg not in words]
         return self.generic_visit(node)
 
-    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:  # noqa: N802 - name of the base class
+    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
         if any(_last_name(base).endswith(("Error", "Exception")) for base in node.bases):
             node.body = [
                 part
@@ -162,7 +162,7 @@ class _WithoutWords(ast.NodeTransformer):
             ] or [ast.Pass()]
         return self.generic_visit(_without_docstring(node))
 
-    def visit_Assign(self, node: ast.Assign) -> ast.AST | None:  # noqa: N802 - as above
+    def visit_Assign(self, node: ast.Assign) -> ast.AST | None:
         if [_last_name(target) for target in node.targets] == ["__version__"]:
             return None
         return self.generic_visit(node)
@@ -177,10 +177,10 @@ def _without_docstring(node: _Documented) -> _Documented:
 class _Silent(ast.NodeTransformer):
     """Replace every text by an empty one."""
 
-    def visit_Constant(self, node: ast.Constant) -> ast.AST:  # noqa: N802 - as above
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
         return ast.Constant("") if isinstance(node.value, str) else node
 
-    def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:  # noqa: N802 - as above
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
         return ast.Constant("")
 
 
