@@ -1,4 +1,4 @@
-"""A case that was killed is tried again by the same command; one that a solver gave up on is not."""
+"""A killed case is tried again by the same command; one that a solver gave up on is not."""
 
 import re
 
