@@ -3,13 +3,14 @@
 import pytest
 
 from nptcs.errors import InputError
-from nptcs.files import read_model, write_text
+from nptcs.files import read_model, write_model
+from nptcs.seal import sealed_object
 from nptcs.tables.curves import IngestRecord
 
 
 def test_a_record_comes_back(tmp_path):
     record = IngestRecord(specimen="T0-1", status="ok", flags=("slipped",))
-    write_text(tmp_path / "T0-1.json", record.model_dump_json(indent=1))
+    write_model(tmp_path / "T0-1.json", record)
     assert read_model(tmp_path / "T0-1.json", IngestRecord) == record
 
 
@@ -18,7 +19,8 @@ def test_a_record_comes_back(tmp_path):
     [
         (None, "does not exist"),
         (b"{", "is not a sound IngestRecord"),
-        (b'{"specimen": "T0-1"}', "status"),
+        (b'{"specimen": "T0-1"}', "no checksum"),
+        (sealed_object({"specimen": "T0-1"}, "IngestRecord").encode(), "status"),
         (b"\xff\xfe", "is not a sound"),
     ],
 )

@@ -35,12 +35,20 @@ class Project:
 
     def snakemake(self, *arguments: str, config: str = "config/small.yaml"):
         """Run Snakemake; the copy's own package is the one that counts."""
+        return self.run("snakemake", "-j2", *arguments, "--configfile", config)
+
+    def nptcs(self, *arguments: str):
+        """Run a command of the package."""
+        return self.run("nptcs.cli", *arguments)
+
+    def run(self, module: str, *arguments: str):
+        """Run a module of Python in the folder of the project."""
         environment = {
             **os.environ,
             "PYTHONPATH": str(self.folder / "workflow" / "src"),
             "OPENBLAS_NUM_THREADS": "1",
         }
-        command = [sys.executable, "-m", "snakemake", "-j2", *arguments, "--configfile", config]
+        command = [sys.executable, "-m", module, *arguments]
         return subprocess.run(
             command,
             cwd=self.folder,
@@ -94,8 +102,16 @@ def finished(tmp_path_factory) -> Project:
     return project
 
 
-def run_once(folder: Path) -> None:
-    """Copy the project and run the small configuration."""
+@pytest.fixture
+def unsolved(tmp_path) -> Project:
+    """A copy of the project without results."""
+    folder = tmp_path / "unsolved"
+    copy_project(folder)
+    return Project(folder)
+
+
+def copy_project(folder: Path) -> None:
+    """Copy what a run needs."""
     folder.mkdir(parents=True)
     parts = ("Snakefile", "config", "profiles", "raw_data", "tests", "workflow")
     for part in parts:
@@ -105,6 +121,11 @@ def run_once(folder: Path) -> None:
             shutil.copytree(source, folder / part, ignore=ignore)
         else:
             shutil.copy2(source, folder / part)
+
+
+def run_once(folder: Path) -> None:
+    """Copy the project and run the small configuration."""
+    copy_project(folder)
     project = Project(folder)
     shorten_sheet(project)
     run = project.snakemake()

@@ -1,17 +1,18 @@
 # The configuration and the specimen sheet, checked; what the rules ask of them.
 import time
+from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
+from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.files import sha256_of_file
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import (
-    check_study,
     load,
     model_choices,
     module_of,
@@ -25,8 +26,6 @@ STARTED = time.time()
 
 try:
     CONFIG = read_config(config)
-    for study in CONFIG.studies:
-        check_study(study, CONFIG.solver_options(study))
     SHEET = Path(CONFIG.lab_data.specimen_sheet)
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
     faults, _ = check_materials(
@@ -39,6 +38,8 @@ try:
     )
     if faults:
         raise faults[0]
+    if workflow.is_main_process:
+        refuse_faults([*study_faults(CONFIG), *name_faults(SPECIMENS, CONFIG)])
 except InputError as error:
     raise WorkflowError(str(error)) from None
 
@@ -61,18 +62,38 @@ wildcard_constraints:
 
 
 def plain(section):
-    """A configuration section as plain values, so that Snakemake notices each change."""
-    return section.model_dump(mode="json")
+    """A configuration section or a row of the sheet as plain values.
+
+    Snakemake notices each change of them. Remarks decide nothing: only the report has them.
+    """
+    return section.model_dump(mode="json", exclude={"remarks"})
 
 
-def code_of(script, *modules):
+def code_of(script, *modules, words=False):
     """Hash of a rule's script, of all that it imports from the package, and of further modules.
 
     Snakemake goes by the script's time stamp, which a checkout renews, and not by its imports.
+    Rules whose output prints messages and descriptions ask for their `words` too.
     """
     return code_hash(
-        str(Path(workflow.basedir) / f"workflow/scripts/{script}.py"), *modules
+        str(Path(workflow.basedir) / f"workflow/scripts/{script}.py"),
+        *modules,
+        words=words,
     )
+
+
+@cache
+def content_of(path):
+    return sha256_of_file(path) if Path(path).is_file() else "missing"
+
+
+def contents(paths):
+    """Hash of each input file that a user gives, for `params`.
+
+    Such inputs are `ancient`: what they hold decides whether a rule runs, not their date, which
+    a copy, an archive or a checkout sets as it likes.
+    """
+    return {str(path): content_of(str(path)) for path in paths}
 
 
 def specimens_of_series(series):

@@ -21,7 +21,7 @@ rule spoke_stiffness:
             if solver not in tyre_solvers(study.name)
             for path in batches(study.name, solver)
         ],
-        published=list(PUBLISHED_SPOKES.values()),
+        published=[ancient(path) for path in PUBLISHED_SPOKES.values()],
     output:
         lines="results/tables/spoke_stiffness.csv",
         curves="results/tables/spoke_curves.csv",
@@ -30,6 +30,7 @@ rule spoke_stiffness:
     params:
         job={
             "studies": list(PUBLISHED_SPOKES),
+            "published": contents(PUBLISHED_SPOKES.values()),
             "code": code_of("spoke_stiffness"),
         },
     script:
@@ -84,12 +85,17 @@ rule neutral_line:
         "../scripts/neutral_line.py"
 
 
+LCA_PUBLISHED = {
+    "table_7": CONFIG.lca_validation.published_fem,
+    "table_10": CONFIG.lca_validation.spoke_stiffness,
+    "table_11": CONFIG.lca_validation.published,
+    "figure_15": CONFIG.lca_validation.published_loads,
+}
+
+
 rule lca_validation:
     input:
-        table_7=CONFIG.lca_validation.published_fem,
-        table_10=CONFIG.lca_validation.spoke_stiffness,
-        table_11=CONFIG.lca_validation.published,
-        figure_15=CONFIG.lca_validation.published_loads,
+        **{name: ancient(path) for name, path in LCA_PUBLISHED.items()},
     output:
         validation="results/tables/lca_validation.csv",
         fem="results/tables/lca_against_fem.csv",
@@ -100,6 +106,7 @@ rule lca_validation:
         job={
             "shear_band_c10_mpa": CONFIG.lca_validation.shear_band_c10_mpa,
             "tyre": plain(CONFIG.tyre),
+            "published": contents(LCA_PUBLISHED.values()),
             "code": code_of("lca_validation"),
         },
     script:

@@ -1,4 +1,6 @@
 # Raw files → one tidy curve per specimen, and an account of every file in the folder.
+from nptcs.files import sha256_of_text
+from nptcs.ingest import load_profiles
 from nptcs.ingest.folder import find_file, raw_files
 
 
@@ -10,19 +12,25 @@ def files_of_specimen(wildcards):
             found.append(str(find_file(SHEET.parent, name)))
         except InputError:
             continue
-    return found
+    return [ancient(path) for path in found]
 
 
-# the profiles decide how files are read: their content, not their time stamps
-PROFILES = {
-    path.name: sha256_of_file(path)
-    for path in sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
-}
+# the profiles decide how files are read: what they say, not their comments or their dates
+try:
+    PROFILES = {
+        name: sha256_of_text(profile.model_dump_json())
+        for name, profile in load_profiles(CONFIG.lab_data.formats).items()
+    }
+except InputError as error:
+    raise WorkflowError(str(error)) from None
+
+LAB_FILES = [str(path) for path in raw_files(SHEET.parent).values() if path != SHEET]
 
 
 def ingest_job(wildcards):
     return {
         "specimen": plain(SPECIMEN[wildcards.specimen]),
+        "files": contents(files_of_specimen(wildcards)),
         "folder": str(SHEET.parent),
         "formats": CONFIG.lab_data.formats,
         "profiles": PROFILES,
@@ -47,14 +55,17 @@ rule ingest:
 
 rule account:
     input:
-        [str(path) for path in raw_files(SHEET.parent).values() if path != SHEET],
-        sheet=str(SHEET),
+        [ancient(path) for path in LAB_FILES],
+        sheet=ancient(str(SHEET)),
         records=records(SPECIMENS),
     output:
         files="results/tables/files.csv",
     log:
         "results/logs/account.log",
     params:
-        job={"code": code_of("account")},
+        job=lambda wildcards: {
+            "files": contents([SHEET, *LAB_FILES]),
+            "code": code_of("account", words=True),
+        },
     script:
         "../scripts/account.py"

@@ -58,7 +58,7 @@ rule problems:
             "sheet_errors": [
                 [error.specimen or SHEET.name, str(error)] for error in SHEET_ERRORS
             ],
-            "code": code_of("problems"),
+            "code": code_of("problems", words=True),
         },
     script:
         "../scripts/problems.py"
@@ -72,7 +72,7 @@ rule report:
         records=records(SPECIMENS),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
-        inputs=configured_inputs(),
+        inputs=[ancient(path) for path in configured_inputs()],
     output:
         page="results/report.html",
         workbook="results/workbook.xlsx",
@@ -81,7 +81,7 @@ rule report:
     params:
         job={
             "config": plain(CONFIG),
-            "specimens": [plain(specimen) for specimen in SPECIMENS],
+            "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
             "solvers": solver_facts(),
             "templates": {
                 template.name: sha256_of_file(template)
@@ -89,7 +89,8 @@ rule report:
                     Path(str(package_files("nptcs.report") / "templates")).iterdir()
                 )
             },
-            "code": code_of("report"),
+            "inputs": contents(configured_inputs()),
+            "code": code_of("report", words=True),
         },
     script:
         "../scripts/report.py"
@@ -109,7 +110,7 @@ rule verdict:
     params:
         job={
             "specimens": [plain(specimen) for specimen in SPECIMENS],
-            "code": code_of("verdict"),
+            "code": code_of("verdict", words=True),
         },
     script:
         "../scripts/verdict.py"

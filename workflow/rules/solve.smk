@@ -1,5 +1,7 @@
 # Design tables → one record per case. A failed case is a record too; records are kept by content.
 
+from nptcs.campaign.tries import read_tries
+
 
 def ply_card(wildcards):
     solver, _ = solver_of(wildcards.study, wildcards.solver)
@@ -11,19 +13,26 @@ def ply_card(wildcards):
 
 def solver_tables(wildcards):
     _, options = solver_of(wildcards.study, wildcards.solver)
-    return list(options.tables().values())
+    return [ancient(path) for path in options.tables().values()]
 
 
 def solve_job(wildcards):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
+    _, checked = solver_of(wildcards.study, wildcards.solver)
     return {
         "study": study.case_definition(),
         "solver": wildcards.solver,
-        "options": options,
+        "options": {
+            k: v for k, v in options.items() if k not in checked.without_effect
+        },
+        "tables": contents(checked.tables().values()),
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": CONFIG.campaign.batches,
+        "tries": read_tries(
+            "results/5_solve/{study}/{solver}/batch_{batch}.jsonl".format(**wildcards)
+        ),
         "code": code_of("solve", module_of(wildcards.solver, options)),
     }
 

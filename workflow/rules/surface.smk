@@ -16,19 +16,22 @@ def surface_job(wildcards):
     study = CONFIG.study(wildcards.study)
     return {
         "study": study.model_dump(mode="json", include=set(FITTED)),
+        "published": contents(published_coefficients(wildcards)),
         "code": code_of("surface"),
     }
 
 
 def published_coefficients(wildcards):
     path = CONFIG.study(wildcards.study).published_coefficients
-    return [path] if path else []
+    return [ancient(path)] if path else []
 
 
 def surface_ply(wildcards):
     """The card of the plates' ply, where a surface of the study is made of its constants."""
-    needed = CONFIG.study(wildcards.study).needs_ply()
-    return ["results/3_calibrate/ply.json"] if needed else []
+    study = CONFIG.study(wildcards.study)
+    if not study.needs_ply():
+        return []
+    return [f"results/3_calibrate/{ply_of(study, SPECIMENS, CONFIG.calibration)}.json"]
 
 
 rule surface:
@@ -52,6 +55,9 @@ rule surface:
         "../scripts/surface.py"
 
 
+PUBLISHED_IMPACT = list(filter(None, [CONFIG.sensitivity.published_impact]))
+
+
 rule sensitivity:
     input:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
@@ -61,11 +67,7 @@ rule sensitivity:
             "results/6_surface/{study}_comparison.csv", study=SURFACE_STUDIES
         ),
         factors=expand("results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES),
-        published=(
-            [CONFIG.sensitivity.published_impact]
-            if CONFIG.sensitivity.published_impact
-            else []
-        ),
+        published=[ancient(path) for path in PUBLISHED_IMPACT],
     output:
         impact="results/tables/impact.csv",
         quality="results/tables/surface_quality.csv",
@@ -77,6 +79,7 @@ rule sensitivity:
         job={
             "rules": list(CONFIG.sensitivity.rules),
             "near_tie_ratio": CONFIG.sensitivity.near_tie_ratio,
+            "published": contents(PUBLISHED_IMPACT),
             "code": code_of("sensitivity"),
         },
     script:

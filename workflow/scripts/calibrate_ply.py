@@ -5,7 +5,7 @@ from typing import Any
 from nptcs.calibrate import calibrate_ply
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
-from nptcs.files import read_model, write_text
+from nptcs.files import read_model, write_model
 from nptcs.ingest.repeats import counted_once
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_tables
@@ -18,9 +18,7 @@ def calibrate(job: dict[str, Any], properties: list[str], records: list[str], ca
     specimens = counted_once(sheet, (read_model(file, IngestRecord) for file in records))
     settings = CalibrationSettings.model_validate(job["settings"])
     table = read_tables(properties, PropertiesTable)
-    write_text(
-        card, calibrate_ply(table, specimens, settings, job["ply"]).model_dump_json(indent=1)
-    )
+    write_model(card, calibrate_ply(table, specimens, settings, job["ply"]))
 
 
 if __name__ == "__main__":

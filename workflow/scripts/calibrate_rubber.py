@@ -5,7 +5,7 @@ from typing import Any
 from nptcs.calibrate import calibrate_rubber_tables
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.console import clear_errors
-from nptcs.files import read_model, write_text
+from nptcs.files import read_model, write_model
 from nptcs.ingest.repeats import counted_once
 from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
@@ -19,7 +19,7 @@ def calibrate(job: dict[str, Any], curves: list[str], records: list[str], **outp
     sheet = [Specimen.model_validate(row) for row in job["specimens"]]
     data = (job["rubber"], read_curves(curves), counted_once(sheet, outcomes), settings, outcomes)
     card, models, ranges = calibrate_rubber_tables(*data)
-    write_text(output["card"], card.model_dump_json(indent=1))
+    write_model(output["card"], card)
     write_table(output["models"], models, ModelComparison)
     write_table(output["ranges"], ranges, RangeTable)
 

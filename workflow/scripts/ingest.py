@@ -5,7 +5,7 @@ from typing import Any
 from nptcs.config.ingest import IngestSettings
 from nptcs.console import clear_errors
 from nptcs.errors import InputError
-from nptcs.files import write_text
+from nptcs.files import write_model
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.tables.curves import Curve, IngestRecord
 from nptcs.tables.io import empty_table, write_table
@@ -21,7 +21,7 @@ def ingest(job: dict[str, Any], curve: str, record: str) -> None:
     except InputError as error:
         table, how = empty_table(Curve), IngestRecord.failed(specimen.specimen, error)
     write_table(curve, table, Curve)
-    write_text(record, how.model_dump_json(indent=1))
+    write_model(record, how)
 
 
 if __name__ == "__main__":

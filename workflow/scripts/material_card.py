@@ -3,7 +3,7 @@
 from typing import Any
 
 from nptcs.console import clear_errors
-from nptcs.files import read_model, write_text
+from nptcs.files import read_model, write_model
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import read_tables, write_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
@@ -12,7 +12,7 @@ from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
 def join(job: dict[str, Any], card: str, models: str, ranges: str, **source: list[str]) -> None:
     plies = [read_model(file, PlyCard) for file in source["plies"]]
     rubbers = [read_model(file, RubberCard) for file in source["rubbers"]]
-    write_text(card, MaterialCard.joined(plies, rubbers).model_dump_json(indent=1))
+    write_model(card, MaterialCard.joined(plies, rubbers))
     write_table(models, read_tables(source["rubber_models"], ModelComparison), ModelComparison)
     write_table(ranges, read_tables(source["rubber_ranges"], RangeTable), RangeTable)
 

@@ -4,6 +4,8 @@ from typing import Any
 
 from nptcs.campaign.batch import solve_batch
 from nptcs.campaign.record import RecordStore, write_records
+from nptcs.campaign.tries import note_ends
+from nptcs.config.root import read_config
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.tables.cases import Design
@@ -11,16 +13,18 @@ from nptcs.tables.io import read_table
 from nptcs.tables.material_card import PlyCard
 
 
-def solve(
-    job: dict[str, Any], store: str, cores: int, tokens: int, *, design: str, records: str, **more
-) -> None:
+def solve(job: dict[str, Any], store: str, records: str, design: str, **more) -> None:
     constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
-    ply = constants[0] if constants else None
-    cases = read_table(design, Design)
-    write_records(records, solve_batch(job, cases, ply, RecordStore(store), cores, tokens))
+    # time limits and cache places are in the configuration alone: as params they would rerun it
+    options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
+    given = {**job, "options": options}, read_table(design, Design), next(iter(constants), None)
+    done = solve_batch(*given, RecordStore(store), more["cores"], more["tokens"])
+    note_ends(records, done)
+    write_records(records, done)
 
 
 if __name__ == "__main__":
     granted = {"cores": snakemake.threads, "tokens": snakemake.resources.licence_tokens}
+    granted["config"] = snakemake.config
     with clear_errors(snakemake.log[0]):
         solve(**snakemake.params, **granted, **snakemake.input, **snakemake.output)

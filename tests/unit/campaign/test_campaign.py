@@ -14,6 +14,8 @@ from nptcs.campaign.cases import cases_table
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseJob, RecordStore, read_records, read_tables, write_records
 from nptcs.campaign.runner import run_cases
+from nptcs.campaign.tries import ended_from_outside, note_ends, read_tries, tries_file
+from nptcs.cli import main
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
@@ -53,7 +55,7 @@ def store(tmp_path):
 
 
 def test_each_way_to_fail_is_a_row_and_the_others_are_solved(store):
-    kinds = [10, 1, 2, 3, 4, 5, 6, 11, 12]
+    kinds = [10, 1, 2, 3, 4, 5, 6, 7, 8, 11, 12]
     records = run_cases([job(kind) for kind in kinds], store, 2, quiet)
 
     ended = {int(r.values["kind"]): (r.result.status.value, r.result.message) for r in records}
@@ -63,6 +65,10 @@ def test_each_way_to_fail_is_a_row_and_the_others_are_solved(store):
     assert ended[2][0] == "timeout"
     assert "timeout_s = 2" in ended[2][1]
     assert ended[3] == ("error", "the solver's process was killed by signal SIGKILL")
+    # killed from outside and out of memory: tried again by the next run
+    again = {int(r.values["kind"]) for r in records if ended_from_outside(r)}
+    assert again == {2, 3, 5, 7}
+    assert "out of memory" in ended[7][1]
     assert ended[4] == (
         "error",
         "the solver's process ended without a result (exit code 3)",
@@ -285,6 +291,30 @@ def test_a_neutral_line_is_carried_through_process_store_and_batch_file(tmp_path
     wanted = {"theta_deg": [0.0, 90.0], "radial_mm": [-1.0, 2.0], "tangential_mm": [0.0, 1.0]}
     assert read_records([str(tmp_path / "batch.jsonl")])[0].result.neutral_line == wanted
     assert store.read(job(10, module=str(module))).result.neutral_line == wanted
+
+
+def test_only_what_ended_from_outside_is_counted_for_another_try(tmp_path, store):
+    gave_up, no_licence, solved = run_cases([job(1), job(5), job(10)], store, 2, quiet)
+    batch = tmp_path / "batch_1.jsonl"
+    note_ends(batch, [gave_up, solved])
+    assert read_tries(batch) == 0
+    note_ends(batch, [no_licence, gave_up])
+    note_ends(batch, [no_licence])
+    assert read_tries(batch) == 2
+    tries_file(batch).write_bytes(b"\xff")
+    assert read_tries(batch) == 0
+
+
+def test_retry_marks_the_batches_with_failed_cases(tmp_path, store, capsys):
+    records = run_cases([job(1), job(10)], store, 2, quiet)
+    folder = tmp_path / "results/5_solve/s/faulty"
+    write_records(folder / "batch_1.jsonl", records)
+    write_records(folder / "batch_2.jsonl", records[1:])
+    assert main(["retry", "--results", str(tmp_path / "results")]) == 0
+    assert "solves again: 1" in capsys.readouterr().out
+    assert [read_tries(folder / f"batch_{n}.jsonl") for n in (1, 2)] == [1, 0]
+    assert main(["retry", "unknown", "--results", str(tmp_path / "results")]) == 2
+    assert "name one of s" in capsys.readouterr().err
 
 
 def test_columns_of_unequal_length_are_an_error_of_their_case(tmp_path, store):

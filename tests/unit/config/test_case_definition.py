@@ -17,7 +17,10 @@ STUDY = {
     [
         ({"load_n": 3000.0}, True),
         ({"fixed": {"d": 1.0}}, True),
-        ({"solver_options": {"lca": {"points": 3}}}, True),
+        ({"factors": [{**STUDY["factors"][0], "levels": [1, 3]}]}, True),
+        ({"factors": [{**STUDY["factors"][0], "label": "Modulus", "unit": "MPa"}]}, False),
+        ({"title": "The study"}, False),
+        ({"solver_options": {"lca": {"points": 3}}}, False),  # each solver is given its own
         ({"terms": ["1", "c"]}, False),
         ({"neutral_line_cases": [1]}, False),
         ({"calibration_cases": {"lca": [2]}}, False),

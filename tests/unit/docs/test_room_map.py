@@ -7,7 +7,7 @@ import grimp
 
 ROOT = Path(__file__).parents[3]
 ROW = re.compile(r"^\| (`[^|]*`) \|[^|]*\|([^|]*)\|$", re.MULTILINE)
-EVERYWHERE = {"arrays", "console", "errors", "files", "mechanical_tests", "provenance"}
+EVERYWHERE = {"arrays", "console", "errors", "files", "mechanical_tests", "provenance", "seal"}
 """Modules at the bottom, which every room may import."""
 
 

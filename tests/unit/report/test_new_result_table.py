@@ -8,6 +8,7 @@ import pandera.pandas as pa
 import pytest
 from pandera.typing.pandas import Series
 
+from nptcs.files import write_model
 from nptcs.report.data import read_results
 from nptcs.report.html import render_report
 from nptcs.report.sections import plan
@@ -73,11 +74,11 @@ def written(results, tmp_path):
     for study, surfaces in results.surfaces.items():
         (tmp_path / "surfaces" / f"{study}.json").write_text(dump(surfaces))
         results.designs[study].to_csv(tmp_path / "designs" / f"{study}.csv", index=False)
-    (tmp_path / "card.json").write_text(results.card.model_dump_json())
+    write_model(tmp_path / "card.json", results.card)
     files = {name: list((tmp_path / name).iterdir()) for name in ("tables", "surfaces", "designs")}
     for record in results.records.values():
         file = tmp_path / f"{record.specimen}.json"
-        file.write_text(record.model_dump_json())
+        write_model(file, record)
         files.setdefault("records", []).append(file)
     for name, curve in results.curves.items():
         curve.to_csv(tmp_path / f"{name}.csv", index=False)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 import os
 import tempfile
 from collections.abc import Iterator
@@ -13,6 +14,7 @@ from typing import TypeVar
 from pydantic import BaseModel, ValidationError
 
 from nptcs.errors import InputError
+from nptcs.seal import BrokenSealError, open_object, sealed_object
 
 Model = TypeVar("Model", bound=BaseModel)
 
@@ -69,31 +71,56 @@ def write_text(path: str | Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
-def read_model(path: str | Path, model: type[Model]) -> Model:
+REWRITE = "delete this file and run snakemake again; it is then written anew"
+"""Remedy for a file of ours that is damaged: Snakemake does not look into a file that is there."""
+
+
+def write_model(path: str | Path, record: BaseModel) -> None:
+    """Write one record or one card as JSON with a checksum, atomically (`nptcs.seal`)."""
+    content = json.loads(record.model_dump_json())
+    write_text(path, sealed_object(content, type(record).__name__))
+
+
+def read_model(path: str | Path, model: type[Model], by_hand: bool = False) -> Model:
     """Read a JSON file that holds one record or one card.
 
     Parameters
     ----------
     path : str or Path
-        Written by ``write_text(path, record.model_dump_json())``.
+        Written by `write_model`.
     model : type of BaseModel
         What the file must hold.
+    by_hand : bool
+        Whether a file without a checksum, as a user may write it, is accepted.
 
     Raises
     ------
     InputError
-        For a file that is missing or does not hold such a record.
+        For a file that is missing, was edited or damaged, or does not hold such a record.
     """
-    remedy = "run snakemake again; it writes this file anew"
-    if not Path(path).is_file():
-        raise InputError(f"this {model.__name__} does not exist", remedy, file=path)
+    kind = model.__name__
     try:
-        return model.model_validate_json(Path(path).read_text(encoding="utf-8"))
-    except (ValidationError, UnicodeDecodeError) as error:
-        first = str(error).splitlines()
-        raise InputError(
-            f"this file is not a sound {model.__name__}: {' '.join(first[:3])}", remedy, file=path
-        ) from None
+        return model.model_validate(open_object(read_stored(path, kind), kind, by_hand))
+    except (BrokenSealError, ValidationError) as error:
+        reason = " ".join(str(error).splitlines()[:3])
+        raise InputError(f"this file is not a sound {kind}: {reason}", REWRITE, path) from None
+
+
+def read_stored(path: str | Path, kind: str) -> str:
+    """Read the text of a file that this pipeline has written.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing or is not UTF-8.
+    """
+    if not Path(path).is_file():
+        remedy = "run snakemake again; it writes this file anew"
+        raise InputError(f"this {kind} does not exist", remedy, file=path)
+    try:
+        return Path(path).read_text(encoding="utf-8")
+    except UnicodeDecodeError as error:
+        raise InputError(f"this file is not a sound {kind}: {error}", REWRITE, path) from None
 
 
 def sha256_of_file(path: str | Path) -> str:

@@ -2,29 +2,43 @@
 
 The hash covers a script or module and all modules of this package that it imports, directly or
 not, also inside functions. It is taken of the compiled code without docstrings and line numbers,
-so that a changed comment, docstring or line break reruns nothing.
+so that a changed comment, docstring or line break reruns nothing. Words that only a reader sees
+(messages of errors, descriptions of settings, the version of the package) do not count either, but
+for a page that prints them.
 """
 
 from __future__ import annotations
 
 import ast
 import hashlib
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from functools import cache
 from pathlib import Path
 from types import CodeType
+from typing import TypeVar
 
 PACKAGE = "nptcs"
 _ROOT = Path(__file__).parent
 
+_Documented = TypeVar("_Documented", ast.FunctionDef, ast.ClassDef)
 
-def code_hash(*modules: str) -> str:
+WORDS_OF_CALL: Mapping[str, frozenset[str]] = {
+    "Field": frozenset({"description", "title", "examples"}),
+    "Solver": frozenset({"about"}),
+    "SolverResult": frozenset({"message"}),
+}
+"""Keywords of a call that hold words for a reader, by the name of what is called."""
+
+
+def code_hash(*modules: str, words: bool = False) -> str:
     """Hash the code of modules and of all that they import from this package.
 
     Parameters
     ----------
     *modules : str
         Dotted names of this package's modules, or paths of Python files.
+    words : bool
+        Whether messages and descriptions count: for what prints them.
 
     Returns
     -------
@@ -33,7 +47,7 @@ def code_hash(*modules: str) -> str:
     """
     digest = hashlib.sha256()
     for file in sorted(_closure(modules)):
-        digest.update(_read(file)[1])
+        digest.update(_digest_of_file(file, words).encode())
     return digest.hexdigest()[:16]
 
 
@@ -60,7 +74,7 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
         if file is None or file in found:
             continue
         found.add(file)
-        waiting += [_file(name) for name in _read(file)[0]]
+        waiting += [_file(name) for name in _imports_of_file(file)]
     return found
 
 
@@ -79,11 +93,102 @@ def _file(module: str) -> Path | None:
 
 
 @cache
-def _read(file: Path) -> tuple[tuple[str, ...], bytes]:
-    """Return the modules that a file may import, and a digest of its compiled code."""
-    tree = ast.parse(file.read_text(encoding="utf-8"))
-    code = compile(tree, "", "exec", dont_inherit=True, optimize=2)
-    return tuple(_imports(tree)), hashlib.sha256(repr(_parts(code)).encode()).digest()
+def _imports_of_file(file: Path) -> tuple[str, ...]:
+    """Return the modules that a file may import."""
+    return tuple(_imports(ast.parse(file.read_text(encoding="utf-8"))))
+
+
+@cache
+def _digest_of_file(file: Path, words: bool) -> str:
+    return code_digest(file.read_text(encoding="utf-8"), words)
+
+
+def code_digest(source: str, words: bool = False) -> str:
+    """Digest the code of one module by what it does.
+
+    Parameters
+    ----------
+    source : str
+        Python code.
+    words : bool
+        Whether messages and descriptions count.
+
+    Returns
+    -------
+    str
+        64 hexadecimal digits.
+
+    Examples
+    --------
+    >>> code_digest("x = 1  # a") == code_digest("x = 1")
+    True
+    >>> code_digest("x = 1") == code_digest("x = 2")
+    False
+    >>> code_digest("raise ValueError('no')") == code_digest("raise ValueError('not so')")
+    True
+    """
+    tree = ast.parse(source)
+    if not words:
+        tree = ast.fix_missing_locations(_WithoutWords().visit(tree))
+    code = compile(tree, "", "exec", dont_inherit=True, optimize=0 if words else 2)
+    return hashlib.sha256(repr(_parts(code)).encode()).hexdigest()
+
+
+class _WithoutWords(ast.NodeTransformer):
+    """Take from code the words that only a reader sees."""
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
+        return self.generic_visit(_without_docstring(node))
+
+    def visit_Raise(self, node: ast.Raise) -> ast.AST:
+        if isinstance(node.exc, ast.Call):
+            node.exc = _Silent().visit(node.exc)
+        return self.generic_visit(node)
+
+    def visit_Call(self, node: ast.Call) -> ast.AST:
+        name = _last_name(node.func)
+        if name.endswith(("Error", "Warning")) or name in ("print", "warn"):
+            return _Silent().visit(node)
+        words = WORDS_OF_CALL.get(name, frozenset())
+        node.keywords = [keyword for keyword in node.keywords if keyword.arg not in words]
+        return self.generic_visit(node)
+
+    def visit_ClassDef(self, node: ast.ClassDef) -> ast.AST:
+        if any(_last_name(base).endswith(("Error", "Exception")) for base in node.bases):
+            node.body = [
+                part
+                for part in node.body
+                if not (isinstance(part, ast.FunctionDef) and part.name == "__str__")
+            ] or [ast.Pass()]
+        return self.generic_visit(_without_docstring(node))
+
+    def visit_Assign(self, node: ast.Assign) -> ast.AST | None:
+        if [_last_name(target) for target in node.targets] == ["__version__"]:
+            return None
+        return self.generic_visit(node)
+
+
+def _without_docstring(node: _Documented) -> _Documented:
+    if ast.get_docstring(node, clean=False) is not None:
+        node.body = node.body[1:] or [ast.Pass()]
+    return node
+
+
+class _Silent(ast.NodeTransformer):
+    """Replace every text by an empty one."""
+
+    def visit_Constant(self, node: ast.Constant) -> ast.AST:
+        return ast.Constant("") if isinstance(node.value, str) else node
+
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
+        return ast.Constant("")
+
+
+def _last_name(node: ast.AST) -> str:
+    """Name of what is called or inherited from, without the modules before it."""
+    if isinstance(node, ast.Attribute):
+        return node.attr
+    return node.id if isinstance(node, ast.Name) else ""
 
 
 def _imports(tree: ast.Module) -> Iterator[str]:

@@ -3,16 +3,17 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Any
+from typing import Any, Self
 
 import pandas as pd
-from pydantic import BaseModel, ConfigDict, Field, ValidationError
+from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from nptcs.errors import InputError
-from nptcs.files import sha256_of_text, write_text
-from nptcs.solvers.contract import SolverResult, Status
+from nptcs.files import REWRITE, read_model, read_stored, sha256_of_text, write_model, write_text
+from nptcs.seal import BrokenSealError, open_lines, sealed_lines
+from nptcs.solvers.contract import SolverResult, Status, missing_responses
 
 
 class CaseJob(BaseModel):
@@ -55,7 +56,7 @@ class CaseJob(BaseModel):
 class CaseRecord(BaseModel):
     """How one case ended: one line of a batch file, one row of ``cases.csv``."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     study: str
     case_id: str
@@ -65,10 +66,22 @@ class CaseRecord(BaseModel):
     values: dict[str, float]
     load_n: float | None
     wall_time_s: float = Field(description="Time of the run that made the result")
+    peak_memory_mb: float | None = Field(
+        None, description="Largest memory of the case's process; none if it died"
+    )
     result: SolverResult
 
+    @model_validator(mode="after")
+    def _ok_has_its_responses(self) -> Self:
+        missing = missing_responses(self.result, loads_tyre=self.load_n is not None)
+        if missing:
+            raise ValueError(f"{self.case_id}: status ok, but no {', '.join(missing)}")
+        return self
 
-def make_record(job: CaseJob, result: SolverResult, wall_time_s: float) -> CaseRecord:
+
+def make_record(
+    job: CaseJob, result: SolverResult, wall_time_s: float, peak_memory_mb: float | None = None
+) -> CaseRecord:
     """Join a job and its result."""
     return CaseRecord(
         study=job.study,
@@ -79,6 +92,7 @@ def make_record(job: CaseJob, result: SolverResult, wall_time_s: float) -> CaseR
         values=job.values,
         load_n=job.load_n,
         wall_time_s=wall_time_s,
+        peak_memory_mb=peak_memory_mb,
         result=result,
     )
 
@@ -96,12 +110,12 @@ class RecordStore:
     def read(self, job: CaseJob) -> CaseRecord | None:
         """Return the record of a case that was solved before; None if there is no sound one.
 
-        An unreadable file is a miss. The case's name is the job's: two studies share a record.
+        A file that is unreadable, damaged or edited is a miss. The case's name is the job's: two
+        studies share a record.
         """
         try:
-            content = json.loads(self.path(job.key).read_text(encoding="utf-8"))
-            record = CaseRecord.model_validate(content)
-        except (OSError, UnicodeDecodeError, json.JSONDecodeError, ValidationError):
+            record = read_model(self.path(job.key), CaseRecord)
+        except (OSError, InputError):
             return None
         if record.key != job.key or record.result.status != Status.OK:
             return None
@@ -110,21 +124,32 @@ class RecordStore:
     def write(self, record: CaseRecord) -> None:
         """Keep a solved case; one that failed is not kept, so that it is tried again."""
         if record.result.status == Status.OK:
-            write_text(self.path(record.key), record.model_dump_json(indent=1))
+            write_model(self.path(record.key), record)
 
 
-def read_records(paths: list[str]) -> list[CaseRecord]:
-    """Read batch files: one record per line."""
-    return [
-        CaseRecord.model_validate_json(line)
-        for path in paths
-        for line in Path(path).read_text(encoding="utf-8").splitlines()
-    ]
+def read_records(paths: Sequence[str]) -> list[CaseRecord]:
+    """Read batch files: one record per line.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, or that lost, doubled or changed a line.
+    """
+    return [record for path in paths for record in _read_batch(path)]
 
 
-def write_records(path: str | Path, records: list[CaseRecord]) -> None:
-    """Write a batch file, atomically: one record per line."""
-    write_text(path, "".join(record.model_dump_json() + "\n" for record in records))
+def _read_batch(path: str) -> list[CaseRecord]:
+    try:
+        lines = open_lines(read_stored(path, "batch of case records"), "CaseRecords")
+        return [CaseRecord.model_validate_json(line) for line in lines]
+    except (BrokenSealError, ValidationError) as error:
+        reason = " ".join(str(error).splitlines()[:3])
+        raise InputError(f"these case records are not sound: {reason}", REWRITE, path) from None
+
+
+def write_records(path: str | Path, records: Sequence[CaseRecord]) -> None:
+    """Write a batch file, atomically: one record per line, then the checksum of all."""
+    write_text(path, sealed_lines([record.model_dump_json() for record in records], "CaseRecords"))
 
 
 def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:

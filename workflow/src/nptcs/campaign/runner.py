@@ -23,8 +23,15 @@ THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 KILL_AFTER_S = 2.0
 """Grace between the polite and the final signal to a case that is out of time."""
 
+SENT_FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
+"""Signals that no case sends to itself: a user, the queue or the kernel (out of memory) did."""
+
 Progress = Callable[[CaseRecord, bool, int, int], None]
 """Called with the record, whether it was reused, how many are done, how many there are."""
+
+
+Outcome = tuple[SolverResult, float, float | None]
+"""Result, wall time in s, largest memory in MB (None for a process that died)."""
 
 
 @dataclass
@@ -76,14 +83,14 @@ def run_cases(
         else:
             done(position, known, True)
     if waiting:
-        for position, result, seconds in _solve_all(jobs, waiting, cores):
-            done(position, make_record(jobs[position], result, seconds), False)
+        for position, outcome in _solve_all(jobs, waiting, cores):
+            done(position, make_record(jobs[position], *outcome), False)
     return [records[position] for position in range(len(jobs))]
 
 
 def _solve_all(
     jobs: Sequence[CaseJob], waiting: Sequence[int], cores: int
-) -> Iterator[tuple[int, SolverResult, float]]:
+) -> Iterator[tuple[int, Outcome]]:
     """Solve the jobs at the positions `waiting`; yield each as it ends."""
     context = multiprocessing.get_context("forkserver")
     modules = {jobs[position].module for position in waiting}
@@ -98,7 +105,7 @@ def _solve_all(
                 running[position] = _start(jobs[position])
             for position in _ended(running):
                 case = running.pop(position)
-                yield position, *_collect(case)
+                yield position, _collect(case)
     finally:
         for case in running.values():
             _stop(case.process)
@@ -128,19 +135,21 @@ def _ended(running: dict[int, _Running]) -> list[int]:
     ]
 
 
-def _collect(case: _Running) -> tuple[SolverResult, float]:
+def _collect(case: _Running) -> Outcome:
     """Take the result of a case that has ended, or say how it died."""
     seconds = time.monotonic() - case.started
     try:
         if not case.channel.poll():
             message = f"stopped after {seconds:.1f} s (timeout_s = {case.job.timeout_s:g})"
-            return SolverResult(status=Status.TIMEOUT, message=message), seconds
-        text, seconds = case.channel.recv()
-        return SolverResult.model_validate_json(text), seconds
+            return SolverResult(status=Status.TIMEOUT, message=message), seconds, None
+        text, seconds, memory_mb = case.channel.recv()
+        return SolverResult.model_validate_json(text), seconds, memory_mb
     except EOFError:
         case.process.join(KILL_AFTER_S)
         code = case.process.exitcode
-        return SolverResult(status=Status.ERROR, message=_cause_of_death(code)), seconds
+        died = code is not None and -code in SENT_FROM_OUTSIDE
+        message = _cause_of_death(code)
+        return SolverResult(status=Status.ERROR, message=message, died=died), seconds, None
     finally:
         case.channel.close()
         _stop(case.process)

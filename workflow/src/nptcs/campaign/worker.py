@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import math
 import os
+import resource
 import signal
+import sys
 import threading
 import time
 import traceback
@@ -42,6 +44,8 @@ def solve(job: CaseJob) -> SolverResult:
             realised = solver.realise(inputs.values, inputs.tyre)
             result.realised = {**realised, **result.realised}
         return result
+    except MemoryError as error:
+        return SolverResult(status=Status.ERROR, message=f"out of memory: {error}", died=True)
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
         where = traceback.extract_tb(error.__traceback__)[-1]
         file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
@@ -52,13 +56,19 @@ def solve(job: CaseJob) -> SolverResult:
 
 
 def run(job: CaseJob, channel: Connection) -> None:
-    """Solve a case and send ``(result, wall time in s)`` back through the pipe."""
+    """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe."""
     signal.signal(signal.SIGTERM, _leave)
     threading.Thread(target=_leave_with_parent, daemon=True).start()
     start = time.perf_counter()
     result = solve(job)
-    channel.send((result.model_dump_json(), time.perf_counter() - start))
+    channel.send((result.model_dump_json(), time.perf_counter() - start, _peak_memory_mb()))
     channel.close()
+
+
+def _peak_memory_mb() -> float:
+    """Return the largest memory of this process so far, in MB."""
+    peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
+    return peak / (1e6 if sys.platform == "darwin" else 1e3)
 
 
 def _leave(number: int, frame: FrameType | None) -> None:

@@ -16,23 +16,23 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "config", nargs="?", default="config/config.yaml", help="default: %(default)s"
     )
     parser.add_argument(
-        "--cases",
-        default="results/tables/cases.csv",
-        help="cases of an earlier run, from whose wall times the time is estimated; default: "
-        "%(default)s",
+        "--results",
+        default="results",
+        help="folder of earlier results, for known cases and times; default: %(default)s",
     )
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what is planned, or every fault; exit code 1 if there is one."""
+    """Print what is planned, or every fault; exit code 2 for the studies, 1 for the sheet."""
     from nptcs.calibrate.plan import check_materials
-    from nptcs.campaign.times import seconds_per_case, time_in_words
+    from nptcs.campaign.checks import name_faults, study_faults
+    from nptcs.campaign.plan import plan_lines
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
     from nptcs.ingest.reading.profiles import load_profiles
     from nptcs.ingest.repeats import repeats_in_sheet
-    from nptcs.solvers.registry import check_study, needs_ply
+    from nptcs.solvers.registry import needs_ply
     from nptcs.tables.specimens import read_sheet
     from nptcs.yaml_files import read_yaml
 
@@ -43,13 +43,9 @@ def run(arguments: argparse.Namespace) -> int:
     if not isinstance(values, dict):
         raise InputError("is not a configuration", "write 'key: value' lines", path)
     config = read_config(values, str(path))
-    seconds = seconds_per_case(Path(arguments.cases))
-    for study in config.studies:
-        check_study(study, config.solver_options(study))
-        cases = study.number_of_cases()
-        print(f"study {study.name}: {cases} cases ({study.design.kind}) by each of its solvers")
-        for solver in study.solvers:
-            print(f"  {solver}: {time_in_words(cases, seconds.get(solver))}")
+    faults = study_faults(config)
+    if not faults:
+        print(*plan_lines(config, arguments.results), sep="\n")
     specimens, errors = read_sheet(config.lab_data.specimen_sheet)
     folder = Path(config.lab_data.specimen_sheet).parent
     missing = [
@@ -71,7 +67,7 @@ def run(arguments: argparse.Namespace) -> int:
     materials, notes = check_materials(studies, specimens, config.calibration)
     for note in notes:
         print(note)
-    faults = [*errors, *missing, *again, *materials]
-    for fault in faults:
+    of_rows = [*errors, *missing, *again, *materials, *name_faults(specimens, config)]
+    for fault in [*faults, *of_rows]:
         print(f"nptcs: {fault}", file=sys.stderr)
-    return 1 if faults else 0
+    return 2 if faults else 1 if of_rows else 0

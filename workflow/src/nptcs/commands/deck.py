@@ -153,17 +153,11 @@ def _values(arguments: argparse.Namespace) -> dict[str, float]:
 
 def _ply(path: Path, name: str) -> dict[str, float]:
     """Constants of a ply of a material card."""
-    from pydantic import ValidationError
-
     from nptcs.errors import InputError
+    from nptcs.files import read_model
     from nptcs.tables.material_card import MaterialCard
 
-    try:
-        card = MaterialCard.model_validate_json(path.read_text(encoding="utf-8"))
-    except (OSError, ValidationError) as error:
-        raise InputError(
-            f"is not a material card: {error}", "give the name of the card's JSON file", file=path
-        ) from error
+    card = read_model(path, MaterialCard, by_hand=True)
     if name not in card.plies:
         raise InputError(
             "the card does not have this ply",

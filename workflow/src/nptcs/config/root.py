@@ -34,9 +34,15 @@ class LabData(Strict):
 class Campaign(Strict):
     """How solver cases are run."""
 
+    most_cases: int = Field(
+        2000,
+        ge=1,
+        description="Cases of a study above which a run is refused; raise it to ask for more",
+    )
     batches: int = Field(
         1,
         ge=1,
+        le=1000,
         description="Jobs into which each solver's cases of a study are divided (for clusters)",
     )
     cores_per_batch: int = Field(
@@ -117,6 +123,10 @@ class Config(Strict):
             name: {**self.solvers.get(name, {}), **study.solver_options.get(name, {})}
             for name in study.solvers
         }
+
+    def options_of(self, study: str, solver: str) -> dict[str, Any]:
+        """Return the options of one solver of a study."""
+        return self.solver_options(self.study(study))[solver]
 
 
 def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> Config:

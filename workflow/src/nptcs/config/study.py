@@ -133,9 +133,12 @@ class Study(Strict):
     def case_definition(self) -> dict[str, Any]:
         """Return what decides the cases of the study and how they are solved, as plain values.
 
-        A change of any other key solves nothing anew. What is returned is a study again.
+        A change of any other key, or of a heading or label, solves nothing anew. Options of
+        solvers are not part of it: each solver has its own. What is returned is a study again.
         """
-        return self.model_dump(mode="json", exclude=set(self.AFTERWARDS))
+        kept = self.model_dump(mode="json", exclude={*self.AFTERWARDS, "solver_options"})
+        factors = [{**factor, "label": "", "unit": ""} for factor in kept["factors"]]
+        return {**kept, "title": "", "factors": factors}
 
     @model_validator(mode="after")
     def _names_are_consistent(self) -> Self:

@@ -34,6 +34,10 @@ class SolverOptions(Strict):
         """Name the CSV files that the solver reads: a key for the solver → path."""
         return {}
 
+    def load_fault(self, load_n: float) -> str:
+        """Say why no case can be solved at this load; empty where cases can."""
+        return ""
+
     def cores_per_case(self) -> int:
         """Return the cores that the solver of one case keeps busy."""
         return 1
@@ -80,10 +84,13 @@ class CaseInputs:
 class SolverResult(BaseModel):
     """What a solver returns: a status with a message, and the responses if it has any."""
 
-    model_config = ConfigDict(extra="forbid")
+    model_config = ConfigDict(extra="forbid", allow_inf_nan=False)
 
     status: Status
     message: str = ""
+    died: bool = Field(
+        False, description="It ended for a reason outside the case: killed, or out of memory"
+    )
     vertical_stiffness_n_per_mm: float | None = Field(None, description="Secant F/δ at the load")
     displacement_mm: float | None = Field(None, description="Vertical displacement δ at the load")
     extra: dict[str, float] = Field(
@@ -207,8 +214,13 @@ class Solver:
 
     def missing_responses(self, result: SolverResult) -> list[str]:
         """Name what a result that says ``ok`` must give and does not."""
-        if result.status != Status.OK:
-            return []
-        given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
-        promised = TYRE_RESPONSES if self.loads_tyre else SPOKE_RESPONSES
-        return [name for name in promised if given.get(name) is None]
+        return missing_responses(result, self.loads_tyre)
+
+
+def missing_responses(result: SolverResult, loads_tyre: bool) -> list[str]:
+    """Name what a result that says ``ok`` must give, by a solver of tyres or of single spokes."""
+    if result.status != Status.OK:
+        return []
+    given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
+    promised = TYRE_RESPONSES if loads_tyre else SPOKE_RESPONSES
+    return [name for name in promised if given.get(name) is None]

@@ -29,34 +29,39 @@ class PublishedOptions(SolverOptions):
         """Name the archive as the one table that is read."""
         return {"archive": self.archive}
 
+    def load_fault(self, load_n: float) -> str:
+        """Name the one load of the archive where another is asked for."""
+        if math.isclose(load_n, self.archive_load_n):
+            return ""
+        return f"the archive holds results at {self.archive_load_n:g} N, not at {load_n:g} N"
+
 
 def solve(inputs: CaseInputs) -> SolverResult:
     """Look the case up in the archive; a case that is not there is an error, never a guess."""
     options: PublishedOptions = inputs.options
-    if not math.isclose(inputs.load_n, options.archive_load_n):
-        return SolverResult(
-            status=Status.ERROR,
-            message=f"the archive holds results at {options.archive_load_n:g} N, "
-            f"not at {inputs.load_n:g} N",
-        )
+    if fault := options.load_fault(inputs.load_n):
+        return SolverResult(status=Status.ERROR, message=fault)
     rows = inputs.tables["archive"]
     factors = [column for column in rows[0] if column not in ("case", RESPONSE)]
     wanted = {name: inputs.values[name] for name in factors if name in inputs.values}
-    for row in rows:
-        if len(wanted) == len(factors) and all(
-            math.isclose(row[name], value) for name, value in wanted.items()
-        ):
-            stiffness = float(row[RESPONSE])
-            return SolverResult(
-                status=Status.OK,
-                message=f"row {row['case']:g} of {options.archive}",
-                vertical_stiffness_n_per_mm=stiffness,
-                displacement_mm=inputs.load_n / stiffness,
-            )
+    place = ", ".join(f"{name} = {inputs.values.get(name, math.nan):g}" for name in factors)
+    found = [
+        row
+        for row in rows
+        if len(wanted) == len(factors)
+        and all(math.isclose(row[name], value) for name, value in wanted.items())
+    ]
+    if len(found) != 1:
+        how_many = f"{len(found)} rows" if found else "no case"
+        return SolverResult(
+            status=Status.ERROR, message=f"{options.archive} holds {how_many} with {place}"
+        )
+    stiffness = float(found[0][RESPONSE])
     return SolverResult(
-        status=Status.ERROR,
-        message=f"{options.archive} holds no case with "
-        + ", ".join(f"{name} = {inputs.values.get(name, math.nan):g}" for name in factors),
+        status=Status.OK,
+        message=f"row {found[0]['case']:g} of {options.archive}",
+        vertical_stiffness_n_per_mm=stiffness,
+        displacement_mm=inputs.load_n / stiffness,
     )
 
 

@@ -2,13 +2,15 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Callable, Mapping
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from nptcs.errors import InputError
+from nptcs.files import REWRITE, read_stored
+from nptcs.seal import BrokenSealError, open_object, sealed_object
 from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
@@ -23,22 +25,47 @@ Models = Mapping[str, Mapping[str, ResponseSurface]]
 def dump(surfaces: Mapping[str, Surface]) -> str:
     """Write polynomials, by the name of their solver, as JSON text."""
     content = {solver: surface.content() for solver, surface in surfaces.items()}
-    return json.dumps(content, indent=1)
+    return sealed_object(content, "Surfaces")
 
 
 def read_surfaces(path: str | Path) -> dict[str, Surface]:
-    """Read a file of surfaces, by the name of their solver."""
-    return load(Path(path).read_text(encoding="utf-8"))
+    """Read a file of surfaces, by the name of their solver.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, damaged or edited.
+    """
+    try:
+        return load(read_stored(path, "file of surfaces"))
+    except BrokenSealError as error:
+        raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
 
 
 def load(text: str) -> dict[str, Surface]:
-    """Read what `dump` has written."""
-    return {solver: _polynomial(content) for solver, content in json.loads(text).items()}
+    """Read what `dump` has written.
+
+    Raises
+    ------
+    BrokenSealError
+        For a text that was damaged or edited.
+    """
+    content = open_object(text, "Surfaces")
+    return {solver: _polynomial(polynomial) for solver, polynomial in content.items()}
 
 
 def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
-    """Read a file of surfaces of any kind, by solver and name."""
-    return load_models(Path(path).read_text(encoding="utf-8"))
+    """Read a file of surfaces of any kind, by solver and name.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, damaged or edited.
+    """
+    try:
+        return load_models(read_stored(path, "file of surfaces"))
+    except BrokenSealError as error:
+        raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
 
 
 def dump_models(models: Models) -> str:
@@ -47,14 +74,14 @@ def dump_models(models: Models) -> str:
         solver: {name: to_plain(surface) for name, surface in named.items()}
         for solver, named in models.items()
     }
-    return json.dumps(content, indent=1)
+    return sealed_object(content, "Models")
 
 
 def load_models(text: str) -> dict[str, dict[str, ResponseSurface]]:
     """Read what `dump_models` has written."""
     return {
         solver: {name: from_plain(content) for name, content in named.items()}
-        for solver, named in json.loads(text).items()
+        for solver, named in open_object(text, "Models").items()
     }
 
 

@@ -1,0 +1,122 @@
+"""What a run would solve: cases, those that are known, and what earlier cases took."""
+
+from __future__ import annotations
+
+import shutil
+from dataclasses import dataclass
+from itertools import islice
+from pathlib import Path
+from statistics import median
+
+from nptcs.campaign.checks import number_of_cases, solvers_of
+from nptcs.campaign.jobs import make_jobs
+from nptcs.campaign.record import CaseRecord, RecordStore
+from nptcs.campaign.schedule import batch_cores
+from nptcs.config.root import Config
+from nptcs.config.study import Study
+from nptcs.design import full_factorial
+from nptcs.errors import InputError
+from nptcs.files import read_model
+from nptcs.tables.material_card import MaterialCard
+
+SAMPLE = 300
+"""Stored records that are looked at for what a case takes."""
+
+
+@dataclass(frozen=True)
+class Costs:
+    """What solved cases of one solver took, in the middle of those that are stored."""
+
+    seconds: float
+    memory_mb: float | None
+    record_mb: float
+
+
+def costs_by_solver(store: RecordStore) -> dict[str, Costs]:
+    """Return what a case takes by solver, from the newest records of a store."""
+    files = sorted(store.folder.glob("??/*.json"), key=lambda file: -file.stat().st_mtime)
+    found: dict[str, list[tuple[CaseRecord, float]]] = {}
+    for file in islice(files, SAMPLE):
+        try:
+            record = read_model(file, CaseRecord)
+        except InputError:
+            continue
+        found.setdefault(record.solver, []).append((record, file.stat().st_size / 1e6))
+    return {solver: _costs(records) for solver, records in found.items()}
+
+
+def _costs(records: list[tuple[CaseRecord, float]]) -> Costs:
+    memory = [r.peak_memory_mb for r, _ in records if r.peak_memory_mb is not None]
+    return Costs(
+        median(record.wall_time_s for record, _ in records),
+        median(memory) if memory else None,
+        median(size for _, size in records),
+    )
+
+
+def known_cases(
+    study: Study, config: Config, card: MaterialCard | None, store: RecordStore
+) -> dict[str, int | None]:
+    """Count by solver the cases that are stored; None where the materials are not known yet."""
+    options = config.solver_options(study)
+    rubbers = card.rubbers if card is not None else {}
+    c10 = {name: rubber.constants["c10_mpa"].value for name, rubber in rubbers.items()}
+    plies = list(card.plies.values()) if card is not None else []
+    known: dict[str, int | None] = {}
+    for solver, _ in solvers_of(study, options):
+        lacks_ply = solver.needs_ply and len(plies) != 1
+        if lacks_ply or not set(study.rubbers()) <= set(c10):
+            known[solver.name] = None
+            continue
+        ply = plies[0].values() if solver.needs_ply else None
+        given = options[solver.name]
+        design = full_factorial(study, c10)
+        jobs = make_jobs(study, solver.name, given, config.tyre, design, ply)
+        known[solver.name] = sum(store.read(job) is not None for job in jobs)
+    return known
+
+
+def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
+    """Say in words what a run would solve, one line per study and solver, and the disk space.
+
+    Parameters
+    ----------
+    config : Config
+        Without faults (`nptcs.campaign.checks.study_faults`).
+    results : str or Path
+        Folder of earlier results; times, memory and known cases are taken from it.
+    """
+    store = RecordStore(Path(results) / "5_solve" / "records")
+    card_file = Path(results) / "material_card.json"
+    card = read_model(card_file, MaterialCard) if card_file.is_file() else None
+    costs = costs_by_solver(store)
+    lines, disk_mb = [], 0.0
+    for study in config.studies:
+        known, solvers = known_cases(study, config, card, store), ", ".join(study.solvers)
+        lines.append(f"study {study.name}: {number_of_cases(study):,} cases by {solvers}")
+        for solver, checked in solvers_of(study, config.solver_options(study)):
+            cores = batch_cores(config.campaign.cores_per_batch, checked)
+            at_a_time = max(1, cores // checked.cores_per_case())
+            cost = costs.get(solver.name)
+            words, needed_mb = _words(number_of_cases(study), known[solver.name], cost, at_a_time)
+            lines.append(f"  {solver.name}: {words}")
+            disk_mb += needed_mb
+    free = shutil.disk_usage(Path(results) if Path(results).is_dir() else Path()).free / 1e6
+    lines.append(f"disk: about {disk_mb:.3g} MB for new records, {free:,.0f} MB are free")
+    return lines
+
+
+def _words(cases: int, known: int | None, cost: Costs | None, at_a_time: int) -> tuple[str, float]:
+    """Describe what one solver has to do; also the space of its records in MB."""
+    if known is None:
+        new, how_many = cases, "known cases are counted once the materials are calibrated"
+    else:
+        new, how_many = cases - known, f"{known:,} known, {cases - known:,} to solve"
+    if new == 0:
+        return how_many, 0.0
+    if cost is None:
+        return f"{how_many}; time not known, no case of it is stored", 0.0
+    seconds = new * cost.seconds / at_a_time
+    time = f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:,.0f} min"
+    memory = "" if cost.memory_mb is None else f", {cost.memory_mb * at_a_time:,.0f} MB of memory"
+    return f"{how_many}; about {time} with {at_a_time} at a time{memory}", new * cost.record_mb

@@ -1,0 +1,49 @@
+"""Which failed cases a plain run tries again: a number next to each batch file says so.
+
+Snakemake solves a batch again when its parameters change. One of them is the number in the file
+next to the batch: it grows when cases ended for a reason outside them, and by ``nptcs retry``.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from nptcs.campaign.record import CaseRecord
+from nptcs.files import write_text
+from nptcs.solvers.contract import Status
+
+OUTSIDE_THE_CASE = frozenset({Status.TIMEOUT, Status.LICENCE})
+"""Ends that may be another one next time, with the same case."""
+
+
+def ended_from_outside(record: CaseRecord) -> bool:
+    """Tell whether a case was killed, ran out of memory or time, or got no licence.
+
+    Such a case is tried again by the next run; one that a solver gave up on is not.
+    """
+    return record.result.died or record.result.status in OUTSIDE_THE_CASE
+
+
+def tries_file(batch: str | Path) -> Path:
+    """Return the file next to a batch file that counts its tries."""
+    return Path(batch).with_suffix(".tries")
+
+
+def read_tries(batch: str | Path) -> int:
+    """Return how often a batch was to be tried again; 0 without a readable file."""
+    try:
+        return int(tries_file(batch).read_text(encoding="utf-8"))
+    except (OSError, ValueError):
+        return 0
+
+
+def try_again(batch: str | Path) -> None:
+    """Let the next run solve the failed cases of a batch again."""
+    write_text(tries_file(batch), f"{read_tries(batch) + 1}\n")
+
+
+def note_ends(batch: str | Path, records: Sequence[CaseRecord]) -> None:
+    """Let the next run try again what ended for a reason outside the cases of a batch."""
+    if any(map(ended_from_outside, records)):
+        try_again(batch)

@@ -1,0 +1,50 @@
+"""``nptcs retry``: let the next run solve failed cases again, whatever they failed of."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "retry",
+        help="let the next run solve failed cases again",
+        description="Cases that were killed, ran out of memory or time or got no licence are "
+        "tried again by every run. This command adds those on which a solver gave up.",
+    )
+    parser.add_argument("studies", nargs="*", metavar="STUDY", help="default: all studies")
+    parser.add_argument(
+        "--results", default="results", help="folder of the results; default: %(default)s"
+    )
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Mark the batches that hold failed cases, and say how many there are."""
+    from nptcs.campaign.record import read_records
+    from nptcs.campaign.tries import try_again
+    from nptcs.errors import InputError
+    from nptcs.solvers.contract import Status
+
+    solved = Path(arguments.results) / "5_solve"
+    batches = sorted(solved.glob("*/*/batch_*.jsonl"))
+    present = {batch.parts[-3] for batch in batches}
+    if unknown := sorted(set(arguments.studies) - present):
+        raise InputError(
+            "no batch of this study was solved",
+            f"name one of {', '.join(sorted(present)) or 'none'}",
+            file=solved,
+            value=", ".join(unknown),
+        )
+    failed = 0
+    for batch in batches:
+        if arguments.studies and batch.parts[-3] not in arguments.studies:
+            continue
+        bad = [r for r in read_records([str(batch)]) if r.result.status != Status.OK]
+        if bad:
+            try_again(batch)
+        failed += len(bad)
+    print(f"failed cases that the next run solves again: {failed}")
+    return 0
