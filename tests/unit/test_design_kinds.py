@@ -1,4 +1,4 @@
-"""Designs other than full factorial: known designs, brute force, whole plates, times."""
+"""Designs other than full factorial: known designs, brute force, whole plates."""
 
 from itertools import combinations, product
 from pathlib import Path
@@ -9,7 +9,6 @@ import pytest
 import yaml
 from scipy.stats import qmc
 
-from nptcs.campaign.times import seconds_per_case, time_in_words
 from nptcs.cli import main
 from nptcs.config.study import Study
 from nptcs.config.surface import GaussianProcessModel, PolynomialModel
@@ -166,14 +165,6 @@ def test_further_cases_go_where_the_surface_is_least_sure():
     assert len({round(point, 3) for point in points[:, 0]}) == 3
     with pytest.raises(InputError, match="only 0 candidates"):
         augment(surface, x, 1)
-
-
-def test_time_is_estimated_from_solved_cases_or_said_to_be_unknown(tmp_path):
-    assert seconds_per_case(tmp_path / "cases.csv") == {}
-    assert "not known" in time_in_words(10, None)
-    assert "63 cases × 40 s = 42 min" in time_in_words(63, 40.0)
-    assert "= 5.6 h" in time_in_words(500, 40.0)
-    assert "= 20 s" in time_in_words(10, 2.0)
 
 
 def test_further_cases_follow_the_design_and_are_complete():

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from math import prod
 from typing import Any
 
 from nptcs.config.root import Config
 from nptcs.config.study import Factor, MeasuredRubber, Study
-from nptcs.design import full_factorial
+from nptcs.config.tyre import TyreGeometry
+from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.solvers.contract import Solver, SolverOptions
 from nptcs.solvers.registry import check_study, load, module_of, read_options
@@ -56,7 +56,7 @@ def _faults(study: Study, config: Config) -> Iterator[InputError]:
     except InputError as error:
         yield error
         return
-    cases = number_of_cases(study)
+    cases = study.number_of_cases()
     if cases > config.campaign.most_cases:
         yield InputError(
             f"study {study.name} has {cases:,} cases by {len(study.solvers)} solvers; a run solves "
@@ -74,14 +74,9 @@ def _faults(study: Study, config: Config) -> Iterator[InputError]:
         )
     for check in (_check_terms, _check_loads):
         try:
-            check(study, options)
+            check(study, options, config.tyre)
         except InputError as error:
             yield error
-
-
-def number_of_cases(study: Study) -> int:
-    """Return how many cases the factors of a study make."""
-    return prod(len(factor.levels) for factor in study.factors)
 
 
 def solvers_of(
@@ -92,7 +87,7 @@ def solvers_of(
     return [(solver, read_options(solver, given)) for solver, given in solvers]
 
 
-def _check_terms(study: Study, options: Mapping[str, Any]) -> None:
+def _check_terms(study: Study, options: Mapping[str, Any], tyre: TyreGeometry) -> None:
     """Refuse terms that this study cannot estimate, even if every case is solved."""
     if not study.terms:
         return
@@ -101,7 +96,7 @@ def _check_terms(study: Study, options: Mapping[str, Any]) -> None:
     numbered = study.model_copy(
         update={"factors": tuple(map(_numbered, study.factors)), "fixed": {}}
     )
-    x = full_factorial(numbered, {})[names].to_numpy(float)
+    x = build_design(numbered, {}, tyre)[names].to_numpy(float)
     key = f"studies.{study.name}.terms"
     if len(x) <= len(polynomial):
         raise InputError(
@@ -125,7 +120,9 @@ def _numbered(factor: Factor) -> Factor:
     return factor.model_copy(update={"levels": levels})
 
 
-def _check_loads(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
+def _check_loads(
+    study: Study, options: Mapping[str, Mapping[str, Any]], tyre: TyreGeometry
+) -> None:
     """Refuse a load that one of the solvers cannot answer in any case."""
     for solver, checked in solvers_of(study, options):
         reason = checked.load_fault(study.load_n) if solver.loads_tyre else ""

@@ -8,13 +8,13 @@ from itertools import islice
 from pathlib import Path
 from statistics import median
 
-from nptcs.campaign.checks import number_of_cases, solvers_of
+from nptcs.campaign.checks import solvers_of
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.schedule import batch_cores
 from nptcs.config.root import Config
 from nptcs.config.study import Study
-from nptcs.design import full_factorial
+from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.files import read_model
 from nptcs.tables.material_card import MaterialCard
@@ -70,7 +70,7 @@ def known_cases(
             continue
         ply = plies[0].values() if solver.needs_ply else None
         given = options[solver.name]
-        design = full_factorial(study, c10)
+        design = build_design(study, c10, config.tyre)
         jobs = make_jobs(study, solver.name, given, config.tyre, design, ply)
         known[solver.name] = sum(store.read(job) is not None for job in jobs)
     return known
@@ -93,12 +93,14 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
     lines, disk_mb = [], 0.0
     for study in config.studies:
         known, solvers = known_cases(study, config, card, store), ", ".join(study.solvers)
-        lines.append(f"study {study.name}: {number_of_cases(study):,} cases by {solvers}")
+        lines.append(
+            f"study {study.name}: {study.number_of_cases():,} cases ({study.design.kind}) by {solvers}"
+        )
         for solver, checked in solvers_of(study, config.solver_options(study)):
             cores = batch_cores(config.campaign.cores_per_batch, checked)
             at_a_time = max(1, cores // checked.cores_per_case())
             cost = costs.get(solver.name)
-            words, needed_mb = _words(number_of_cases(study), known[solver.name], cost, at_a_time)
+            words, needed_mb = _words(study.number_of_cases(), known[solver.name], cost, at_a_time)
             lines.append(f"  {solver.name}: {words}")
             disk_mb += needed_mb
     free = shutil.disk_usage(Path(results) if Path(results).is_dir() else Path()).free / 1e6
