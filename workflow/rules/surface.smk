@@ -62,11 +62,15 @@ rule sensitivity:
     input:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         designs=expand("results/4_design/{study}.csv", study=SURFACE_STUDIES),
-        qualities=expand("results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES),
-        comparisons=expand(
+        quality_parts=expand(
+            "results/6_surface/{study}_quality.csv", study=SURFACE_STUDIES
+        ),
+        comparison_parts=expand(
             "results/6_surface/{study}_comparison.csv", study=SURFACE_STUDIES
         ),
-        factors=expand("results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES),
+        by_factor_parts=expand(
+            "results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES
+        ),
         published=[ancient(path) for path in PUBLISHED_IMPACT],
     output:
         impact="results/tables/impact.csv",

@@ -3,15 +3,14 @@
 from collections.abc import Sequence
 from typing import Any
 
-from nptcs.campaign.cases import cases_table
-from nptcs.campaign.record import read_records
+from nptcs.campaign.cases import read_cases
 from nptcs.console import clear_errors
 from nptcs.tables.cases import Cases
 from nptcs.tables.io import write_table
 
 
 def gather(job: dict[str, Any], records: Sequence[str], cases: str) -> None:
-    write_table(cases, cases_table(read_records(list(records))), Cases)
+    write_table(cases, read_cases(records), Cases)
 
 
 if __name__ == "__main__":

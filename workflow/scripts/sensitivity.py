@@ -11,20 +11,18 @@ from nptcs.tables.cases import Design
 from nptcs.tables.impact import Impact
 from nptcs.tables.io import read_table, read_tables, write_table
 from nptcs.tables.published_inputs import PublishedImpact
-from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality
+from nptcs.tables.surface import JOINED, SurfaceQuality
 
 
 def assess(job: dict[str, Any], impact: str, **files: Any) -> None:
     surfaces = {Path(file).stem: read_surfaces(file) for file in files["surfaces"]}
     designs = {Path(file).stem: read_table(file, Design) for file in files["designs"]}
-    qualities = read_tables(files["qualities"], SurfaceQuality)
+    qualities = read_tables(files["quality_parts"], SurfaceQuality)
     computed = impact_table(surfaces, designs, qualities, job["rules"], job["near_tie_ratio"])
-    published = read_tables(files["published"], PublishedImpact)
-    write_table(impact, with_published(computed, published), Impact)
-    write_table(files["quality"], qualities, SurfaceQuality)
-    comparisons = read_tables(files["comparisons"], SurfaceComparison)
-    write_table(files["comparison"], comparisons, SurfaceComparison)
-    write_table(files["by_factor"], read_tables(files["factors"], SurfaceByFactor), SurfaceByFactor)
+    compared = with_published(computed, read_tables(files["published"], PublishedImpact))
+    write_table(impact, compared, Impact)
+    for name, contract in JOINED.items():
+        write_table(files[name], read_tables(files[f"{name}_parts"], contract), contract)
 
 
 if __name__ == "__main__":

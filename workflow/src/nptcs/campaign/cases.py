@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from nptcs.campaign.record import CaseRecord
+from nptcs.campaign.record import CaseRecord, read_records
 from nptcs.tables.cases import RESPONSES, realised_column
 
 
@@ -51,3 +51,14 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
     numbers = [*values, "load_n", *map(realised_column, realised), *RESPONSES, *extra]
     table[numbers] = table[numbers].astype(float)
     return table
+
+
+def read_cases(paths: Sequence[str]) -> pd.DataFrame:
+    """Read batch files as the table `Cases`.
+
+    Raises
+    ------
+    InputError
+        For a file that was damaged or edited.
+    """
+    return cases_table(read_records(list(paths)))

@@ -93,9 +93,8 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
     lines, disk_mb = [], 0.0
     for study in config.studies:
         known, solvers = known_cases(study, config, card, store), ", ".join(study.solvers)
-        lines.append(
-            f"study {study.name}: {study.number_of_cases():,} cases ({study.design.kind}) by {solvers}"
-        )
+        cases = f"{study.number_of_cases():,} cases ({study.design.kind})"
+        lines.append(f"study {study.name}: {cases} by {solvers}")
         for solver, checked in solvers_of(study, config.solver_options(study)):
             cores = batch_cores(config.campaign.cores_per_batch, checked)
             at_a_time = max(1, cores // checked.cores_per_case())

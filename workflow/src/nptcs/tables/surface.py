@@ -139,3 +139,11 @@ class SurfaceByFactor(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
+
+
+JOINED = {
+    "quality": SurfaceQuality,
+    "comparison": SurfaceComparison,
+    "by_factor": SurfaceByFactor,
+}
+"""Tables that each study makes and that are joined over all studies."""

@@ -1,0 +1,42 @@
+"""The tables of one study's surfaces, next to the published coefficients: tables 6 and 8."""
+
+from __future__ import annotations
+
+import pandas as pd
+import pandera.pandas as pa
+
+from nptcs.compare.coefficients import by_powers
+from nptcs.config.study import Study
+from nptcs.surface.study import StudySurfaces
+from nptcs.surface.tables import comparison_tables, quality_table, surface_table
+from nptcs.tables.problems import Problems
+from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
+
+Checked = tuple[pd.DataFrame, type[pa.DataFrameModel]]
+
+
+def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> dict[str, Checked]:
+    """Return each table of a study's surfaces with its contract.
+
+    Parameters
+    ----------
+    study : Study
+    done : StudySurfaces
+        What `nptcs.surface.study.fit_study` has fitted.
+    published : DataFrame
+        `nptcs.tables.published_inputs.PublishedCoefficients`; may be empty.
+
+    Returns
+    -------
+    dict
+        ``table``, ``quality``, ``comparison``, ``by_factor`` and ``problems``.
+    """
+    factors = [factor.name for factor in study.factors]
+    comparison, by_factor = comparison_tables(study.name, done)
+    return {
+        "table": (surface_table(done.polynomials, by_powers(published, factors)), SurfaceTable),
+        "quality": (quality_table(study.name, done), SurfaceQuality),
+        "comparison": (comparison, SurfaceComparison),
+        "by_factor": (by_factor, SurfaceByFactor),
+        "problems": (done.problems, Problems),
+    }
