@@ -88,9 +88,6 @@ class SolverResult(BaseModel):
 
     status: Status
     message: str = ""
-    died: bool = Field(
-        False, description="It ended for a reason outside the case: killed, or out of memory"
-    )
     vertical_stiffness_n_per_mm: float | None = Field(None, description="Secant F/δ at the load")
     displacement_mm: float | None = Field(None, description="Vertical displacement δ at the load")
     extra: dict[str, float] = Field(
@@ -108,6 +105,9 @@ class SolverResult(BaseModel):
         None,
         description="Displacement of the band's neutral line at the load, as "
         "`neutral_line_columns` makes it: theta_deg, radial_mm, tangential_mm",
+    )
+    died: bool = Field(
+        False, description="It ended for a reason outside the case: killed, or out of memory"
     )
 
     plate_stress: dict[str, list[float]] | None = Field(
