@@ -14,13 +14,13 @@ from itertools import product
 from pathlib import Path
 
 import numpy as np
-from nptcs.fe.spoke.cache import shared_table
 from threadpoolctl import threadpool_limits
 
 from nptcs.arrays import Array
 from nptcs.config.fe import FeModel
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
+from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.tables.material_card import PUBLISHED_PLY
 

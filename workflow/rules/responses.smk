@@ -1,7 +1,7 @@
 # Records of solved tyres → what they do at any load, and the margins of their plates.
 from nptcs.tables.published_stiffness import PUBLISHED
 
-PLIES = sorted({s.material for s in SPECIMENS if not s.test.is_rubber})
+COMPOSITES = sorted({s.material for s in SPECIMENS if not s.test.is_rubber})
 
 
 rule tyre_responses:
@@ -23,7 +23,7 @@ rule tyre_responses:
     params:
         job={
             "settings": plain(CONFIG.tyre_responses),
-            "ply": PLIES[0] if len(PLIES) == 1 else None,
+            "ply": COMPOSITES[0] if len(COMPOSITES) == 1 else None,
             "code": code_of("tyre_responses"),
         },
     script:

@@ -124,7 +124,6 @@ def specimen(name="T0-1", material="cfrp"):
 @pytest.mark.parametrize(
     ("specimens", "words"),
     [
-        ([specimen(material="ply")], "keeps this name"),
         ([specimen(material="PLY")], "keeps this name"),
         ([specimen("T" + "0a1b2c" * 50)], "301 characters"),
         ([specimen("T-" + "0" * 30)], "follows itself"),

@@ -19,6 +19,7 @@ FORMATS: Mapping[str, int] = {
     "CaseRecords": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
+    "Models": 1,
     "PlyCard": 1,
     "RubberCard": 1,
     "Surfaces": 1,

@@ -13,8 +13,8 @@ from nptcs.errors import InputError
 from nptcs.solvers.contract import Solver, SolverOptions
 from nptcs.solvers.registry import check_study, load, module_of, read_options
 from nptcs.surface.fit import refuse_aliased
-from nptcs.surface.terms import parse
 from nptcs.tables.specimens import Specimen
+from nptcs.terms import parse
 
 
 def study_faults(config: Config) -> list[InputError]:
@@ -135,10 +135,6 @@ def _check_loads(
             )
 
 
-RESERVED_MATERIALS = frozenset({"ply"})
-"""Names that the run keeps for cards of its own (``results/3_calibrate``)."""
-
-
 def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputError]:
     """Find names that cannot be file names of the run, or that two things would share."""
     names = {
@@ -147,16 +143,6 @@ def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputErro
         "study": [study.name for study in config.studies],
     }
     faults = _capitals("material", names["material"])
-    faults += [
-        InputError(
-            "the run keeps this name for a card of its own",
-            "give the material another name",
-            column="material",
-            value=name,
-        )
-        for name in names["material"]
-        if name.casefold() in RESERVED_MATERIALS
-    ]
     for kind, used in names.items():
         faults += [_unfit(kind, name) for name in used if len(name) > LONGEST_NAME or repeats(name)]
     return faults

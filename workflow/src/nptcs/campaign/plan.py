@@ -61,14 +61,16 @@ def known_cases(
     options = config.solver_options(study)
     rubbers = card.rubbers if card is not None else {}
     c10 = {name: rubber.constants["c10_mpa"].value for name, rubber in rubbers.items()}
-    plies = list(card.plies.values()) if card is not None else []
+    plies = dict(card.plies) if card is not None else {}
+    if study.ply is not None:
+        plies = {name: ply for name, ply in plies.items() if name == study.ply}
     known: dict[str, int | None] = {}
     for solver, _ in solvers_of(study, options):
         lacks_ply = solver.needs_ply and len(plies) != 1
         if lacks_ply or not set(study.rubbers()) <= set(c10):
             known[solver.name] = None
             continue
-        ply = plies[0].values() if solver.needs_ply else None
+        ply = next(iter(plies.values())).values() if solver.needs_ply else None
         given = options[solver.name]
         design = build_design(study, c10, config.tyre)
         jobs = make_jobs(study, solver.name, given, config.tyre, design, ply)
