@@ -5,7 +5,7 @@ import pytest
 from pydantic import ValidationError
 
 from nptcs.config.abaqus import AbaqusModel
-from nptcs.config.fe import EnergyTableOptions, SpokeGeometry, SpokeMesh, TyreMesh
+from nptcs.config.fe import EnergyTableOptions, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.decks.calculix import complaints
 from nptcs.errors import InputError
