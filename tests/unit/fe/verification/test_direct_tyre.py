@@ -111,7 +111,7 @@ def test_at_a_small_load_direct_and_reduced_tyre_agree(design, table):
         table,
         FE.geometry.foot_width_mm(),
         5.0,
-        FE.spoke_mesh.bulk_to_shear_ratio,
+        FE.band_bulk_to_shear(),
         FE.tyre_mesh,
         FE.contact,
     ).load([80.0])
@@ -137,10 +137,10 @@ def test_spokes_return_after_a_failed_step(design, table, monkeypatch):
         self.spokes = []
         raise np.linalg.LinAlgError("singular")
 
-    monkeypatch.setattr(TyreModel, "_solve", fail)
+    monkeypatch.setattr(TyreModel, "_newton", fail)
     with pytest.raises(TyreError, match="singular"):
         direct.load([80.0])
-    assert calls == [12]
+    assert set(calls) == {12}
     assert len(direct.spokes) == 12
 
 

@@ -252,7 +252,18 @@ class GroundContact(Strict):
 
 SECTIONS: Mapping[RingKind, SpokeGeometry] = {
     "paper_mesh": SpokeGeometry(calibrated_with="paper_mesh"),
-    "converged": SpokeGeometry(calibrated_with="converged"),
+    "converged": SpokeGeometry(
+        leg_angle_deg=29.545,
+        leg_thickness_mm=2.763,
+        block_thickness_mm=11.429,
+        block_half_length_mm=5.8,
+        block_ramp_mm=4.124,
+        foot_thickness_mm=14.0,
+        foot_taper_mm=10.275,
+        plate_foot_gap_mm=4.737,
+        plate_mid_gap_mm=5.5,
+        calibrated_with="converged",
+    ),
 }
 """Sections that `nptcs fe-calibrate` has found with each ring."""
 
@@ -325,7 +336,8 @@ class FeModel(FeSpokeModel):
         "free_edges",
         description="Freedom of band and tread along the axis. free_edges: of a tyre as wide as "
         "the paper's, by a bulk to shear ratio of 10 in plane strain; plane_strain: none, nearly "
-        "incompressible",
+        "incompressible, the default of the ring paper_mesh, whose membranes buckle in softer "
+        "rubber",
     )
     table: EnergyTableOptions = Field(
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
@@ -338,6 +350,14 @@ class FeModel(FeSpokeModel):
     )
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")
+
+    @model_validator(mode="before")
+    @classmethod
+    def _axial_freedom_of_the_ring(cls, values: Any) -> Any:
+        if not isinstance(values, dict):
+            return values
+        ring = values.get("ring", cls.model_fields["ring"].default)
+        return {"axial": "plane_strain", **values} if ring == "paper_mesh" else values
 
     @model_validator(mode="after")
     def _mesh_of_the_ring(self) -> Self:
