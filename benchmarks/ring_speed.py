@@ -69,7 +69,7 @@ def time_curves(table: SpokeEnergyTable) -> None:
 
 def solve_random(tables: Mapping[str, SpokeEnergyTable], count: int, workers: int) -> pd.DataFrame:
     """Solve random designs and print how they ended."""
-    points = qmc.Sobol(len(LOW) + 1, seed=4).random(count)
+    points = qmc.Sobol(len(LOW) + 1, seed=4).random_base2(int(np.ceil(np.log2(count))))[:count]
     rows = pd.DataFrame(LOW + points[:, 1:] * (HIGH - LOW), columns=list(COLUMNS))
     names = sorted(tables)
     rows["spoke"] = [names[int(place * len(names))] for place in points[:, 0]]

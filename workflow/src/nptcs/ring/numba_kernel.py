@@ -15,7 +15,7 @@ from nptcs.ring.cyclic_elimination import eliminate
 from nptcs.ring.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
 from nptcs.ring.system import Ring, System, empty_system
 
-OPTIONS = {"cache": True, "nogil": True, "error_model": "numpy"}
+OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 
 
 def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:

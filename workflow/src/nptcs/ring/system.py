@@ -79,14 +79,15 @@ class System:
 
     def transposed(self) -> tuple[Array, Array, Array]:
         """Blocks of the transposed matrix: diagonal, upper, lower."""
-        return tuple(
+        diagonal, upper, lower = (
             np.ascontiguousarray(block.swapaxes(1, 2))
             for block in (self.diagonal, self.lower, self.upper)
         )
+        return diagonal, upper, lower
 
 
 def empty_system(nodes: int, spokes: int) -> System:
     """Return a system of zeros."""
-    blocks = [np.zeros((nodes, UNKNOWNS, UNKNOWNS)) for _ in range(3)]
-    vectors = [np.zeros((nodes, UNKNOWNS)) for _ in range(3)]
-    return System(*blocks, *vectors, 0.0, 0.0, np.zeros((spokes, 3)))
+    diagonal, upper, lower = (np.zeros((nodes, UNKNOWNS, UNKNOWNS)) for _ in range(3))
+    force, slope, row = (np.zeros((nodes, UNKNOWNS)) for _ in range(3))
+    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, np.zeros((spokes, 3)))
