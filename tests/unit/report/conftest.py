@@ -317,12 +317,12 @@ def measured(results):
 
 ERROR_PERCENT = {"plate": lambda row: -1.0 if row["angle_deg"] < 60 else 2.0}
 ERROR_PERCENT["rubber"] = lambda row: 3.0 - row["spoke_c10_mpa"]
-"""Made-up differences of the solver fe_tyre from the published stiffness."""
+"""Made-up differences of the solver fe_tyre_paper from the published stiffness."""
 
 
 def computed_cases(study):
-    """Cases of a made-up fe_tyre; the last one of the rubber study diverged."""
-    cases = cases_of(study).assign(solver="fe_tyre")
+    """Cases of a made-up fe_tyre_paper; the last one of the rubber study diverged."""
+    cases = cases_of(study).assign(solver="fe_tyre_paper")
     error = cases.apply(ERROR_PERCENT[study.name], axis=1)
     cases["vertical_stiffness_n_per_mm"] *= 1 + error / 100
     if study.name == "rubber":
@@ -380,7 +380,7 @@ def shape(solver, depth_mm):
 
 @pytest.fixture(scope="session")
 def compared(results):
-    """The run of the default studies with a made-up fe_tyre and fe_spoke to compare."""
+    """The run of the default studies with a made-up fe_tyre_paper and fe_spoke to compare."""
     values = yaml.safe_load((ROOT / "config" / "config.yaml").read_text("utf-8"))
     values["studies"] = [study for study in values["studies"] if study["name"] != "tested"]
     for study in values["studies"]:
@@ -393,7 +393,7 @@ def compared(results):
         study.name: Comparison(
             results.designs[study.name],
             tuple(factor.name for factor in study.factors),
-            ("fe_tyre",),
+            ("fe_tyre_paper",),
             study.calibration_cases,
         )
         for study in tyres
@@ -402,7 +402,7 @@ def compared(results):
     records = spoke_records(config.study("spoke"))
     table_10 = read_table(PUBLISHED / "table10_spoke_stiffness.csv", PublishedSpokeStiffness)
     solved = {name: rows[rows["status"] == "ok"] for name, rows in computed.items()}
-    parts = {study.name: analysed(study, solved[study.name], "fe_tyre") for study in tyres}
+    parts = {study.name: analysed(study, solved[study.name], "fe_tyre_paper") for study in tyres}
     impacts = pd.concat([part[3] for part in parts.values()], ignore_index=True)
     table_9 = pd.read_csv(PUBLISHED / "table9_impact.csv")
     spokes = pd.DataFrame({"case_id": [r.case_id for r in records], "case": range(1, 6)})
@@ -413,12 +413,12 @@ def compared(results):
         solvers={
             **results.solvers,
             "lca": SolverFacts("the ring", False, True),
-            "fe_tyre": SolverFacts("the tyre", True, True, [{"plate_coupling": "embedded"}]),
+            "fe_tyre_paper": SolverFacts("the tyre", True, True, [{"plate_coupling": "embedded"}]),
             "fe_spoke": SolverFacts("one spoke", True, False),
         },
         designs={**results.designs, "spoke": check(spokes, Design, "spoke")},
         surfaces={
-            name: {**by_solver, "fe_tyre": parts[name][0]}
+            name: {**by_solver, "fe_tyre_paper": parts[name][0]}
             for name, by_solver in results.surfaces.items()
         },
         tables={
@@ -437,7 +437,7 @@ def compared(results):
                 stiffness_by_level(table, studies), StiffnessByLevel, "levels"
             ),
             "neutral_line.csv": check(
-                pd.concat([shape("lca", 20.0), shape("fe_tyre", 19.0)]), NeutralLine, ""
+                pd.concat([shape("lca", 20.0), shape("fe_tyre_paper", 19.0)]), NeutralLine, ""
             ),
         },
     )

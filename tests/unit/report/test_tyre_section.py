@@ -47,7 +47,7 @@ def record(case_id, stiffness=265.0, message="", status=Status.OK, **change):
     return CaseRecord(
         study="plate",
         case_id=case_id,
-        solver="fe_tyre",
+        solver="fe_tyre_paper",
         solver_version="1",
         key="k",
         values={},
