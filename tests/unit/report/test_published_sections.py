@@ -73,10 +73,10 @@ def test_cases_stand_beside_each_other(compared):
     view, headings = case_comparison(table[table["study"] == "plate"], ["spacing_mm", "angle_deg"])
     case = view.set_index("case_id").loc["plate_032"]
     assert case["published_stiffness_n_per_mm"] == 263.73
-    assert case["fe_tyre_computed"] == pytest.approx(0.99 * 263.73)
-    assert case["fe_tyre_difference_percent"] == pytest.approx(-1.0)
+    assert case["fe_tyre_paper_computed"] == pytest.approx(0.99 * 263.73)
+    assert case["fe_tyre_paper_difference_percent"] == pytest.approx(-1.0)
     assert case["calibrated_on"] == "fe_tyre_paper"
-    assert str(headings["fe_tyre_computed"]) == "fe_tyre_paper [N/mm]"
+    assert str(headings["fe_tyre_paper_computed"]) == "fe_tyre_paper [N/mm]"
 
 
 def test_the_glance_gives_blind_and_calibrated_errors_apart(compared):
@@ -233,7 +233,7 @@ def test_the_ranking_is_compared_with_table_9(compared):
     table, headings = published_ranking(published)
     assert list(table["published_rank"][:5]) == [1, 2, 3, 4, 5]
     assert list(table["published_impact"][:5]) == [319.83, 54.93, 38.60, 21.91, 15.97]
-    assert str(headings["impact_fe_tyre"]) == "fe_tyre_paper, impact [N/mm]"
+    assert str(headings["impact_fe_tyre_paper"]) == "fe_tyre_paper, impact [N/mm]"
 
 
 def test_near_ties_are_named_with_the_ranking(compared):

@@ -44,6 +44,8 @@ def record(case_id, stiffness=265.0, message="", status=Status.OK, **change):
         "curve": {"displacement_mm": (LOADS / stiffness).tolist(), "force_n": LOADS.tolist()},
         "plate_stress": PLATES,
     }
+    if status == Status.OK:
+        parts |= {"vertical_stiffness_n_per_mm": stiffness, "displacement_mm": 5000.0 / stiffness}
     return CaseRecord(
         study="plate",
         case_id=case_id,
