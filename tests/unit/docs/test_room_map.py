@@ -7,7 +7,20 @@ import grimp
 
 ROOT = Path(__file__).parents[3]
 ROW = re.compile(r"^\| (`[^|]*`) \|[^|]*\|([^|]*)\|$", re.MULTILINE)
-EVERYWHERE = {"arrays", "console", "errors", "files", "mechanical_tests", "provenance", "seal"}
+EVERYWHERE = {
+    "arrays",
+    "bending",
+    "console",
+    "errors",
+    "files",
+    "laminate",
+    "loading",
+    "mechanical_tests",
+    "provenance",
+    "seal",
+    "terms",
+    "yaml_files",
+}
 """Modules at the bottom, which every room may import."""
 
 

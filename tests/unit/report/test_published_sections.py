@@ -115,7 +115,9 @@ def test_parity_shows_every_case_and_the_bands(compared):
     table = compared.table(StiffnessAgainstPublished)
     figure = parity(table[table["study"] == "plate"], "study plate", SOLVERS)
     drawn = labelled(figure)
-    blind = np.array(drawn["fe_tyre_paper"].get_ydata()) / np.array(drawn["fe_tyre_paper"].get_xdata())
+    blind = np.array(drawn["fe_tyre_paper"].get_ydata()) / np.array(
+        drawn["fe_tyre_paper"].get_xdata()
+    )
     assert len(blind) == 58
     np.testing.assert_allclose(np.unique(blind.round(6)), [0.99, 1.02])
     hollow = drawn["fe_tyre_paper, calibrated on"]
