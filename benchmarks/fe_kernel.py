@@ -57,7 +57,7 @@ def own_kernel(mesh: str) -> None:
     bricks = model.rubbers[0]
     spent = milliseconds(lambda: bricks.respond(rest))
     print(f"{len(bricks.nodes)} bricks, own blocks: {spent:.1f} ms")
-    blocks = model.blocks
+    blocks = model.groups
     print(f"whole spoke: {milliseconds(lambda: [b.respond(rest) for b in blocks]):.1f} ms")
     row = 3 * model.mesh.nodes_per_row
     size = rest.size - 2 * row

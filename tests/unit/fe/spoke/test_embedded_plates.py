@@ -6,7 +6,7 @@ from scipy.spatial.transform import Rotation
 
 from nptcs.config.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.spoke import embedded_plates as embedded
-from nptcs.fe.spoke.embedded_plates import HELD, straight_block
+from nptcs.fe.spoke.embedded_plates import HELD, straight_group
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.mesh import build_period
 from nptcs.fe.spoke.period import SpokeDesign
@@ -20,7 +20,7 @@ def mesh(request):
 
 def test_rigid_motions_linear_stretch_and_twist_cost_nothing(mesh):
     period, columns = mesh
-    block = straight_block(period.plate, columns, 8800.0)
+    block = straight_group(period.plate, columns, 8800.0)
     x = period.positions
     turned = x @ Rotation.from_rotvec([0.3, 1.2, -0.7]).as_matrix().T + [5.0, -3.0, 2.0] - x
     twisted = np.stack([0.01 * x[:, 1] * x[:, 2], 0.1 * x[:, 1], 0.2 * x[:, 2] ** 2], axis=1)
@@ -31,7 +31,7 @@ def test_rigid_motions_linear_stretch_and_twist_cost_nothing(mesh):
 def test_a_bow_costs_its_height_squared_times_the_length(mesh):
     """u_x = h (1 - (2 y / width)²): on each line of nodes ½ k h_j², k the modulus times HELD."""
     period, columns = mesh
-    block = straight_block(period.plate, columns, 8800.0)
+    block = straight_group(period.plate, columns, 8800.0)
     height = 0.01
     bow = np.zeros_like(period.positions)
     bow[:, 0] = height * (1.0 - (period.positions[:, 1] / 2.5) ** 2)

@@ -3,8 +3,8 @@
 import numpy as np
 import pytest
 
-from nptcs.fe.spoke.element_groups import plate_blocks
-from nptcs.fe.spoke.embedded_plates import straight_block
+from nptcs.fe.spoke.element_groups import plate_groups
+from nptcs.fe.spoke.embedded_plates import straight_group
 from nptcs.fe.spoke.mesh import ElementSet
 from nptcs.laminate import abd
 
@@ -35,9 +35,9 @@ def end_rotation(ply, angle, thickness, moment, held=False, embedded=False):
     """
     positions, elements = strip()
     axes = np.array([[[0.0, 0.0, -1.0], [0.0, 1.0, 0.0], [1.0, 0.0, 0.0]]])
-    blocks = plate_blocks(elements, axes, LAYER, ply, angle, thickness)
+    blocks = plate_groups(elements, axes, LAYER, ply, angle, thickness)
     if embedded:
-        blocks.append(straight_block(elements, 1, ply["e2_mpa"]))
+        blocks.append(straight_group(elements, 1, ply["e2_mpa"]))
     size = positions.size
     matrix = np.zeros((size, size))
     for block in blocks:

@@ -48,7 +48,7 @@ class Inspection:
             return self.problem.message
         serving = [test for test in self.tests if any(test.serves(role) for role in NEEDS)]
         if not serving:
-            seen = [c.name for test in self.tests for c in test.block.columns if c.name]
+            seen = [c.name for test in self.tests for c in test.found_table.columns if c.name]
             names = ", ".join(f"'{name}'" for name in dict.fromkeys(seen)) or "none"
             return f"no column is a load or a strain; columns: {names}"
         reasons = [self.no_unit(test) for test in serving]
@@ -56,7 +56,7 @@ class Inspection:
 
     def no_unit(self, test: Test) -> str:
         """Name the first column of a table whose unit cannot be told."""
-        stated = any(column.unit for column in test.block.columns)
+        stated = any(column.unit for column in test.found_table.columns)
         for quantity, column in test.quantities.items():
             if quantity == "force" and "strain_xx" in test.quantities and not column.unit:
                 continue  # told from the machine's own file
@@ -96,8 +96,8 @@ def _inspect(
     try:
         sources, result.dialect = sources_of(opened, result.profile)
         for source in sources:
-            blocks = find_tables(source, opened.path, profile.unnamed_columns)
-            result.tests += tests_in(source, blocks, profile, opened.path, plain)
+            found_tables = find_tables(source, opened.path, profile.unnamed_columns)
+            result.tests += tests_in(source, found_tables, profile, opened.path, plain)
     except InputError as error:
         result.problem = error
     return result
@@ -128,18 +128,22 @@ def describe(inspection: Inspection) -> str:
 
 
 def _describe_test(test: Test, inspection: Inspection) -> list[str]:
-    block = test.block
+    found_table = test.found_table
     lines = [
-        f"table {test.label}: {len(block.rows_of_data)} rows, lines {block.first + 1} to "
-        f"{block.last}, names "
-        + (f"in line {block.names_row + 1}" if block.names_row is not None else "absent")
+        f"table {test.label}: {len(found_table.rows_of_data)} rows, lines "
+        f"{found_table.first + 1} to {found_table.last}, names "
+        + (
+            f"in line {found_table.names_row + 1}"
+            if found_table.names_row is not None
+            else "absent"
+        )
     ]
     labels = header_labels(test, inspection.profile, inspection.dialect)
     lines += [f"  {name}: {found.text} {found.unit}".rstrip() for name, found in labels.items()]
     quantities = {column.position: name for name, column in test.quantities.items()}
-    samples = [test.source.cells(row) for row in block.rows_of_data[:ROWS_SHOWN]]
+    samples = [test.source.cells(row) for row in found_table.rows_of_data[:ROWS_SHOWN]]
     lines.append(f"  {'column':<28} {'unit':<10} {'read as':<18} first values")
-    for column in block.columns:
+    for column in found_table.columns:
         quantity = quantities.get(column.position, "-")
         unit = column.unit or _declared_unit(quantity, inspection.profile)
         values = "  ".join(
@@ -147,7 +151,7 @@ def _describe_test(test: Test, inspection: Inspection) -> list[str]:
         )
         name = f"{column.group}: {column.name}" if column.group else column.name or "(no name)"
         lines.append(f"  {name:<28} {unit:<10} {quantity:<18} {values}")
-    lines += [f"  note: {note}" for note in block.notes]
+    lines += [f"  note: {note}" for note in found_table.notes]
     return lines
 
 
@@ -178,7 +182,7 @@ def draft_profile(inspection: Inspection, name: str) -> str:
         lines += [f"delimiter: {_quoted(mark)}", f"decimal: {_quoted(dialect.decimal)}"]
         if dialect.thousands:
             lines.append(f"thousands: {_quoted(dialect.thousands)}")
-    test = max(inspection.tests, key=lambda one: len(one.block.rows_of_data), default=None)
+    test = max(inspection.tests, key=lambda one: len(one.found_table.rows_of_data), default=None)
     if test is not None:
         lines += _draft_columns(test, inspection.profile)
     return "\n".join(lines) + "\n"
@@ -189,10 +193,10 @@ def _quoted(text: str) -> str:
 
 
 def _draft_columns(test: Test, profile: FormatProfile) -> list[str]:
-    named = any(column.name for column in test.block.columns)
+    named = any(column.name for column in test.found_table.columns)
     quantities = {column.position: name for name, column in test.quantities.items()}
     lines, unknown, units, comments = [], [], [], []
-    for column in test.block.columns:
+    for column in test.found_table.columns:
         quantity = quantities.get(column.position)
         if quantity is None:
             unknown.append(f"#   {_quoted(column.name)} in {column.unit or 'no unit'}")
@@ -205,7 +209,7 @@ def _draft_columns(test: Test, profile: FormatProfile) -> list[str]:
             choices = ", ".join(FACTORS[DIMENSION[quantity]])
             comments.append(f"#   {quantity}: one of {choices}")
     if not named:
-        order = ", ".join("'-'" for _ in test.block.columns)
+        order = ", ".join("'-'" for _ in test.found_table.columns)
         return [
             "# no names: put a quantity for each column: " + ", ".join(DIMENSION),
             f"columns_in_order: [{order}]",

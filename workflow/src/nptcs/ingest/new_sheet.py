@@ -171,7 +171,7 @@ def _is_camera(test: Test) -> bool:
 
 
 def _is_summary(name: str, tests: Sequence[Test]) -> bool:
-    longest = max(len(test.block.rows_of_data) for test in tests)
+    longest = max(len(test.found_table.rows_of_data) for test in tests)
     return bool(_SUMMARY.search(name)) and longest < _ROWS_OF_A_SUMMARY
 
 

@@ -30,7 +30,7 @@ _J = np.array([0, 1, 2, 1, 2, 2])
 
 @dataclass
 class Response:
-    """What a block returns for one state: energy (N mm), forces (N) and tangents (N/mm)."""
+    """What a group returns for one state: energy (N mm), forces (N) and tangents (N/mm)."""
 
     energy: float
     force: Array

@@ -1,7 +1,7 @@
-"""The ring's matrix: element tangents gathered into a band, and its solution.
+"""The ring's matrix: element tangents gathered into diagonals, and its solution.
 
-A ring numbered from both of its sides at once has a narrow band: LAPACK's banded factorisation
-beats a general sparse one there (``docs/decisions/0003-fe-kernel.md``).
+The matrix of a ring numbered from both of its sides at once is zero far from its diagonal:
+LAPACK's banded factorisation beats a general sparse one there (``docs/decisions/0003-fe-kernel.md``).
 """
 
 from __future__ import annotations
@@ -48,10 +48,10 @@ class BandedPattern:
             [block.ravel()[keep] for block, keep in zip(tangents, self._keep, strict=True)]
         )
         count = (2 * self.width + 1) * self.size
-        band: Array = np.bincount(self._target, values, minlength=count).astype(float)
-        return band.reshape(-1, self.size)
+        diagonals: Array = np.bincount(self._target, values, minlength=count).astype(float)
+        return diagonals.reshape(-1, self.size)
 
-    def solve(self, band: Array, rhs: Array) -> Array:
+    def solve(self, diagonals: Array, rhs: Array) -> Array:
         """Solve for one or several right-hand sides (size, …).
 
         Raises
@@ -59,7 +59,7 @@ class BandedPattern:
         numpy.linalg.LinAlgError
             If the matrix is singular.
         """
-        solution: Array = solve_banded((self.width, self.width), band, rhs, check_finite=False)
+        solution: Array = solve_banded((self.width, self.width), diagonals, rhs, check_finite=False)
         return solution
 
 

@@ -79,18 +79,18 @@ def spoke_bricks(model: SpokeModel, state: SpokeState, spoke: int = 0) -> Bricks
     spoke : int
         Number that the bricks carry.
     """
-    for block, pressure in zip(model.rubbers, state.pressures, strict=True):
-        block.pressure = pressure
+    for group, pressure in zip(model.rubbers, state.pressures, strict=True):
+        group.pressure = pressure
     mesh, parts = model.mesh, []
     points = lattice(3, 3)
-    for block, elements, orders in zip(
+    for group, elements, orders in zip(
         model.rubbers, (mesh.rubber, mesh.layer), (RUBBER_ORDERS, LAYER_ORDERS), strict=True
     ):
-        volume = block.weight.sum(axis=1)
+        volume = group.weight.sum(axis=1)
         position, moved = at_points(elements, orders, state.displacement, points)
-        fields = rubber_at(block, orders, elements.corners, state.displacement, points)
+        fields = rubber_at(group, orders, elements.corners, state.displacement, points)
         nothing = np.full(len(volume), np.nan)
-        density = rubber_energy(block, state.displacement) / volume
+        density = rubber_energy(group, state.displacement) / volume
         parts.append(
             Bricks(
                 position,
@@ -106,13 +106,13 @@ def spoke_bricks(model: SpokeModel, state: SpokeState, spoke: int = 0) -> Bricks
 def _plate_bricks(model: SpokeModel, state: SpokeState, spoke: int) -> Bricks:
     elements = model.mesh.plate
     position, moved = at_points(elements, LAYER_ORDERS, state.displacement, lattice(3, 3))
-    # the stretch block has the volume of the plies; the bricks show the layer that carries them
+    # the stretch group has the volume of the plies; the bricks show the layer that carries them
     ratio = model.design.thickness_mm / model.design.geometry.plate_layer_mm
     volume = model.plates[1].weight.sum(axis=1) / ratio
-    energy = np.sum([linear_energy(block, state.displacement) for block in model.plates], axis=0)
+    energy = np.sum([linear_energy(group, state.displacement) for group in model.plates], axis=0)
     columns = model.design.mesh.plate_columns
-    for block in model.embedding:
-        energy += np.repeat(block.energies(state.displacement) / columns, columns)
+    for group in model.embedding:
+        energy += np.repeat(group.energies(state.displacement) / columns, columns)
     fibres = fibre_stress(model.plates[0], state.displacement, model.design.angle_deg)
     plies = [extreme(ply) for ply in np.split(fibres, 2, axis=1)]
     nothing = np.full(position.shape[:2], np.nan)
@@ -157,12 +157,12 @@ def ring_bricks(
         ):
             energies[tuple(nodes)] = energies.get(tuple(nodes), 0.0) + float(energy)
     axial, parts = np.linspace(low_mm, high_mm, 3), []
-    for block in tyre.rubbers:
-        own = np.array([energies.get(tuple(nodes), 0.0) for nodes in block.nodes.tolist()])
-        energy = rubber_energy(block, state.displacement) + own
-        corners = tyre.mesh.positions[block.nodes]
+    for group in tyre.rubbers:
+        own = np.array([energies.get(tuple(nodes), 0.0) for nodes in group.nodes.tolist()])
+        energy = rubber_energy(group, state.displacement) + own
+        corners = tyre.mesh.positions[group.nodes]
         inside = np.linalg.norm(corners.mean(axis=1), axis=1) < band_radii(dimensions)[1]
-        whole = block.weight.sum(axis=1)
+        whole = group.weight.sum(axis=1)
         nothing, outside = np.full(len(whole), np.nan), np.full(len(whole), -1)
         cells = _cells(
             np.where(inside, MATERIALS["band rubber"], MATERIALS["tread rubber"]),
@@ -173,21 +173,21 @@ def ring_bricks(
             nothing,
             nothing,
         )
-        parts.append(_extruded(block, corners, state.displacement, axial, cells))
+        parts.append(_extruded(group, corners, state.displacement, axial, cells))
     return join(parts)
 
 
 def _extruded(
-    block: RubberGroup, corners: Array, displacement: Array, axial: Array, cells: dict[str, Array]
+    group: RubberGroup, corners: Array, displacement: Array, axial: Array, cells: dict[str, Array]
 ) -> Bricks:
     """Plane elements as bricks with their three nodes across at the axial places."""
-    orders, points = RING_ORDERS[block.nodes.shape[1]], lattice(3, 2)
+    orders, points = RING_ORDERS[group.nodes.shape[1]], lattice(3, 2)
     shape, _ = tensor_shape(orders, points)
-    fields = rubber_at(block, orders, corners, displacement, points)
+    fields = rubber_at(group, orders, corners, displacement, points)
     position, moved = np.zeros((2, len(corners), 9, 3, 3))
     position[..., :2] = np.einsum("gn,eni->egi", shape, corners)[:, :, None]
     position[..., 2] = axial
-    moved[..., :2] = np.einsum("gn,eni->egi", shape, displacement[block.nodes])[:, :, None]
+    moved[..., :2] = np.einsum("gn,eni->egi", shape, displacement[group.nodes])[:, :, None]
     return Bricks(
         position.reshape(-1, BRICK_NODES, 3),
         moved.reshape(-1, BRICK_NODES, 3),

@@ -33,24 +33,24 @@ class RubberFields:
     pressure: Array
 
 
-def rubber_fields(block: RubberGroup, displacement: Array) -> RubberFields:
-    """Fields at the Gauss points of a block, at its present pressures."""
-    local = displacement[block.nodes]
-    return _law(block, deformation_gradient(block.gradient, local, None), block.pressure_shape)
+def rubber_fields(group: RubberGroup, displacement: Array) -> RubberFields:
+    """Fields at the Gauss points of a group, at its present pressures."""
+    local = displacement[group.nodes]
+    return _law(group, deformation_gradient(group.gradient, local, None), group.pressure_shape)
 
 
 def rubber_at(
-    block: RubberGroup,
+    group: RubberGroup,
     orders: Sequence[int],
     corners: Array,
     displacement: Array,
     points: Array,
 ) -> RubberFields:
-    """Fields of a block at any local points, not smoothed between elements.
+    """Fields of a group at any local points, not smoothed between elements.
 
     Parameters
     ----------
-    block : RubberGroup
+    group : RubberGroup
     orders : sequence of int
         Polynomial orders of its elements.
     corners : array (elements, nodes, directions)
@@ -63,54 +63,54 @@ def rubber_at(
     _, slope = tensor_shape(orders, points)
     gradient, _ = jacobians(slope, corners)
     modes = np.column_stack([np.ones(len(points)), points])
-    modes = modes[:, : block.pressure.shape[1]]
-    return _law(block, deformation_gradient(gradient, displacement[block.nodes], None), modes)
+    modes = modes[:, : group.pressure.shape[1]]
+    return _law(group, deformation_gradient(gradient, displacement[group.nodes], None), modes)
 
 
-def _law(block: RubberGroup, deformation: Array, modes: Array) -> RubberFields:
-    mean = block.pressure @ modes.T
-    law = neo_hookean(block.c10_mpa, deformation, mean)
+def _law(group: RubberGroup, deformation: Array, modes: Array) -> RubberFields:
+    mean = group.pressure @ modes.T
+    law = neo_hookean(group.c10_mpa, deformation, mean)
     # σ - p = (a F Fᵀ - a I1/3) / J
     deviator = law.scale[..., None, None] * (deformation @ deformation.swapaxes(-1, -2))
     deviator -= law.third[..., None, None] * np.eye(3)
     deviator /= law.volume[..., None, None]
     return RubberFields(
-        energy_density=law.energy + mean * (law.volume - 1.0) - mean**2 / (2.0 * block.bulk_mpa),
+        energy_density=law.energy + mean * (law.volume - 1.0) - mean**2 / (2.0 * group.bulk_mpa),
         mises=np.sqrt(1.5 * np.sum(deviator**2, axis=(-1, -2))),
         pressure=-mean,
     )
 
 
-def rubber_energy(block: RubberGroup, displacement: Array) -> Array:
-    """Strain energy of each element of a block, N mm."""
-    energy: Array = np.sum(block.weight * rubber_fields(block, displacement).energy_density, axis=1)
+def rubber_energy(group: RubberGroup, displacement: Array) -> Array:
+    """Strain energy of each element of a group, N mm."""
+    energy: Array = np.sum(group.weight * rubber_fields(group, displacement).energy_density, axis=1)
     return energy
 
 
-def linear_energy(block: LinearGroup, displacement: Array) -> Array:
-    """Strain energy of each element of a linear block, N mm."""
-    strain = block.strain(displacement)
-    stress = np.matmul(block.stiffness, strain[..., None])[..., 0]
-    energy: Array = 0.5 * np.sum(block.weight * np.sum(stress * strain, axis=2), axis=1)
+def linear_energy(group: LinearGroup, displacement: Array) -> Array:
+    """Strain energy of each element of a linear group, N mm."""
+    strain = group.strain(displacement)
+    stress = np.matmul(group.stiffness, strain[..., None])[..., 0]
+    energy: Array = 0.5 * np.sum(group.weight * np.sum(stress * strain, axis=2), axis=1)
     return energy
 
 
-def fibre_stress(block: LinearGroup, displacement: Array, angle_deg: float) -> Array:
+def fibre_stress(group: LinearGroup, displacement: Array, angle_deg: float) -> Array:
     """Stress along the fibres at a plate's points, MPa, array (elements, points).
 
     Second Piola–Kirchhoff stress in axes that turn with the plate, whose strains are small.
 
     Parameters
     ----------
-    block : LinearGroup
-        The plates' in-plane block; the first half of its points lies in the ply +A, the second
+    group : LinearGroup
+        The plates' in-plane group; the first half of its points lies in the ply +A, the second
         in the ply -A.
     displacement : array (nodes, 3)
         mm.
     angle_deg : float
         A.
     """
-    stress = np.matmul(block.stiffness, block.strain(displacement)[..., None])[..., 0]
+    stress = np.matmul(group.stiffness, group.strain(displacement)[..., None])[..., 0]
     angles = np.radians(np.repeat([angle_deg, -angle_deg], stress.shape[1] // 2))
     c, s = np.cos(angles), np.sin(angles)
     along: Array = c * c * stress[..., 0] + s * s * stress[..., 1] + 2.0 * c * s * stress[..., 3]

@@ -93,8 +93,8 @@ def _strain(model: SpokeModel, state: SpokeState, points: Array) -> Array:
     local = np.einsum("egni,eij->egnj", gradient, frames)
     frame = np.repeat(frames[:, None], len(points), axis=1)
     stiffness = np.zeros((len(points), 6, 6))
-    block = LinearGroup(plate.nodes, local, np.ones(local.shape[:2]), stiffness, frame)
-    strain: Array = block.strain(state.displacement)[..., IN_PLANE]
+    group = LinearGroup(plate.nodes, local, np.ones(local.shape[:2]), stiffness, frame)
+    strain: Array = group.strain(state.displacement)[..., IN_PLANE]
     return strain
 
 
@@ -122,12 +122,12 @@ def rubber_extremes(model: SpokeModel, state: SpokeState) -> tuple[float, float]
     both grow as the mesh is refined.
     """
     strain, density = 0.0, 0.0
-    for block, pressure in zip(model.rubbers, state.pressures, strict=True):
-        block.pressure = pressure
-        local = state.displacement[block.nodes]
-        deformation = deformation_gradient(block.gradient, local, None)
+    for group, pressure in zip(model.rubbers, state.pressures, strict=True):
+        group.pressure = pressure
+        local = state.displacement[group.nodes]
+        deformation = deformation_gradient(group.gradient, local, None)
         squares = np.linalg.eigvalsh(deformation.swapaxes(-1, -2) @ deformation)
         strain = max(strain, float(np.sqrt(squares[..., -1].max()) - 1.0))
-        fields = rubber_fields(block, state.displacement)
+        fields = rubber_fields(group, state.displacement)
         density = max(density, float(fields.energy_density.max()))
     return strain, density

@@ -56,19 +56,19 @@ def section_stress(model: SpokeModel, state: SpokeState, fine: int = 12) -> Sect
         Drawn cells along each side of an element.
     """
     quads, stresses = [], []
-    for block, pressure, elements, orders in zip(
+    for group, pressure, elements, orders in zip(
         model.rubbers,
         state.pressures,
         (model.mesh.rubber, model.mesh.layer),
         (RUBBER_ORDERS, LAYER_ORDERS),
         strict=True,
     ):
-        block.pressure = pressure
+        group.pressure = pressure
         cut, points = _cut(elements, fine)
         if not cut.any():
             continue
         quads.append(_quads(elements, cut, orders, state.displacement, points))
-        fields = rubber_at(block, orders, elements.corners, state.displacement, points)
+        fields = rubber_at(group, orders, elements.corners, state.displacement, points)
         stresses.append(corners(fields.mises[cut]).mean(axis=2).ravel())
     plate = model.mesh.plate
     cut, points = _cut(plate, fine)

@@ -26,12 +26,12 @@ def ring_stress(tyre: TyreModel, state: TyreState) -> tuple[Array, Array]:
     """Deformed cells (cells, 4, 2) of band and tread, mm, and their von Mises stress, MPa."""
     points = lattice(FINE + 1, 2)
     quads, stresses = [], []
-    for block in tyre.rubbers:
-        orders = RING_ORDERS[block.nodes.shape[1]]
+    for group in tyre.rubbers:
+        orders = RING_ORDERS[group.nodes.shape[1]]
         shape, _ = tensor_shape(orders, points)
-        position = tyre.mesh.positions[block.nodes]
-        moved = position + state.displacement[block.nodes]
-        fields = rubber_at(block, orders, position, state.displacement, points)
+        position = tyre.mesh.positions[group.nodes]
+        moved = position + state.displacement[group.nodes]
+        fields = rubber_at(group, orders, position, state.displacement, points)
         quads.append(corners(np.einsum("gn,eni->egi", shape, moved)).reshape(-1, 4, 2))
         stresses.append(corners(fields.mises).mean(axis=2).ravel())
     return np.concatenate(quads), np.concatenate(stresses)

@@ -1,4 +1,4 @@
-"""Element blocks of the spoke: its rubber, and the plates as laminates of true thickness."""
+"""Element groups of the spoke: its rubber, and the plates as laminates of true thickness."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ Rule = tuple[Array, Array]
 SHEAR_CORRECTION = 5.0 / 6.0
 
 
-def rubber_block(
+def rubber_group(
     elements: ElementSet, orders: tuple[int, int, int], c10_mpa: float, bulk_mpa: float
 ) -> RubberGroup:
     """Rubber elements with a linear pressure; a constant one where they are linear in a direction.
@@ -34,7 +34,7 @@ def rubber_block(
     return RubberGroup(elements.nodes, gradient, volume * weights, modes, c10_mpa, bulk_mpa)
 
 
-def plate_blocks(
+def plate_groups(
     elements: ElementSet,
     axes: Array,
     layer_mm: float,
@@ -81,7 +81,7 @@ def plate_blocks(
     mean = sum(transverse_shear(ply, a) for a in both) / 2.0
     shear[0][np.ix_([5, 4], [5, 4])] = SHEAR_CORRECTION * mean
     return [
-        _plate_block(elements, axes, tensor_rule(rule), stiffness)
+        _plate_group(elements, axes, tensor_rule(rule), stiffness)
         for rule, stiffness in (
             ((through, three, three), np.repeat(in_plane, 18, axis=0)),
             ((middle, three, three), np.repeat(stretch, 9, axis=0)),
@@ -90,7 +90,7 @@ def plate_blocks(
     ]
 
 
-def _plate_block(elements: ElementSet, axes: Array, rule: Rule, stiffness: Array) -> LinearGroup:
+def _plate_group(elements: ElementSet, axes: Array, rule: Rule, stiffness: Array) -> LinearGroup:
     points, weights = rule
     _, slope = tensor_shape(LAYER_ORDERS, points)
     gradient, volume = jacobians(slope, elements.corners)

@@ -23,7 +23,7 @@ SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
 
 
 @dataclass(frozen=True)
-class StraightBlock:
+class StraightGroup:
     """Springs from the mid-surface to the straight line between the plate's edges.
 
     Energy: ½ Σ k |m_j - (1 - t_j) m_0 - t_j m_1|² over the nodes inside the plate's width, m the
@@ -63,7 +63,7 @@ class StraightBlock:
         )
 
 
-def straight_block(plate: ElementSet, plate_columns: int, e2_mpa: float) -> StraightBlock:
+def straight_group(plate: ElementSet, plate_columns: int, e2_mpa: float) -> StraightGroup:
     """Springs of all plates of a mesh.
 
     Parameters
@@ -86,7 +86,7 @@ def straight_block(plate: ElementSet, plate_columns: int, e2_mpa: float) -> Stra
     # springs by line and height; nodes by face, line and height
     bow = np.kron(np.kron(np.array([[0.5, 0.5]]), across), np.eye(3)).astype(np.float64)
     spring = HELD * e2_mpa * length[:, None] * np.tile(SIMPSON, lines - 1)
-    return StraightBlock(_rows(plate.nodes, plate_columns), bow, spring)
+    return StraightGroup(_rows(plate.nodes, plate_columns), bow, spring)
 
 
 def _rows(nodes: Index, plate_columns: int) -> Index:

@@ -45,7 +45,7 @@ class SpokeState:
     sensitivity : array (free unknowns, 3)
         Derivatives of the inner displacements with respect to the motion.
     pressures : list of arrays
-        Pressures of the rubber's blocks.
+        Pressures of the rubber's groups.
     """
 
     motion: Array
@@ -59,7 +59,7 @@ class SpokeState:
 
 @dataclass(frozen=True)
 class SpokeFields:
-    """Displacements (nodes, 3) in mm and pressures of the rubber's blocks in MPa."""
+    """Displacements (nodes, 3) in mm and pressures of the rubber's groups in MPa."""
 
     displacement: Array
     pressures: Sequence[Array]
@@ -105,7 +105,7 @@ class SpokeModel(SpokePeriod):
 
     def rest(self) -> SpokeState:
         """Return the unloaded spoke: no energy and no force, not even of rounding."""
-        pressures = [np.zeros_like(block.pressure) for block in self.rubbers]
+        pressures = [np.zeros_like(group.pressure) for group in self.rubbers]
         unloaded = SpokeFields(np.zeros_like(self.mesh.positions), pressures)
         return replace(self.settle(np.zeros(3), unloaded), energy=0.0, force=np.zeros(3))
 
@@ -230,8 +230,8 @@ class SpokeModel(SpokePeriod):
             If a state on the way is unstable.
         """
         displacement = guess.displacement
-        for block, pressure in zip(self.rubbers, guess.pressures, strict=True):
-            block.pressure = pressure
+        for group, pressure in zip(self.rubbers, guess.pressures, strict=True):
+            group.pressure = pressure
         for count in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
             factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
@@ -252,8 +252,8 @@ class SpokeModel(SpokePeriod):
             if largest > 30.0:
                 raise FloatingPointError(f"an iteration moves a node by {largest:.0f} mm")
             displacement = displacement + step
-            for block in self.rubbers:
-                block.update_pressure(step)
+            for group in self.rubbers:
+                group.update_pressure(step)
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
 
     def _condense(
@@ -282,5 +282,5 @@ class SpokeModel(SpokePeriod):
             force=self.scale * (slope.T @ reaction + sensitivity.T @ force[self._free]),
             tangent=self.scale * 0.5 * (tangent + tangent.T),
             sensitivity=sensitivity,
-            pressures=[block.pressure.copy() for block in self.rubbers],
+            pressures=[group.pressure.copy() for group in self.rubbers],
         )

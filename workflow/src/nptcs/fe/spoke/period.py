@@ -12,8 +12,8 @@ from nptcs.arrays import Array
 from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
 from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
 from nptcs.fe.matrices.block_tridiagonal import BlockPattern
-from nptcs.fe.spoke.element_groups import plate_blocks, rubber_block
-from nptcs.fe.spoke.embedded_plates import straight_block
+from nptcs.fe.spoke.element_groups import plate_groups, rubber_group
+from nptcs.fe.spoke.embedded_plates import straight_group
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
 
 
@@ -37,7 +37,7 @@ class SpokeDesign:
 
 
 class SpokePeriod:
-    """Element blocks of one period, with the rim's nodes clamped and the band's moved as one."""
+    """Element groups of one period, with the rim's nodes clamped and the band's moved as one."""
 
     def __init__(self, design: SpokeDesign) -> None:
         self.design = design
@@ -46,10 +46,10 @@ class SpokePeriod:
         )
         bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
         self.rubbers = [
-            rubber_block(self.mesh.rubber, RUBBER_ORDERS, design.c10_mpa, bulk),
-            rubber_block(self.mesh.layer, LAYER_ORDERS, design.c10_mpa, bulk),
+            rubber_group(self.mesh.rubber, RUBBER_ORDERS, design.c10_mpa, bulk),
+            rubber_group(self.mesh.layer, LAYER_ORDERS, design.c10_mpa, bulk),
         ]
-        self.plates = plate_blocks(
+        self.plates = plate_groups(
             self.mesh.plate,
             self.mesh.plate_axes,
             design.geometry.plate_layer_mm,
@@ -60,12 +60,12 @@ class SpokePeriod:
         match design.plate_coupling:
             case "embedded":
                 columns, e2_mpa = design.mesh.plate_columns, design.ply["e2_mpa"]
-                self.embedding = [straight_block(self.mesh.plate, columns, e2_mpa)]
+                self.embedding = [straight_group(self.mesh.plate, columns, e2_mpa)]
             case "conforming":
                 self.embedding = []
             case _:
                 assert_never(design.plate_coupling)
-        self._dofs = [element_dofs(block.nodes, 3) for block in self.blocks]
+        self._dofs = [element_dofs(group.nodes, 3) for group in self.groups]
         row = 3 * self.mesh.nodes_per_row
         self._count = 3 * len(self.mesh.positions)
         self._free = slice(row, self._count - row)
@@ -79,8 +79,8 @@ class SpokePeriod:
         self.scale = float(design.plates)
 
     @property
-    def blocks(self) -> list[ElementGroup]:
-        """All element blocks, and what holds the plates straight."""
+    def groups(self) -> list[ElementGroup]:
+        """All element groups, and what holds the plates straight."""
         return [*self.rubbers, *self.plates, *self.embedding]
 
     def band_motion(self, motion: Array) -> Array:
@@ -104,7 +104,7 @@ class SpokePeriod:
         return slope.reshape(-1, 3), curve.ravel()
 
     def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
-        responses = [block.respond(displacement) for block in self.blocks]
+        responses = [group.respond(displacement) for group in self.groups]
         force = np.zeros(self._count)
         for dofs, response in zip(self._dofs, responses, strict=True):
             force += np.bincount(dofs.ravel(), response.force.ravel(), minlength=self._count)

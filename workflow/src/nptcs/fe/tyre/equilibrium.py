@@ -67,7 +67,7 @@ class _Trial:
     """Residual and tangent of one iterate."""
 
     force: Array
-    band: Array
+    matrix: Array
     slope: Array
     reaction: float
     reaction_row: Array
@@ -126,8 +126,8 @@ class TyreModel:
             ring.positions, ring.tread_edges, ring.contact_rule, tyre.tread_width_mm, contact
         )
         self.foot_operator = foot_operators(ring)
-        nodes = [*[block.nodes for block in self._bodies], ring.feet]
-        self._dofs = [element_dofs(block, 2) for block in [*nodes, ring.tread_edges]]
+        nodes = [*[group.nodes for group in self._bodies], ring.feet]
+        self._dofs = [element_dofs(group, 2) for group in [*nodes, ring.tread_edges]]
         self._count = 2 * len(ring.positions)
         rows = len(ring.radii)
         column, row = np.divmod(np.arange(len(ring.positions)), rows)
@@ -152,7 +152,7 @@ class TyreModel:
         )
 
     def _trial(self, displacement: Array, rise: float) -> _Trial:
-        responses = [block.respond(displacement) for block in self._bodies]
+        responses = [group.respond(displacement) for group in self._bodies]
         spokes = self.spoke_response(displacement)
         ground = self.ground.respond(displacement, rise)
         forces = [*[r.force for r in responses], spokes.force]
@@ -167,7 +167,7 @@ class TyreModel:
         row[1::2] = slope[1::2]
         return _Trial(
             force=internal + np.bincount(edge, ground.force.ravel(), minlength=self._count),
-            band=self._pattern.assemble(tangents),
+            matrix=self._pattern.assemble(tangents),
             slope=slope,
             reaction=ground.reaction_n,
             reaction_row=row,
@@ -179,7 +179,7 @@ class TyreModel:
         """Solve the iterate's equations for its residual and for the ground's rise."""
         rhs = np.empty((self._count, 2))
         rhs[self._place] = np.stack([trial.force, trial.slope], axis=1)
-        return self._pattern.solve(trial.band, rhs)[self._place]
+        return self._pattern.solve(trial.matrix, rhs)[self._place]
 
     def _newton(
         self, displacement: Array, rise: float, load: float | None, path: LoadPath
@@ -210,8 +210,8 @@ class TyreModel:
             move = step.reshape(-1, 2)
             displacement = displacement + damp * move
             rise += damp * change
-            for block in self.rubbers:
-                block.update_pressure(move, damp)
+            for group in self.rubbers:
+                group.update_pressure(move, damp)
             if self.ground.soft:
                 if largest < SETTLED_MM:
                     self.ground.harden()
@@ -247,8 +247,8 @@ class TyreModel:
         rise = FIRST_RISE_MM
         while True:
             displacement = np.zeros_like(self.mesh.positions)
-            for block in self.rubbers:
-                block.pressure[:] = 0.0
+            for group in self.rubbers:
+                group.pressure[:] = 0.0
             self.ground.soften()
             try:
                 displacement, _ = self._newton(displacement, rise, None, path)
@@ -268,7 +268,7 @@ class TyreModel:
     ) -> tuple[Array, float, float]:
         """One load step, halved until it converges."""
         step = load - reached
-        pressures = [block.pressure.copy() for block in self.rubbers]
+        pressures = [group.pressure.copy() for group in self.rubbers]
         while True:
             target = load if step >= load - reached else reached + step
             try:
@@ -278,8 +278,8 @@ class TyreModel:
                 step /= 2.0
                 if step < SMALLEST_STEP_N:
                     raise
-                for block, pressure in zip(self.rubbers, pressures, strict=True):
-                    block.pressure = pressure.copy()
+                for group, pressure in zip(self.rubbers, pressures, strict=True):
+                    group.pressure = pressure.copy()
                 continue
             self.ground.advance(moved, new_rise)
             path.force_n.append(target)
@@ -289,7 +289,7 @@ class TyreModel:
     def energy(self, state: TyreState) -> dict[str, float]:
         """Energy of each part at a state, N mm."""
         return {
-            "rubber": sum(block.respond(state.displacement).energy for block in self.rubbers),
+            "rubber": sum(group.respond(state.displacement).energy for group in self.rubbers),
             "wires": sum(wire.respond(state.displacement).energy for wire in self.wires),
             "spokes": self.spoke_response(state.displacement).energy,
             "contact": self.ground.energy(state.displacement, state.rise_mm),

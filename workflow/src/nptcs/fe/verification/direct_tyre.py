@@ -3,7 +3,7 @@
 The same ring, contact and load control as `TyreModel`; in place of the energy table each spoke is
 its own finite element mesh. One Newton iteration linearises ring and spokes together; the inner
 displacements of each spoke are eliminated onto its foot before the ring is solved, and follow it
-before the next linearisation (block elimination: no step of the whole system's Newton method is
+before the next linearisation (group elimination: no step of the whole system's Newton method is
 changed by it).
 """
 
@@ -154,9 +154,9 @@ class MeshedSpoke(SpokeModel):
     def at_rest(self, foot: Foot) -> Linearised:
         """Return the unloaded spoke on a foot."""
         q = np.zeros(foot.operators.shape[1])
-        rubbers = [copy(block) for block in self.rubbers]
-        for block in rubbers:
-            block.pressure = np.zeros_like(block.pressure)
+        rubbers = [copy(group) for group in self.rubbers]
+        for group in rubbers:
+            group.pressure = np.zeros_like(group.pressure)
         return self._linearise(q, np.zeros_like(self.mesh.positions), rubbers, foot)
 
     def follow_foot(self, last: Linearised, q: Array, foot: Foot) -> Linearised:
@@ -170,9 +170,9 @@ class MeshedSpoke(SpokeModel):
         displacement = last.displacement.copy()
         displacement[self.mesh.top] = foot.move(q)[0]
         displacement.reshape(-1)[self._free] += last.step + last.sensitivity @ (q - last.q)
-        rubbers = [copy(block) for block in last.rubbers]
-        for block in rubbers:
-            block.update_pressure(displacement - last.displacement)
+        rubbers = [copy(group) for group in last.rubbers]
+        for group in rubbers:
+            group.update_pressure(displacement - last.displacement)
         return self._linearise(q, displacement, rubbers, foot)
 
     def _linearise(

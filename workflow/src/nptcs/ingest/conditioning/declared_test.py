@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable
-from typing import Literal
+from typing import Literal, assert_never
 
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals
@@ -43,9 +43,21 @@ def loadings_named(texts: Iterable[str]) -> set[Loading]:
 
 def loading_of(test: TestType) -> Loading:
     """Return the loading of a test of the sheet: ±45° shear is a tension test."""
-    if "compression" in test:
-        return "compression"
-    return "flexure" if "flexure" in test else "tension"
+    match test:
+        case TestType.COMPRESSION | TestType.RUBBER_COMPRESSION:
+            return "compression"
+        case TestType.FLEXURE:
+            return "flexure"
+        case (
+            TestType.TENSION
+            | TestType.SHEAR
+            | TestType.RUBBER_TENSION
+            | TestType.RUBBER_EQUIBIAXIAL
+            | TestType.RUBBER_PURE_SHEAR
+        ):
+            return "tension"
+        case _:
+            assert_never(test)
 
 
 def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, name: str) -> None:

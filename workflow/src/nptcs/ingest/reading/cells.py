@@ -49,12 +49,12 @@ class CellSource(Protocol):
         """Positions of the cells of a row that were a time of day."""
         ...
 
-    def odd_clock_row(self, block: FoundTable) -> int | None:
-        """First row of a block whose times of day are not as many as in its first row."""
+    def odd_clock_row(self, found_table: FoundTable) -> int | None:
+        """First row of a table whose times of day are not as many as in its first row."""
         ...
 
-    def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
-        """Columns of a block as numbers, shape (rows, positions)."""
+    def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
+        """Columns of a table as numbers, shape (rows, positions)."""
         ...
 
 
@@ -173,12 +173,14 @@ class TextSource:
         cells = self.dialect.split(self.clock_lines.get(row, ""))
         return [position for position, cell in enumerate(cells) if holds_clock(cell)]
 
-    def odd_clock_row(self, block: FoundTable) -> int | None:
-        """First row of a block whose times of day are not as many as in its first row."""
+    def odd_clock_row(self, found_table: FoundTable) -> int | None:
+        """First row of a table whose times of day are not as many as in its first row."""
         if not self.clock_counts:
             return None
-        counts = [self.clock_counts.get(row, 0) for row in block.rows_of_data]
-        odd = (row for row, n in zip(block.rows_of_data, counts, strict=True) if n != counts[0])
+        counts = [self.clock_counts.get(row, 0) for row in found_table.rows_of_data]
+        odd = (
+            row for row, n in zip(found_table.rows_of_data, counts, strict=True) if n != counts[0]
+        )
         return next(odd, None)
 
     def header_cells(self, row: int, width: int) -> list[str]:
@@ -193,27 +195,27 @@ class TextSource:
         """Tell whether the cell says that there is no value."""
         return cell.casefold() in MISSING or cell in self.missing
 
-    def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
-        """Columns of a block as numbers; a cell that is none raises with its place."""
-        rows, kinds = block.rows_of_data, self.kinds
+    def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
+        """Columns of a table as numbers; a cell that is none raises with its place."""
+        rows, kinds = found_table.rows_of_data, self.kinds
         if rows[-1] - rows[0] == len(rows) - 1 and "odd data" not in kinds[rows[0] : rows[-1] + 1]:
             lines = self.lines[rows[0] : rows[-1] + 1]
         else:
             lines = [
                 self.lines[row]
                 if kinds[row] == "data"
-                else self._checked_line(block, row, positions)
+                else self._checked_line(found_table, row, positions)
                 for row in rows
             ]
         text = "\n".join(lines)
         if self._uses_thousands(text):
-            return self._numbers_with_thousands(block, positions)
+            return self._numbers_with_thousands(found_table, positions)
         frame = pd.read_csv(
             io.StringIO(text),
             sep=r"\s+" if self.dialect.delimiter == "spaces" else self.dialect.delimiter,
             decimal=self.dialect.decimal,
             header=None,
-            names=list(range(block.width)),
+            names=list(range(found_table.width)),
             usecols=list(dict.fromkeys(positions)),
             index_col=False,
             dtype=np.float64,
@@ -222,12 +224,12 @@ class TextSource:
             skipinitialspace=True,
         )
         values = frame[list(positions)].to_numpy()
-        self._refuse_infinite(block, values, positions)
+        self._refuse_infinite(found_table, values, positions)
         return values
 
-    def _checked_line(self, block: FoundTable, row: int, positions: Sequence[int]) -> str:
+    def _checked_line(self, found_table: FoundTable, row: int, positions: Sequence[int]) -> str:
         """Return a line that is not all numbers with the checked cells only."""
-        self._check_cells(block, row, positions)
+        self._check_cells(found_table, row, positions)
         cells = [
             cell if position in positions and not self.is_missing(cell) else NOTHING
             for position, cell in enumerate(self.cells(row))
@@ -236,7 +238,7 @@ class TextSource:
             return " ".join(cells)
         return self.dialect.delimiter.join(f'"{cell}"' for cell in cells)
 
-    def _check_cells(self, block: FoundTable, row: int, positions: Sequence[int]) -> None:
+    def _check_cells(self, found_table: FoundTable, row: int, positions: Sequence[int]) -> None:
         cells = self.cells(row)
         for position in positions:
             cell = cells[position] if position < len(cells) else ""
@@ -246,7 +248,7 @@ class TextSource:
                     "correct the file, or name the word in the profile's 'missing'",
                     self.path,
                     row + 1,
-                    block.columns[position].name or f"number {position + 1}",
+                    found_table.columns[position].name or f"number {position + 1}",
                     value=cell,
                 )
 
@@ -257,22 +259,24 @@ class TextSource:
         before = r"\d" if self._marks_apart else r'"[+-]?\d{1,3}'
         return re.search(rf"{before}{re.escape(mark)}\d{{3}}", text, re.ASCII) is not None
 
-    def _numbers_with_thousands(self, block: FoundTable, positions: Sequence[int]) -> Array:
+    def _numbers_with_thousands(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
         def plain(cell: str) -> str:
             if self.is_missing(cell):
                 return "nan"
             return cell.replace(self.dialect.thousands, "").replace(self.dialect.decimal, ".")
 
-        rows = [self.cells(row) for row in block.rows_of_data]
+        rows = [self.cells(row) for row in found_table.rows_of_data]
         text = [[plain(c[p]) if p < len(c) else "nan" for p in positions] for c in rows]
         return np.array(text, dtype=np.float64)
 
-    def _refuse_infinite(self, block: FoundTable, values: Array, positions: Sequence[int]) -> None:
+    def _refuse_infinite(
+        self, found_table: FoundTable, values: Array, positions: Sequence[int]
+    ) -> None:
         for index, column in np.argwhere(np.isinf(values))[:1]:
             raise InputError(
                 "number is too large",
                 "correct the file",
                 self.path,
-                block.rows_of_data[index] + 1,
-                block.columns[positions[column]].name,
+                found_table.rows_of_data[index] + 1,
+                found_table.columns[positions[column]].name,
             )

@@ -25,7 +25,7 @@ def map_columns(
     columns: Sequence[Column],
     profile: FormatProfile,
     path: Path,
-    block: FoundTable,
+    found_table: FoundTable,
     plain: FormatProfile | None = None,
 ) -> dict[str, Column]:
     """Quantity → column, by the profile's names or order.
@@ -39,13 +39,13 @@ def map_columns(
         If a name of the profile fits several columns.
     """
     if profile.columns_in_order:
-        if len(profile.columns_in_order) != block.width:
+        if len(profile.columns_in_order) != found_table.width:
             raise InputError(
-                f"table has {block.width} columns, profile '{profile.name}' names "
+                f"table has {found_table.width} columns, profile '{profile.name}' names "
                 f"{len(profile.columns_in_order)}",
                 "correct columns_in_order",
                 path,
-                block.first + 1,
+                found_table.first + 1,
             )
         pairs = zip(profile.columns_in_order, columns, strict=True)
         return {quantity: column for quantity, column in pairs if quantity != "-"}
@@ -57,7 +57,7 @@ def map_columns(
             wanted = {str(name) for name in known.columns} - set(mapped)
             if known is not profile or bare:
                 wanted &= _lacking(mapped, columns, own=known is profile)
-            _map_names(mapped, wanted, columns, known, bare, path, block)
+            _map_names(mapped, wanted, columns, known, bare, path, found_table)
     order = [*profile.columns, *(plain.columns if plain is not None else ())]
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
 
@@ -80,7 +80,7 @@ def _map_names(
     profile: FormatProfile,
     bare: bool,
     path: Path,
-    block: FoundTable,
+    found_table: FoundTable,
 ) -> None:
     """Add the quantities of `wanted` whose name a free column has, first name first."""
     taken = {column.position for column in mapped.values()}
@@ -93,7 +93,7 @@ def _map_names(
                 and name_matches(without_channel(column.name) if bare else column.name, name)
             ]
             if len(fitting) > 1:
-                raise _several(path, block, quantity, name, fitting)
+                raise _several(path, found_table, quantity, name, fitting)
             if fitting:
                 mapped[quantity] = fitting[0]
                 taken.add(fitting[0].position)
@@ -112,7 +112,7 @@ _TRAVEL = re.compile(
 )
 
 
-def by_unit(mapped: dict[str, Column], profile: FormatProfile, block: FoundTable) -> str:
+def by_unit(mapped: dict[str, Column], profile: FormatProfile, found_table: FoundTable) -> str:
     """Let the unit decide what a column is where its name says another quantity.
 
     ``Axial Extensometer`` in mm/mm is a strain, ``Strain 1`` in mm an extension. A column whose
@@ -132,19 +132,19 @@ def by_unit(mapped: dict[str, Column], profile: FormatProfile, block: FoundTable
         if unit in ("1", "-") or find_unit(DIMENSION[other], unit) is None or other in mapped:
             continue
         mapped[other] = mapped.pop(quantity)
-        block.notes.append(f"column '{column.name}' in {unit} is read as {other}")
+        found_table.notes.append(f"column '{column.name}' in {unit} is read as {other}")
         if quantity == "displacement" and _TRAVEL.search(normalise(column.name)):
             source = "crosshead"
     return source
 
 
 def _several(
-    path: Path, block: FoundTable, quantity: str, name: str, fitting: Sequence[Column]
+    path: Path, found_table: FoundTable, quantity: str, name: str, fitting: Sequence[Column]
 ) -> InputError:
     choices = ", ".join(f"'{column.name}' (number {column.position + 1})" for column in fitting)
     return InputError(
         f"'{name}' fits several columns for {quantity}: {choices}",
         "name the right one exactly in a profile",
         path,
-        None if block.names_row is None else block.names_row + 1,
+        None if found_table.names_row is None else found_table.names_row + 1,
     )

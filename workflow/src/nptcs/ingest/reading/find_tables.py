@@ -31,20 +31,24 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
     unnamed : str
         Where surplus columns without a name stand (`FormatProfile.unnamed_columns`).
     """
-    blocks = [block for block in _runs(source) if len(block.rows_of_data) >= SMALLEST_TABLE]
-    for number, block in enumerate(blocks, 1):
-        block.part = str(number)
-        _refuse_broken(source, block, path)
-        _trim(source, block, path)
-        above = _rows_above(source, block)
-        describe_columns(block, above, unnamed)
-        _settle_unnamed(source, block, unnamed, path)
-        _settle_clocks(source, block, path)
-    return blocks
+    found_tables = [
+        found_table
+        for found_table in _runs(source)
+        if len(found_table.rows_of_data) >= SMALLEST_TABLE
+    ]
+    for number, found_table in enumerate(found_tables, 1):
+        found_table.part = str(number)
+        _refuse_broken(source, found_table, path)
+        _trim(source, found_table, path)
+        above = _rows_above(source, found_table)
+        describe_columns(found_table, above, unnamed)
+        _settle_unnamed(source, found_table, unnamed, path)
+        _settle_clocks(source, found_table, path)
+    return found_tables
 
 
-def _refuse_broken(source: CellSource, block: FoundTable, path: Path) -> None:
-    for row in block.broken:
+def _refuse_broken(source: CellSource, found_table: FoundTable, path: Path) -> None:
+    for row in found_table.broken:
         raise InputError(
             "row inside a table is not one of numbers",
             "correct or delete the row",
@@ -54,28 +58,28 @@ def _refuse_broken(source: CellSource, block: FoundTable, path: Path) -> None:
         )
 
 
-def _settle_unnamed(source: CellSource, block: FoundTable, unnamed: str, path: Path) -> None:
+def _settle_unnamed(source: CellSource, found_table: FoundTable, unnamed: str, path: Path) -> None:
     """Drop phantom columns at the end; a column of numbers without a name is an error."""
-    surplus = block.unnamed_at_end
+    surplus = found_table.unnamed_at_end
     if not surplus or unnamed == "last":
         return
-    first = block.width - surplus
-    for row in block.rows_of_data:
+    first = found_table.width - surplus
+    for row in found_table.rows_of_data:
         if any(source.cells(row)[first:]):
             raise InputError(
-                f"{block.width} columns, but {first} names: it is open which has none",
+                f"{found_table.width} columns, but {first} names: it is open which has none",
                 "state unnamed_columns (first or last) in a profile",
                 path,
                 row + 1,
             )
-    block.columns = block.columns[:first]
-    block.notes.append(f"{surplus} phantom column(s) without name and values left out")
+    found_table.columns = found_table.columns[:first]
+    found_table.notes.append(f"{surplus} phantom column(s) without name and values left out")
 
 
-def _settle_clocks(source: CellSource, block: FoundTable, path: Path) -> None:
+def _settle_clocks(source: CellSource, found_table: FoundTable, path: Path) -> None:
     """Mark columns of times of day; a time of day in some rows only is an error."""
-    positions = source.clock_columns(block.first)
-    odd = source.odd_clock_row(block)
+    positions = source.clock_columns(found_table.first)
+    odd = source.odd_clock_row(found_table)
     if odd is not None:
         raise InputError(
             "a time of day stands in some rows of the table only",
@@ -84,10 +88,10 @@ def _settle_clocks(source: CellSource, block: FoundTable, path: Path) -> None:
             odd + 1,
             value=" | ".join(source.cells(odd))[:80],
         )
-    for column in block.columns:
+    for column in found_table.columns:
         if column.position in positions:
             column.unit, column.clock = "s", True
-            block.notes.append(f"column {column.position + 1} is a time of day, read in s")
+            found_table.notes.append(f"column {column.position + 1} is a time of day, read in s")
 
 
 def _runs(source: CellSource) -> list[FoundTable]:
@@ -125,32 +129,32 @@ def _note_end(source: CellSource, runs: list[FoundTable], gap: list[int]) -> Non
         runs[-1].notes.append(f"the table ends above line {row + 1}: {text[:60]!r}")
 
 
-def _continues(source: CellSource, block: FoundTable, gap: list[int], width: int) -> bool:
+def _continues(source: CellSource, found_table: FoundTable, gap: list[int], width: int) -> bool:
     """Tell whether the table goes on after the rows of `gap`."""
     kinds = [source.kinds[row] for row in gap]
     if "names" in kinds:
         return False
-    return "other" not in kinds or abs(width - block.width) <= 1
+    return "other" not in kinds or abs(width - found_table.width) <= 1
 
 
-def _note_gap(source: CellSource, block: FoundTable, gap: list[int]) -> None:
+def _note_gap(source: CellSource, found_table: FoundTable, gap: list[int]) -> None:
     for row in gap:
         kind = source.kinds[row]
         if kind == "other":
-            block.broken.append(row)
+            found_table.broken.append(row)
         if kind == "remark":
             text = " ".join(cell for cell in source.cells(row) if cell)
-            block.notes.append(f"line {row + 1} is a remark: {text[:60]!r}")
+            found_table.notes.append(f"line {row + 1} is a remark: {text[:60]!r}")
 
 
-def _trim(source: CellSource, block: FoundTable, path: Path) -> None:
+def _trim(source: CellSource, found_table: FoundTable, path: Path) -> None:
     """Refuse rows that lack cells in the middle; drop a last line that was cut off."""
     widths = source.widths
-    lengths = [widths[row] for row in block.rows_of_data]
+    lengths = [widths[row] for row in found_table.rows_of_data]
     if len(lengths) > 1 and lengths[-1] < lengths[-2]:
-        row = block.rows_of_data.pop()
+        row = found_table.rows_of_data.pop()
         lengths.pop()
-        block.notes.append(f"line {row + 1}, the last, is cut off and was dropped")
+        found_table.notes.append(f"line {row + 1}, the last, is cut off and was dropped")
     if len(set(lengths)) <= 1:
         return
     for index in range(1, len(lengths)):
@@ -159,14 +163,14 @@ def _trim(source: CellSource, block: FoundTable, path: Path) -> None:
                 f"row has {lengths[index - 1]} cells, the next one {lengths[index]}",
                 "complete or delete the row",
                 path,
-                block.rows_of_data[index - 1] + 1,
+                found_table.rows_of_data[index - 1] + 1,
             )
 
 
-def _rows_above(source: CellSource, block: FoundTable) -> list[tuple[int, list[str]]]:
+def _rows_above(source: CellSource, found_table: FoundTable) -> list[tuple[int, list[str]]]:
     """Collect the filled rows above a table, nearest first; in a text a blank row ends it."""
     found: list[tuple[int, list[str]]] = []
-    for row in range(block.first - 1, max(block.first - 8, -1), -1):
+    for row in range(found_table.first - 1, max(found_table.first - 8, -1), -1):
         kind = source.kinds[row]
         if kind in DATA or len(found) == _ROWS_ABOVE:
             break
@@ -175,7 +179,7 @@ def _rows_above(source: CellSource, block: FoundTable) -> list[tuple[int, list[s
                 break
             continue
         cells = (
-            source.header_cells(row, block.width)
+            source.header_cells(row, found_table.width)
             if isinstance(source, TextSource)
             else source.cells(row)
         )

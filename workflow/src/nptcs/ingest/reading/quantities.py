@@ -34,7 +34,7 @@ class Test:
 
     label: str
     source: CellSource
-    block: FoundTable
+    found_table: FoundTable
     quantities: dict[str, Column]
     strain_source: str = ""
     """``crosshead`` where the strain is a travel in a unit of strain."""
@@ -46,7 +46,7 @@ class Test:
 
 def tests_in(
     source: CellSource,
-    blocks: Sequence[FoundTable],
+    found_tables: Sequence[FoundTable],
     profile: FormatProfile,
     path: Path,
     plain: FormatProfile | None,
@@ -56,30 +56,34 @@ def tests_in(
     Where the profile's own names leave load or strain open, those of `plain` are tried.
     """
     found: list[Test] = []
-    for block in blocks:
-        label = block.part if not source.part else source.part
-        if source.part and len(blocks) > 1:
-            label = f"{source.part}/{block.part}"
-        groups = _groups(block, profile)
+    for found_table in found_tables:
+        label = found_table.part if not source.part else source.part
+        if source.part and len(found_tables) > 1:
+            label = f"{source.part}/{found_table.part}"
+        groups = _groups(found_table, profile)
         for group in groups or [""]:
             columns = [
                 column
-                for column, part in zip(block.columns, repeated_columns(block.columns), strict=True)
+                for column, part in zip(
+                    found_table.columns, repeated_columns(found_table.columns), strict=True
+                )
                 if not groups or part in ("", group)
             ]
-            name = label if not group else group if len(blocks) == 1 else f"{label}/{group}"
-            quantities = map_columns(columns, profile, path, block, plain)
-            strain_source = by_unit(quantities, profile, block)
-            found.append(Test(name, source, block, quantities, strain_source))
+            name = label if not group else group if len(found_tables) == 1 else f"{label}/{group}"
+            quantities = map_columns(columns, profile, path, found_table, plain)
+            strain_source = by_unit(quantities, profile, found_table)
+            found.append(Test(name, source, found_table, quantities, strain_source))
     return found
 
 
-def _groups(block: FoundTable, profile: FormatProfile) -> list[str]:
+def _groups(found_table: FoundTable, profile: FormatProfile) -> list[str]:
     """Parts of columns that repeat a name the profile knows; empty if there is one test."""
     known = [name for names in profile.columns.values() for name in names]
     parts = [
         part
-        for column, part in zip(block.columns, repeated_columns(block.columns), strict=True)
+        for column, part in zip(
+            found_table.columns, repeated_columns(found_table.columns), strict=True
+        )
         if part and any(name_matches(column.name, name) for name in known)
     ]
     return list(dict.fromkeys(parts))
@@ -123,16 +127,16 @@ def choose_test(
 
 def _refuse_continuation(chosen: Test, tests: Sequence[Test], path: Path) -> None:
     """Stop if a table like the chosen one follows under something that is no header."""
-    block = chosen.block
+    found_table = chosen.found_table
     for test in tests:
-        other = test.block
-        same = test.source is chosen.source and other.width == block.width
-        if same and other.first >= block.last:
+        other = test.found_table
+        same = test.source is chosen.source and other.width == found_table.width
+        if same and other.first >= found_table.last:
             raise InputError(
                 f"the table seems to go on in line {other.first + 1}, under other names",
                 f"correct the file, or name '{chosen.label}' as force_part or strain_part",
                 path,
-                block.last + 1,
+                found_table.last + 1,
             )
 
 
@@ -141,21 +145,21 @@ def _is_part(label: str, part: str) -> bool:
 
 
 def _nothing(tests: Sequence[Test], role: str, path: Path, profile: FormatProfile) -> InputError:
-    largest = max(tests, key=lambda test: len(test.block.rows_of_data), default=None)
+    largest = max(tests, key=lambda test: len(test.found_table.rows_of_data), default=None)
     if largest is None:
         return InputError("no table of five rows or more", "export the raw data", path)
-    names = [column.name for column in largest.block.columns if column.name]
+    names = [column.name for column in largest.found_table.columns if column.name]
     if not names:
         return InputError(
-            f"the table of {largest.block.width} columns has no names",
+            f"the table of {largest.found_table.width} columns has no names",
             "write a profile with columns_in_order and units, name it in the sheet",
             path,
-            largest.block.first + 1,
+            largest.found_table.first + 1,
         )
     missing = [needed for needed in NEEDS[role] if not set(needed) & set(largest.quantities)]
     wanted = " and ".join("one of " + ", ".join(needed) for needed in missing)
     found = ", ".join(f"'{name}'" for name in names)
-    row = largest.block.names_row
+    row = largest.found_table.names_row
     return InputError(
         f"no column for {wanted} by profile '{profile.name}'; columns: {found}",
         "name another profile in the sheet, or write one: nptcs inspect FILE --write-profile",

@@ -199,8 +199,8 @@ def _read(
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     values, units, notes = _values(test, profile, path, role)
-    block = test.block
-    refuse_larger(path, "columns", block.width, opened.largest_width, "columns")
+    found_table = test.found_table
+    refuse_larger(path, "columns", found_table.width, opened.largest_width, "columns")
     return RawFile(
         path,
         profile,
@@ -214,12 +214,12 @@ def _read(
         encoding=opened.encoding,
         delimiter="" if dialect is None else dialect.delimiter,
         decimal="" if dialect is None else dialect.decimal,
-        header_line=None if block.names_row is None else block.names_row + 1,
-        first_line=block.first + 1,
+        header_line=None if found_table.names_row is None else found_table.names_row + 1,
+        first_line=found_table.first + 1,
         labels=header_labels(test, profile, dialect),
         head=head_lines(test),
-        names=tuple(column.name for column in block.columns if column.name),
-        notes=(*reasons, *opened.notes, *block.notes, *notes),
+        names=tuple(column.name for column in found_table.columns if column.name),
+        notes=(*reasons, *opened.notes, *found_table.notes, *notes),
     )
 
 
@@ -228,8 +228,12 @@ def _values(
 ) -> tuple[dict[str, Array], dict[str, str], list[str]]:
     """Read the mapped columns and bring them to base units; rows without any load are left."""
     quantities = test.quantities
-    line = (test.block.names_row if test.block.names_row is not None else test.block.first) + 1
-    stated = any(column.unit for column in test.block.columns)
+    line = (
+        test.found_table.names_row
+        if test.found_table.names_row is not None
+        else test.found_table.first
+    ) + 1
+    stated = any(column.unit for column in test.found_table.columns)
     units, scales, notes = {}, [], []
     if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
         quantities = {name: column for name, column in quantities.items() if name != "time"}
@@ -245,7 +249,7 @@ def _values(
         scales.append(scale)
         notes += [note] if note else []
     positions = [column.position for column in quantities.values()]
-    numbers = test.source.numbers(test.block, positions) * np.array(scales)
+    numbers = test.source.numbers(test.found_table, positions) * np.array(scales)
     filled = ~np.isnan(numbers).all(axis=1)
     if not filled.all():
         notes.append(f"{int((~filled).sum())} rows hold no number in these columns")
@@ -259,7 +263,11 @@ def _has_unit(quantity: Quantity, test: Test, profile: FormatProfile) -> bool:
 
 def head_lines(test: Test) -> tuple[str, ...]:
     """Return the filled lines above the names, at most `HEAD_LINES`, and the name of the sheet."""
-    last = test.block.names_row if test.block.names_row is not None else test.block.first
+    last = (
+        test.found_table.names_row
+        if test.found_table.names_row is not None
+        else test.found_table.first
+    )
     rows = (test.source.cells(row) for row in range(max(0, last - HEAD_LINES), last))
     lines = (" ".join(cell for cell in cells if cell) for cells in rows)
     return tuple(line for line in (test.source.part, *lines) if line)
@@ -269,7 +277,11 @@ def header_labels(
     test: Test, profile: FormatProfile, dialect: Dialect | None
 ) -> dict[str, LabelValue]:
     """Header entries; in a text the header may use another delimiter than the table."""
-    last = test.block.names_row if test.block.names_row is not None else test.block.first
+    last = (
+        test.found_table.names_row
+        if test.found_table.names_row is not None
+        else test.found_table.first
+    )
     if dialect is None:
         rows = [test.source.cells(row) for row in range(last)]
         return read_labels(rows, profile, Dialect("\t", "."))

@@ -57,27 +57,30 @@ class SheetSource:
         """Positions of the cells of a row that were a time of day."""
         return [place for place, cell in enumerate(self.rows[row]) if isinstance(cell, Clock)]
 
-    def odd_clock_row(self, block: FoundTable) -> int | None:
+    def odd_clock_row(self, found_table: FoundTable) -> int | None:
         """Leave it to the cells of the columns that are needed: each knows its own type."""
         return None
 
-    def numbers(self, block: FoundTable, positions: Sequence[int]) -> Array:
-        """Columns of a block as numbers; a cell that is none raises with its place."""
+    def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
+        """Columns of a table as numbers; a cell that is none raises with its place."""
         values = [
-            [self._number(block, row, position) for position in positions]
-            for row in block.rows_of_data
+            [self._number(found_table, row, position) for position in positions]
+            for row in found_table.rows_of_data
         ]
         return np.array(values, dtype=np.float64)
 
-    def _number(self, block: FoundTable, row: int, position: int) -> float:
+    def _number(self, found_table: FoundTable, row: int, position: int) -> float:
         cell = self.rows[row][position] if position < len(self.rows[row]) else None
-        if _is_native_number(cell) and isinstance(cell, Clock) == block.columns[position].clock:
+        if (
+            _is_native_number(cell)
+            and isinstance(cell, Clock) == found_table.columns[position].clock
+        ):
             return float(cell)  # type: ignore[arg-type]
         text = _text(cell)
         if cell == FORMULA:
+            name = found_table.columns[position].name or position + 1
             raise InputError(
-                f"sheet '{self.part}': column {block.columns[position].name or position + 1} holds "
-                "formulas without stored values",
+                f"sheet '{self.part}': column {name} holds formulas without stored values",
                 "open and save it in a spreadsheet",
                 self.path,
                 row + 1,
@@ -89,7 +92,7 @@ class SheetSource:
             "store numbers as numbers, not as text or dates",
             self.path,
             row + 1,
-            block.columns[position].name or f"number {position + 1}",
+            found_table.columns[position].name or f"number {position + 1}",
             value=text,
         )
 

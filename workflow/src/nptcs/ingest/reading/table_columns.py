@@ -43,13 +43,13 @@ class FoundTable:
 
 
 def describe_columns(
-    block: FoundTable, above: Sequence[tuple[int, list[str]]], unnamed: str
+    found_table: FoundTable, above: Sequence[tuple[int, list[str]]], unnamed: str
 ) -> None:
-    """Find names, units and groups in the rows above a table and note them in `block`.
+    """Find names, units and groups in the rows above a table and note them in `found_table`.
 
     Parameters
     ----------
-    block : FoundTable
+    found_table : FoundTable
         Gets ``columns``, ``names_row`` and ``notes``.
     above : sequence of (int, list of str)
         The filled rows above it with their numbers, nearest first; three are enough.
@@ -58,21 +58,22 @@ def describe_columns(
     """
     rows = list(above)
     units: list[str] = []
-    if rows and _is_unit_row(rows[0][1], block.width):
+    if rows and _is_unit_row(rows[0][1], found_table.width):
         units = rows.pop(0)[1]
     if not rows or not _is_names_row(rows[0][1]):
-        block.columns = [
-            Column(position, "", _cell(units, position) or None) for position in range(block.width)
+        found_table.columns = [
+            Column(position, "", _cell(units, position) or None)
+            for position in range(found_table.width)
         ]
         return
-    block.names_row, names = rows.pop(0)
-    shift = _shift(block, names, unnamed)
+    found_table.names_row, names = rows.pop(0)
+    shift = _shift(found_table, names, unnamed)
     groups = _groups(rows[0][1], len(names)) if rows else []
-    for position in range(block.width):
+    for position in range(found_table.width):
         text = _cell(names, position - shift)
         name, unit = split_unit(text)
         unit = _cell(units, position - shift) or unit
-        block.columns.append(Column(position, name, unit, _cell(groups, position - shift)))
+        found_table.columns.append(Column(position, name, unit, _cell(groups, position - shift)))
 
 
 def _cell(cells: Sequence[str], position: int) -> str:
@@ -89,16 +90,16 @@ def _is_names_row(cells: list[str]) -> bool:
     return any(any(letter.isalpha() or letter == "%" for letter in cell) for cell in cells)
 
 
-def _shift(block: FoundTable, names: list[str], unnamed: str) -> int:
+def _shift(found_table: FoundTable, names: list[str], unnamed: str) -> int:
     """How many columns stand unnamed before the first name."""
     while names and not names[-1].strip():
         names.pop()
-    surplus = block.width - len(names)
+    surplus = found_table.width - len(names)
     if surplus <= 0:
         return 0
     if unnamed == "first":
         return surplus
-    block.unnamed_at_end = surplus
+    found_table.unnamed_at_end = surplus
     return 0
 
 
