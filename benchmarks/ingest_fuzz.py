@@ -193,7 +193,7 @@ def judge(content: bytes, base: Base, table: RawFile) -> str | None:
         positions[quantity] = position
     for quantity, position in positions.items():
         if not unit_is_stated(table, quantity, position, lines):
-            return f"{quantity}: unit '{table.units[quantity]}' does not stand in the header"
+            return f"{quantity}: unit '{table.units[quantity]}' is not in the header"
     rows = strict_rows(lines[wanted:], table, positions)
     if isinstance(rows, str):
         return rows
@@ -209,7 +209,7 @@ def cells_of(line: str, delimiter: str) -> list[str]:
 
 
 def position_of(table: RawFile, quantity: str, names: list[bytes], base: Base) -> int | None:
-    """Column of a quantity: where the name that the package reports stands in the header."""
+    """Column of a quantity: where the name that the package reports is in the header."""
     reported = table.columns[quantity]
     for position, name in enumerate(names):
         for encoding in (table.encoding.replace(" (damaged)", ""), "cp1252", "utf-8"):
@@ -220,7 +220,7 @@ def position_of(table: RawFile, quantity: str, names: list[bytes], base: Base) -
 
 
 def unit_is_stated(table: RawFile, quantity: str, position: int, lines: list[str]) -> bool:
-    """Tell whether a unit stands in the name or below it, or in the profile."""
+    """Tell whether a unit is in the name or below it, or in the profile."""
     unit, declared = table.units[quantity], table.profile.units.get(quantity)  # type: ignore[call-overload]
     if not unit or unit == declared:
         return True
@@ -233,7 +233,7 @@ def unit_is_stated(table: RawFile, quantity: str, position: int, lines: list[str
 
 
 def same_name(text: str, reported: str) -> bool:
-    """Equal but for what stands in brackets, quotes, blanks, or behind an underscore."""
+    """Equal but for what is in brackets, quotes, blanks, or behind an underscore."""
 
     def bare(name: str) -> str:
         name = re.sub(r"\[[^\]]*\]|\([^)]*\)|（[^）]*）|<[^>]*>", "", name)
@@ -275,7 +275,7 @@ def strict_rows(
             elif not any(line.strip() for line in lines[offset + 1 :]):
                 return rows  # the last line is cut off
             else:
-                return f"line {offset}: '{cell}' is no number, and the package read on"
+                return f"line {offset}: '{cell}' is not a number, and the package read on"
         rows.append(values)
         widths.append(len(cells))
     if len(widths) > 1 and widths[-1] < widths[-2]:

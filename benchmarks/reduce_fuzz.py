@@ -127,7 +127,7 @@ def faults(truth: Truth, table: pd.DataFrame) -> list[str]:
         given, needs = np.isfinite(value[name]), name != "modulus"
         if given and abs(value[name] / true - 1) > tolerance:
             found.append(f"{name} {value[name]:.5g}, truth {true:.5g}")
-        # a gauge that was taken off stands for a test to failure; the value says so
+        # a gauge that was taken off counts as a test to failure; the value says so
         if given and needs and not truth.broke and not truth.gauge_off:
             found.append(f"{name} {value[name]:.5g} of a specimen that did not fail")
         if not given and needs and truth.broke and not truth.gauge_off:

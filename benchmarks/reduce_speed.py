@@ -1,4 +1,4 @@
-"""What reduction and calibration cost beside reading the same curve from a CSV file.
+"""What reduction and calibration cost, compared with reading the same curve from a CSV file.
 
 ``python benchmarks/reduce_speed.py [ROWS]`` takes one tension and one rubber curve of that many
 rows (10,000 by default) and prints the median time of each step of 15 runs, side by side in one

@@ -15,7 +15,7 @@ ROOMS = sorted(path for path in PACKAGE.rglob("__init__.py") if path.parent != P
 
 
 def test_no_room_imports_from_above_and_there_is_no_circle():
-    """The contracts stand in pyproject.toml."""
+    """The contracts are in pyproject.toml."""
     assert cli.lint_imports(str(ROOT / "pyproject.toml"), no_cache=True) == cli.EXIT_STATUS_SUCCESS
 
 

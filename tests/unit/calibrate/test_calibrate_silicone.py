@@ -1,4 +1,4 @@
-"""Published shear moduli of two silicones; the files lie beside the repository."""
+"""Published shear moduli of two silicones; the files are next to the repository."""
 
 from pathlib import Path
 
@@ -17,7 +17,7 @@ SILICONE = Path(__file__).resolve().parents[3] / ".." / "shared" / "labdata" / "
 def test_shear_modulus_below_100_percent(name: str, kpa: float) -> None:
     path = SILICONE / f"{name}.csv"
     if not path.exists():
-        pytest.skip("the laboratory files are not beside this repository (shared/labdata)")
+        pytest.skip("the laboratory files are not next to this repository (shared/labdata)")
     raw = pd.read_csv(path, sep=";", skiprows=18, header=None, encoding="latin-1")
     strain, stress = raw[3].to_numpy(float), raw[4].to_numpy(float)
     inside = strain <= 1.0

@@ -237,7 +237,7 @@ def test_equibiaxial_compression_is_uniaxial_tension_by_another_name() -> None:
 def read_treloar(name: str) -> tuple[Any, Any]:
     file = LABDATA / "rubber-treloar" / name / "stress_stretch.txt"
     if not file.exists():
-        pytest.skip("Treloar's data are not beside this repository (shared/labdata)")
+        pytest.skip("Treloar's data are not next to this repository (shared/labdata)")
     stress, stretch = np.loadtxt(file).T
     return stretch, stress
 

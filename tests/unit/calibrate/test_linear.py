@@ -33,7 +33,7 @@ POLYNOMIALS = {"pontius", "filip", *(f"wampler{i}" for i in range(1, 6))}
 
 def nist(name: str) -> tuple[Any, Any, Any, float]:
     if not NIST.exists():
-        pytest.skip("NIST's regression sets are not beside this repository (shared/labdata)")
+        pytest.skip("NIST's regression sets are not next to this repository (shared/labdata)")
     exact = pd.read_csv(NIST / "exact_rational_LS.csv")
     exact = exact[exact["set"] == name].set_index("param")["exact_LS_value"]
     deviation = float(exact.pop("resid_sd"))

@@ -147,7 +147,7 @@ def read_blocks(text: str) -> list[ElementGroup]:
             blocks[-1].data.append(entries)
             continue
         keyword, *rest = [word.strip() for word in line[1:].split(",")]
-        assert keyword in LEVELS, f"line {number}: *{keyword} is no keyword of the list"
+        assert keyword in LEVELS, f"line {number}: *{keyword} is not a keyword of the list"
         level = stack[-1]
         assert level in LEVELS[keyword], f"line {number}: *{keyword} at level {level}"
         if keyword in AFTER:

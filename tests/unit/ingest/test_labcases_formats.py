@@ -277,7 +277,7 @@ def test_a_clock_in_one_row_only_is_refused(lab, tmp_path):
     cells = lines[10].split(",")
     lines[10] = ",".join([cells[0], "10:30:00", cells[2]])
     (tmp_path / "a.csv").write_text("\n".join(lines))
-    with pytest.raises(InputError, match="time of day stands in some rows"):
+    with pytest.raises(InputError, match="only some rows of the table have a time"):
         lab.ingest(tmp_path, "a.csv")
 
 

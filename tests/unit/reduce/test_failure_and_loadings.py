@@ -1,6 +1,6 @@
 """What a test shows and what it does not: stopped tests, cyclic tests, breaks, runs of one piece.
 
-The labcases are the smallest inputs that once went wrong; beside each lie inputs of the same kind.
+The labcases are the smallest inputs that once went wrong; next to each are inputs of the same kind.
 """
 
 from collections.abc import Callable

@@ -1,4 +1,4 @@
-"""Published answers of real files; the files lie beside the repository, not in it."""
+"""Published answers of real files; the files are next to the repository, not in it."""
 
 from collections.abc import Callable
 from functools import partial
@@ -28,7 +28,7 @@ EPOXY = [
 def labdata(*parts: str) -> Path:
     path = LABDATA.joinpath(*parts)
     if not path.exists():
-        pytest.skip("the laboratory files are not beside this repository (shared/labdata)")
+        pytest.skip("the laboratory files are not next to this repository (shared/labdata)")
     return path
 
 

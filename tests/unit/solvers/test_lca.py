@@ -80,7 +80,7 @@ def test_printed_section_is_an_option():
 def test_stiffness_is_interpolated_in_c10_and_grows_with_it():
     stiffness = [SOLVER.solve(inputs(c)).vertical_stiffness_n_per_mm for c in (1.0, 1.5, 2.0, 2.9)]
     assert stiffness == sorted(stiffness)
-    # the table's own values stand at its own rows
+    # the table gives its own values at its own rows
     assert stiffness[2] == pytest.approx(350.198760, rel=1e-8)
 
 

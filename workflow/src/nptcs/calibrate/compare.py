@@ -1,4 +1,4 @@
-"""Tables beside the card: other models on the same points, and C10 against the range."""
+"""Tables next to the card: other models on the same points, and C10 against the range."""
 
 from __future__ import annotations
 
@@ -168,7 +168,7 @@ def _range_rows(
     strain_range: tuple[float, float],
     origins: Mapping[str, Origin],
 ) -> list[dict[str, object]]:
-    """Rows of one range: a row a specimen, and one for those that reach its end."""
+    """Rows of one range: one row per specimen, and one for those that reach its end."""
     rows, together = [], []
     for specimen in (s for s in specimens if s.specimen in curves):
         try:

@@ -156,7 +156,7 @@ class EnergyTableOptions(Strict):
     )
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
-        description="States beside β = φ = 0: alternate has one at every second level of the "
+        description="States other than β = φ = 0: alternate has one at every second level of the "
         "elongation, neighbouring rows taking turns; every has all of them, for nearly twice the "
         "time",
     )

@@ -99,11 +99,12 @@ class Study(Strict):
         "polynomials, the lamination form, Gaussian processes",
     )
     published_coefficients: str | None = Field(
-        None, description="CSV with the paper's coefficients (term, coefficient), shown beside ours"
+        None,
+        description="CSV with the paper's coefficients (term, coefficient), shown next to ours",
     )
     published_spoke_stiffness: str | None = Field(
         None,
-        description="CSV with the paper's table 10, shown beside the single spokes of this study; "
+        description="CSV with the paper's table 10, shown next to the single spokes of this study; "
         "the plates are then fixed and spoke_c10_mpa is the only factor",
     )
     calibration_cases: dict[Name, tuple[int, ...]] = Field(

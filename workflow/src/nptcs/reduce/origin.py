@@ -27,7 +27,7 @@ class Origin:
         From the scatter of the readings: of each specimen's own. Where a shift was found and not
         applied because it is not significant, it counts as an error.
     model_error : float
-        From the parabola that stands for the curve above the toe: the same way in all specimens.
+        From the parabola that replaces the curve above the toe: the same way in all specimens.
     """
 
     added: Mapping[str, float] = field(default_factory=dict)

@@ -40,7 +40,7 @@ def group_statistics(
     Returns
     -------
     DataFrame
-        `nptcs.tables.statistics.StatisticsTable`: a row a group, then the pooled rows.
+        `nptcs.tables.statistics.StatisticsTable`: one row per group, then the pooled rows.
 
     Raises
     ------

@@ -1,7 +1,8 @@
 """The ring's matrix: element tangents gathered into diagonals, and its solution.
 
 The matrix of a ring numbered from both of its sides at once is zero far from its diagonal:
-LAPACK's banded factorisation beats a general sparse one there (``docs/decisions/0003-fe-kernel.md``).
+LAPACK's banded factorisation beats a general sparse one there
+(``docs/decisions/0003-fe-kernel.md``).
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""One spoke: mesh, equilibrium, the energy table that stands for it in the tyre, its pull and push.
+"""One spoke: mesh, equilibrium, the energy table that represents it in the tyre, its pull and push.
 
 A `SpokeDesign` comes in, states (`equilibrium`), an energy (`energy_table`) or a force–displacement
 curve (`pull`) goes out. The tyre is not known here.

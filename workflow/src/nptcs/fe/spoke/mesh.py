@@ -38,7 +38,7 @@ class PeriodMesh:
     positions : array (nodes, 3)
         Reference positions, mm.
     rubber, layer, plate : ElementSet
-        Rubber beside the plate's layer, rubber in that layer, and the plate itself.
+        Rubber next to the plate's layer, rubber in that layer, and the plate itself.
     nodes_per_row : int
     plate_axes : array (2, 3, 3)
         Local axes of the plates of the lower and the upper leg, as columns: along the leg, along
@@ -144,7 +144,7 @@ def build_period(
     """
     if pitch_mm <= plate_width_mm:
         raise ValueError(
-            f"a pitch of {pitch_mm:g} mm leaves no rubber beside {plate_width_mm} mm plates"
+            f"a pitch of {pitch_mm:g} mm leaves no rubber between plates {plate_width_mm} mm wide"
         )
     rows, x, has_plate = section_grid(geometry, mesh)
     y = axial_grid(mesh, pitch_mm, plate_width_mm)

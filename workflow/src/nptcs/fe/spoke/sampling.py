@@ -90,7 +90,7 @@ class Grid:
 
 
 def no_correction(place: Place) -> None:
-    """Leave every state to be found from those beside it alone."""
+    """Leave every state to be found from its neighbours alone."""
 
 
 @dataclass

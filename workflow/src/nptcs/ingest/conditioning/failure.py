@@ -51,7 +51,7 @@ def failure_row(force: Array, elongation: Array | None, drop: float) -> int | No
         back = stretch is not None and unloads_along(load, np.abs(stretch), begin, start)
         if not back and _is_failure(stretch, begin, end, peak):
             return int(rows[end])
-        # to the end of the unloading: what is left of it is no fall of its own
+        # to the end of the unloading: what is left of it is not a fall of its own
         start = end
         while start + 1 < len(load) and load[start + 1] <= load[start]:
             start += 1

@@ -142,7 +142,7 @@ def find_reversal(strain: Array, force: Array, share: float, smallest: float) ->
     """First reading from which the strain goes back although the force is higher than ever.
 
     Only readings at which the force exceeds all before count, so that unloading and reloading
-    are no reversal. The strain must lose `share` of what was reached, and `smallest`.
+    are not a reversal. The strain must lose `share` of what was reached, and `smallest`.
     """
     peak = int(np.nanargmax(force))
     rows = np.flatnonzero(~np.isnan(strain[: peak + 1]) & ~np.isnan(force[: peak + 1]))

@@ -167,7 +167,7 @@ def _stated_axis(specimen: Specimen, columns: Mapping[str, str]) -> str | None:
         if wanted in (short, name, normalise(columns[name])):
             return name
     raise InputError(
-        "strain_axis is no strain of the file",
+        "strain_axis is not a strain of the file",
         f"use '{columns['strain_xx']}' or '{columns['strain_yy']}'",
         specimen=specimen.specimen,
         column="strain_axis",

@@ -131,4 +131,4 @@ def _unknown_words(raw: bytes, head: bytes, path: Path) -> Decoded:
     text = raw.decode("utf-8", errors="replace")
     if text.count("\ufffd") > 0.05 * len(text):
         raise InputError("is not text in a known encoding", "state it in a profile", path)
-    return Decoded(text, "utf-8 (damaged)", "bytes that are no text are shown as \ufffd")
+    return Decoded(text, "utf-8 (damaged)", "bytes that are not text are shown as \ufffd")

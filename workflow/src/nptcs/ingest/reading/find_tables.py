@@ -1,4 +1,4 @@
-"""Find the tables of a source: several may stand in one file, with different columns."""
+"""Find the tables of a source: one file may have several, with different columns."""
 
 from __future__ import annotations
 
@@ -82,7 +82,7 @@ def _settle_clocks(source: CellSource, found_table: FoundTable, path: Path) -> N
     odd = source.odd_clock_row(found_table)
     if odd is not None:
         raise InputError(
-            "a time of day stands in some rows of the table only",
+            "only some rows of the table have a time of day",
             "correct the row",
             path,
             odd + 1,

@@ -102,7 +102,7 @@ class FormatProfile(Strict):
         for quantity, unit in [*self.units.items(), *self.wrong_units.items()]:
             if find_unit(DIMENSION[quantity], unit) is None:
                 choices = ", ".join(FACTORS[DIMENSION[quantity]])
-                raise ValueError(f"{unit!r} is no unit of {quantity}; use one of {choices}")
+                raise ValueError(f"{unit!r} is not a unit of {quantity}; use one of {choices}")
         if self.thousands and (not self.decimal or self.thousands == self.decimal):
             raise ValueError("a thousands mark needs a declared, different decimal mark")
         if self.delimiter and self.delimiter == self.decimal:

@@ -189,7 +189,7 @@ def unit_of(
     elif not column.unit and unit:
         note = f"{quantity}: no unit in the file, '{unit}' by profile '{profile.name}'"
     elif not unit and units_stated and DIMENSION[quantity] in ("strain", "stretch"):
-        unit, note = "1", f"{quantity}: no unit beside stated ones, taken as dimensionless"
+        unit, note = "1", f"{quantity}: no unit where others are stated, taken as dimensionless"
     if not unit:
         raise InputError(
             f"no unit for {quantity}",
