@@ -310,7 +310,7 @@ def test_specimen_id_from_a_file_name(name, expected):
     ("text", "message"),
     [
         ("name: x\ntitle: t\ncolums: {}\n", "colums"),
-        ("name: x\ntitle: t\nunits: {force: kpp}\n", "no unit of force"),
+        ("name: x\ntitle: t\nunits: {force: kpp}\n", "not a unit of force"),
         ("name: x\ntitle: t\nsignature: ['(']\n", "expression"),
         ("name: x\ntitle: t\nthousands: ','\n", "thousands"),
         ("name: x\ntitle: t\ndelimiter: ','\ndecimal: ','\n", "same"),
