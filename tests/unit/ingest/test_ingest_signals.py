@@ -65,7 +65,7 @@ def test_strains_too_alike_need_a_stated_axis(coupon):
 
 
 def test_unknown_axis_is_refused(coupon):
-    with pytest.raises(InputError, match="no strain of the file"):
+    with pytest.raises(InputError, match="not a strain of the file"):
         resolve(coupon(strain_axis="ezz"), strain_xx=1e-5 * FORCE, strain_yy=-3e-6 * FORCE)
 
 
