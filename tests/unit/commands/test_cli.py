@@ -30,7 +30,7 @@ def test_check_says_what_is_planned(project, capsys):
     assert main(["check"]) == 0
     printed = capsys.readouterr().out
     assert "study plate: 63 cases (full_factorial)" in printed
-    assert "fe_tyre_paper: 63 cases, time not known" in printed
+    assert "fe_tyre_paper: known cases are counted once the materials are calibrated" in printed
     assert "study rubber: 15 cases (full_factorial)" in printed
 
 

@@ -112,7 +112,9 @@ def test_a_neutral_line_runs_once_around_from_the_top():
 
 def test_only_named_cases_with_a_shape_are_gathered():
     line = neutral_line_columns([-90.0, 0.0, 90.0], [1.0, -9.0, 1.0], [0.0, 0.0, 0.0])
-    solved = SolverResult(status="ok", neutral_line=line)
+    solved = SolverResult(
+        status="ok", neutral_line=line, vertical_stiffness_n_per_mm=260.0, displacement_mm=19.2
+    )
     records = [
         record(solved, case_id=case_id, solver=solver, load_n=5000.0)
         for case_id, solver in (("r_001", "lca"), ("r_002", "lca"), ("r_002", "fe_tyre"))

@@ -46,7 +46,7 @@ def test_law_is_monotone_passes_its_points_and_has_its_own_slope(steps, left):
 @pytest.mark.parametrize(
     ("elongation", "force", "text"),
     [
-        ([-1, 0, 1], [-1, 0], "equally long"),
+        ([-1, 0, 1], [-1, 0], "of equal length"),
         ([-1, 0, 1], [-1, 0, np.nan], "finite numbers"),
         ([-1, 0, 0, 1], [-1, 0, 0, 1], "must increase"),
         ([-2, -1, 0, 1], [-1, -2, 0, 1], "must increase"),

@@ -174,6 +174,17 @@ def fit(
     ------
     InputError
         As `fit_points`, and for terms that cannot be read.
+
+    Examples
+    --------
+    >>> import pandas as pd
+    >>> design = pd.DataFrame({"spacing_mm": [10.0, 12.5, 15.0, 17.5, 20.0]})
+    >>> stiffness = 300 - 2 * design["spacing_mm"] + 0.1 * design["spacing_mm"] ** 2
+    >>> surface = fit(design, stiffness, ["spacing_mm"], ["1", "spacing_mm", "spacing_mm^2"])
+    >>> surface.coefficients_natural.astype(float).round(6).tolist()
+    [300.0, -2.0, 0.1]
+    >>> surface.predict(np.array([[16.0]])).astype(float).round(6).tolist()
+    [293.6]
     """
     polynomial = parse(terms, factors, through_origin)
     x = design[list(factors)].to_numpy(float)
@@ -191,17 +202,6 @@ def fit_points(x: Array, y: Array, polynomial: Polynomial, through_origin: bool 
         When there are no more cases than terms, when the response has gaps or does not vary, or
         when the design cannot tell terms apart: the aliased terms are named, never fitted by a
         minimum-norm solution.
-
-    Examples
-    --------
-    >>> import pandas as pd
-    >>> design = pd.DataFrame({"spacing_mm": [10.0, 12.5, 15.0, 17.5, 20.0]})
-    >>> stiffness = 300 - 2 * design["spacing_mm"] + 0.1 * design["spacing_mm"] ** 2
-    >>> surface = fit(design, stiffness, ["spacing_mm"], ["1", "spacing_mm", "spacing_mm^2"])
-    >>> surface.coefficients_natural.astype(float).round(6).tolist()
-    [300.0, -2.0, 0.1]
-    >>> surface.predict(np.array([[16.0]])).astype(float).round(6).tolist()
-    [293.6]
     """
     refuse_unusable(x, y, polynomial.factors, len(polynomial))
     centre, half = (least_squares.widened(side) for side in coding(x, through_origin))

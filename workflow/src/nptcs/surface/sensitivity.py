@@ -46,7 +46,7 @@ def impact(surface: Surface, rule: AveragingRule) -> pd.DataFrame:
     >>> from nptcs.surface.fit import fit
     >>> design = pd.DataFrame(product([0.0, 2.0, 4.0], [1.0, 2.0]), columns=["a", "b"])
     >>> surface = fit(design, 2 * design["a"], ["a", "b"], ["1", "a", "b"])
-    >>> table = impact(surface, design, "domain_mean_absolute").round(6)
+    >>> table = impact(surface, "domain_mean_absolute").round(6)
     >>> print(table[["factor", "gradient", "range", "impact"]].to_string(index=False))
     factor  gradient  range  impact
          a       2.0    4.0     8.0

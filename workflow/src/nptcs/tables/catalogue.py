@@ -149,7 +149,7 @@ TABLES: dict[str, ResultTable] = {
         "surface, sensitivity",
         "the same surfaces; direction over a grid in the box of the cases",
         section=ReportSection.SURFACES,
-        headings=headings.COMPARISON,
+        headings=headings.BY_FACTOR,
         synthetic=SyntheticBy.STUDIES,
     ),
     "surface_tests.csv": ResultTable(
@@ -158,7 +158,7 @@ TABLES: dict[str, ResultTable] = {
         "diagnostics",
         "the polynomials of equations 21 and 22, or those configured; coded coefficients",
         section=ReportSection.SURFACES,
-        headings=headings.DIAGNOSTICS,
+        headings=headings.of(headings.DIAGNOSTICS, SurfaceTests),
         synthetic=SyntheticBy.STUDIES,
     ),
     "surface_anova.csv": ResultTable(
@@ -167,7 +167,7 @@ TABLES: dict[str, ResultTable] = {
         "diagnostics",
         "the polynomials and the cases that they were fitted to",
         section=ReportSection.SURFACES,
-        headings=headings.DIAGNOSTICS,
+        headings=headings.of(headings.DIAGNOSTICS, SurfaceAnova),
         synthetic=SyntheticBy.STUDIES,
     ),
     "surface_influence.csv": ResultTable(
@@ -176,7 +176,7 @@ TABLES: dict[str, ResultTable] = {
         "diagnostics",
         "the polynomials and the cases that they were fitted to",
         section=ReportSection.SURFACES,
-        headings=headings.DIAGNOSTICS,
+        headings=headings.of(headings.DIAGNOSTICS, SurfaceInfluence),
         synthetic=SyntheticBy.STUDIES,
     ),
     "surface_stationary.csv": ResultTable(
@@ -185,7 +185,7 @@ TABLES: dict[str, ResultTable] = {
         "diagnostics",
         "the polynomials; paths on spheres about the centre in coded units",
         section=ReportSection.SURFACES,
-        headings=headings.DIAGNOSTICS,
+        headings=headings.of(headings.DIAGNOSTICS, SurfaceStationary),
         synthetic=SyntheticBy.STUDIES,
     ),
     "surface_selection.csv": ResultTable(
@@ -194,7 +194,7 @@ TABLES: dict[str, ResultTable] = {
         "diagnostics",
         "the polynomials' terms; only a term that no other one needs may go",
         section=ReportSection.SURFACES,
-        headings=headings.DIAGNOSTICS,
+        headings=headings.of(headings.DIAGNOSTICS, SurfaceSelection),
         synthetic=SyntheticBy.STUDIES,
     ),
     "impact.csv": ResultTable(
@@ -212,7 +212,7 @@ TABLES: dict[str, ResultTable] = {
         "sobol",
         "the surfaces, sampled over independent factors; intervals by bootstrap",
         section=ReportSection.SENSITIVITY,
-        headings=headings.SOBOL,
+        headings=headings.of(headings.SOBOL, SobolIndices),
         synthetic=SyntheticBy.STUDIES,
     ),
     "main_effects.csv": ResultTable(
@@ -221,7 +221,7 @@ TABLES: dict[str, ResultTable] = {
         "sobol",
         "the surfaces, averaged over the other factors",
         section=ReportSection.SENSITIVITY,
-        headings=headings.SOBOL,
+        headings=headings.of(headings.SOBOL, MainEffects),
         synthetic=SyntheticBy.STUDIES,
     ),
     "spoke_stiffness.csv": ResultTable(

@@ -2,6 +2,10 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+
+import pandera.pandas as pa
+
 from nptcs.tables.result_table import Heading
 
 IMPACT = {
@@ -52,6 +56,9 @@ COMPARISON = {
     "coverage_percent": Heading("in the 95 % interval", "%"),
     "level_out_largest": Heading("level left out, largest", "N/mm"),
     "level_out_not_fitted": Heading("level left out, not fitted"),
+}
+BY_FACTOR = {
+    "level_out_largest": Heading("level left out, largest", "N/mm"),
     "lowest": Heading("lowest", "unit of the factor"),
     "highest": Heading("highest", "unit of the factor"),
     "rising_percent": Heading("steps that rise", "%"),
@@ -78,3 +85,9 @@ SOBOL = {
     "value": Heading("value", "unit of the factor"),
     "effect_n_per_mm": Heading("effect", "N/mm"),
 }
+
+
+def of(headings: Mapping[str, Heading], contract: type[pa.DataFrameModel]) -> dict[str, Heading]:
+    """Return those of the headings whose columns the contract has."""
+    columns = contract.to_schema().columns
+    return {name: heading for name, heading in headings.items() if name in columns}
