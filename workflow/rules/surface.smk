@@ -15,7 +15,12 @@ FITTED = (
 def surface_job(wildcards):
     study = CONFIG.study(wildcards.study)
     return {
-        "study": study.model_dump(mode="json", include=set(FITTED)),
+        # without title and labels, which decide no number
+        "study": {
+            **study.model_dump(mode="json", include=set(FITTED)),
+            "title": "",
+            "factors": study.case_definition()["factors"],
+        },
         "published": contents(published_coefficients(wildcards)),
         "code": code_of("surface"),
     }

@@ -92,7 +92,7 @@ class Part:
     blocks: list[ElementGroup] = field(default_factory=list)
 
     def named(self, keyword: str) -> list[ElementGroup]:
-        return [block for block in self.groups if block.keyword == keyword]
+        return [block for block in self.blocks if block.keyword == keyword]
 
 
 @dataclass
@@ -188,7 +188,7 @@ def read_deck(text: str) -> Deck:
 
 
 def _collect(part: Part, block: ElementGroup) -> None:
-    part.groups.append(block)
+    part.blocks.append(block)
     parameters = block.parameters
     if block.keyword == "NODE":
         for label, *place in block.data:

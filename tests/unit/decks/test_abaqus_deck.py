@@ -36,7 +36,7 @@ def test_every_reference_exists(deck):
         for block in part.named("RIGID BODY"):
             assert block.parameters["REF NODE"] in part.node_sets
             assert block.parameters["ANALYTICAL SURFACE"] in part.surfaces
-    for block in deck.assembly.groups:
+    for block in deck.assembly.blocks:
         if block.keyword == "TIE":
             assert all(deck.surface(name) for row in block.data for name in row)
         if block.keyword == "EMBEDDED ELEMENT":
