@@ -57,8 +57,8 @@ def solve_batch(
 def report_progress(record: CaseRecord, reused: bool, done: int, total: int) -> None:
     """Write one line per finished case to the log."""
     how = "known" if reused else f"{record.wall_time_s:.2f} s"
-    status, message = record.result.status.value, record.result.message
-    why = "" if status == "ok" else f": {message}"
+    status, message = record.result.status, record.result.message
+    why = "" if status.solved else f": {message}"
     print(
         f"{record.study}/{record.solver} {done}/{total} {record.case_id} {status} ({how}){why}",
         file=sys.stderr,

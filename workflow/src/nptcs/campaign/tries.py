@@ -11,10 +11,6 @@ from pathlib import Path
 
 from nptcs.campaign.record import CaseRecord
 from nptcs.files import write_text
-from nptcs.solvers.contract import Status
-
-OUTSIDE_THE_CASE = frozenset({Status.TIMEOUT, Status.LICENCE})
-"""Ends that may be another one next time, with the same case."""
 
 
 def ended_from_outside(record: CaseRecord) -> bool:
@@ -22,7 +18,7 @@ def ended_from_outside(record: CaseRecord) -> bool:
 
     Such a case is tried again by the next run; one that a solver gave up on is not.
     """
-    return record.result.died or record.result.status in OUTSIDE_THE_CASE
+    return record.result.died or record.result.status.from_outside
 
 
 def tries_file(batch: str | Path) -> Path:

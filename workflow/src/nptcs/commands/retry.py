@@ -26,7 +26,6 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.campaign.record import read_records
     from nptcs.campaign.tries import try_again
     from nptcs.errors import InputError
-    from nptcs.solvers.contract import Status
 
     solved = Path(arguments.results) / "5_solve"
     batches = sorted(solved.glob("*/*/batch_*.jsonl"))
@@ -42,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     for batch in batches:
         if arguments.studies and batch.parts[-3] not in arguments.studies:
             continue
-        bad = [r for r in read_records([str(batch)]) if r.result.status != Status.OK]
+        bad = [r for r in read_records([str(batch)]) if not r.result.status.solved]
         if bad:
             try_again(batch)
         failed += len(bad)

@@ -219,7 +219,7 @@ class Solver:
 
 def missing_responses(result: SolverResult, loads_tyre: bool) -> list[str]:
     """Name what a result that says ``ok`` must give, by a solver of tyres or of single spokes."""
-    if result.status != Status.OK:
+    if not result.status.solved:
         return []
     given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
     promised = TYRE_RESPONSES if loads_tyre else SPOKE_RESPONSES
