@@ -18,7 +18,7 @@ STATUSES = (
 
 
 class Files(pa.DataFrameModel):
-    """One row a file: in the folder, or named by the sheet and not there.
+    """One row per file: in the folder, or named by the sheet and not there.
 
     ``used``: read for an included specimen; ``left out``: read, its specimen is left out with
     the reason given; ``repeated``: its data are those of another specimen and are not counted
