@@ -248,7 +248,7 @@ def same_name(text: str, reported: str) -> bool:
 def strict_rows(
     lines: list[str], table: RawFile, positions: Mapping[str, int]
 ) -> list[list[float]] | str:
-    """Every reading of the needed columns, or the row that is none."""
+    """Every reading of the needed columns, or the row that is not numbers."""
     decimal = re.escape(table.decimal)
     number = re.compile(rf"[+-]?(\d+({decimal}\d*)?|{decimal}\d+)([eE][+-]?\d+)?", re.ASCII)
     grouped = None

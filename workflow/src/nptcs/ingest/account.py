@@ -29,7 +29,8 @@ def account_for_files(sheet: str | Path, records: Iterable[IngestRecord]) -> pd.
     Returns
     -------
     DataFrame
-        `nptcs.tables.files.Files`: one row per file, in the folder or named by the sheet.
+        `nptcs.tables.files.Files`: one row per file that is in the folder or named by the
+        sheet.
     """
     sheet = Path(sheet)
     specimens = {specimen.specimen: specimen for specimen in read_sheet(sheet)[0]}
@@ -71,7 +72,7 @@ def _status(
     if path is None:
         return FileStatus.MISSING, f"named for {', '.join(ids)}, but not in the folder"
     if not ids and is_note(name):
-        return FileStatus.NOTE, "a README is a note, no test data"
+        return FileStatus.NOTE, "a README is a note, not test data"
     if not ids:
         return FileStatus.NOT_NAMED, "no row of the sheet names it"
     good = [id_ for id_ in ids if id_ in outcomes and outcomes[id_].understood]
