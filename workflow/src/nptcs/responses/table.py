@@ -1,4 +1,4 @@
-"""Responses of solved tyres as tables, one row per response, with a reason where one is missing."""
+"""Responses of solved tyres as tables, one row per response, with a reason for each gap."""
 
 from __future__ import annotations
 
