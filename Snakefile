@@ -1,4 +1,4 @@
-# From raw test files to the report. What depends on what is in workflow/rules, one file per stage.
+# From raw test files to the report. What depends on what is said in workflow/rules, one file per stage.
 from snakemake.utils import min_version
 
 min_version("9.0")
