@@ -1,4 +1,4 @@
-"""The whole configuration, and its errors in words that a user can act on."""
+"""The whole configuration, and its errors described so that a user can act on them."""
 
 from __future__ import annotations
 
