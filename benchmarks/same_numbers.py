@@ -3,7 +3,7 @@
 Prints one line per table: rows, the largest relative difference of any number, and what differs
 in text. Wall times and keys are left out: they belong to the run and to the code. A table that has
 another name in B is named by ``--renamed A.csv=B.csv``, a column by ``--column old=new``. Exits 1
-if any number differs by more than ``--within`` (0 unless told) or any text differs.
+if any number differs by more than ``--within`` (default 0) or any text differs.
 """
 
 import argparse
@@ -17,12 +17,12 @@ OF_THE_RUN = ["wall_time_s", "key", "solver_version"]
 
 
 def pairs(words: list[str]) -> dict[str, str]:
-    """Read ``old=new`` words."""
+    """Parse arguments of the form ``old=new``."""
     return dict(word.split("=", 1) for word in words)
 
 
 def compare(before: pd.DataFrame, after: pd.DataFrame) -> tuple[float, list[str]]:
-    """Largest relative difference of the numbers, and the columns whose text differs."""
+    """Return the largest relative difference of the numbers, and the columns whose text differs."""
     largest, texts = 0.0, []
     for name in before.columns:
         if pd.api.types.is_numeric_dtype(before[name]) and before[name].dtype != bool:

@@ -20,7 +20,7 @@ class Cell:
 
     @property
     def css(self) -> str:
-        """Tell how the cell is set."""
+        """Return the CSS class of the cell."""
         if self.number or self.text == "–":
             return "number"
         if len(self.text) == 64 and set(self.text) <= set("0123456789abcdef"):

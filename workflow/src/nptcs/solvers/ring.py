@@ -18,6 +18,8 @@ from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -33,6 +35,8 @@ class RingSolverOptions(SolverOptions, RingModel):
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
+    case_s: float = Field(15.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
     spoke_cache: Path | None = Field(
         None,
         description="Folder in which cases share the tables of equal spokes, also with `fe_tyre`; "
