@@ -87,6 +87,13 @@ class Lamination:
         """Evaluate the stiffness at points of shape (m, 3) → (m,), N/mm."""
         return _stiffness(self.parameters, self.shape, x, laminates(x, self.ply))
 
+    def predict_with(self, x: Array, ply: Mapping[str, float | Array]) -> Array:
+        """Evaluate the stiffness with plates of another ply, shape (m, 3) → (m,), N/mm.
+
+        The fitted coefficients stay; a constant of the ply has one value or m.
+        """
+        return _stiffness(self.parameters, self.shape, x, laminates(x, ply))
+
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
         """Bounds of the prediction interval, linear in the parameters: two of shape (m,)."""
         jacobian = _jacobian(self.parameters, self.shape, x, laminates(x, self.ply))
@@ -174,7 +181,7 @@ def fit_lamination(
     return _best(ordered, y, ply, starts)
 
 
-def laminates(x: Array, ply: Mapping[str, float]) -> Array:
+def laminates(x: Array, ply: Mapping[str, float | Array]) -> Array:
     """Laminate stiffness ABD of the plates of each case, shape (m, 6, 6), in N and mm."""
     return abd(ply, x[:, 2], x[:, 1])
 
