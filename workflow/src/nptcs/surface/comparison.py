@@ -1,4 +1,4 @@
-"""How surfaces of every kind predict cases that they have not seen: one protocol for all."""
+"""How surfaces of every kind predict cases that they have not seen, tested in one way for all."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ GRID_POINTS = 10_000
 """Points of the grid over the box on which the direction of each factor's effect is read."""
 
 MOST_LEVELS = 10
-"""A factor with more values than this has no levels that could be left out."""
+"""A factor with more values than this has no levels to leave out."""
 
 FLAT = 1e-9
 """Share of the response's range below which a step along a factor has no direction."""
@@ -82,7 +82,9 @@ def leave_one_level_out(surface: ResponseSurface, axis: int) -> LevelError:
     """
     levels = np.unique(surface.x[:, axis])
     if len(levels) > MOST_LEVELS:
-        return LevelError(np.nan, f"not assessed: {len(levels)} values and no levels")
+        return LevelError(
+            np.nan, f"not assessed: {len(levels)} values and no levels"
+        )
     errors, refusals = [], []
     for level in levels:
         kept = surface.x[:, axis] != level

@@ -112,7 +112,7 @@ class Surface:
         return fit_points(x, y, self.polynomial, self.through_origin)
 
     def content(self) -> dict[str, Any]:
-        """All that makes the surface, as plain values."""
+        """Everything that defines the surface, as plain values."""
         return {
             "factors": self.polynomial.factors,
             "exponents": self.polynomial.exponents,

@@ -1,4 +1,4 @@
-"""A Gaussian process on a mean of one's choice: it passes through cases that have no noise."""
+"""A Gaussian process on any mean; it passes through cases that have no noise."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ VARIANCE_BOUNDS = (1e-3, 1e3)
 
 @dataclass(frozen=True)
 class GaussianProcess:
-    """A Matérn 5/2 process in coded units that follows what its mean leaves of the cases.
+    """A Matérn 5/2 process in coded units that follows the residuals of its mean.
 
     Parameters
     ----------
@@ -82,7 +82,7 @@ class GaussianProcess:
         return _fitted(self.factor_names, x, y, mean, self.theta, restarts=0)
 
     def content(self) -> dict[str, Any]:
-        """All that makes the surface but its mean, as plain values."""
+        """Everything that defines the surface except its mean, as plain values."""
         return {
             "factor_names": self.factor_names,
             "x": self.x.tolist(),
@@ -110,7 +110,7 @@ class GaussianProcess:
 
     @cached_property
     def _scale(self) -> float:
-        """Root mean square of what the mean leaves; 1 where it leaves nothing."""
+        """Root mean square of the mean's residuals; 1 where there are none."""
         return float(np.sqrt(np.mean(self._residual**2))) or 1.0
 
     @cached_property

@@ -74,7 +74,7 @@ class LinkedSurface:
         return fit_linked(self.link, x, y, self.inner.polynomial, self.inner.through_origin)
 
     def content(self) -> dict[str, Any]:
-        """All that makes the surface, as plain values."""
+        """Everything that defines the surface, as plain values."""
         return {"link": self.link, "inner": self.inner.content(), "y": self.y.tolist()}
 
 

@@ -1,4 +1,4 @@
-"""What every kind of surface can do, and a prediction that knows where the surface is valid."""
+"""What every kind of surface offers, and predictions that respect the range of validity."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ INSIDE_TOLERANCE = 1e-9
 
 
 class Outside(StrEnum):
-    """What a surface says outside the box of the cases that it was fitted to."""
+    """What happens outside the box of the cases that a surface was fitted to."""
 
     REFUSED = "refused"
     FLAGGED = "flagged"
@@ -35,7 +35,7 @@ class ResponseSurface(Protocol):
     coefficients : int
         Fitted coefficients, hyperparameters of a Gaussian process left out.
     outside : Outside
-        What is said outside the cases' box.
+        What happens outside the cases' box.
     """
 
     @property
@@ -66,13 +66,13 @@ class ResponseSurface(Protocol):
         ...
 
     def content(self) -> dict[str, Any]:
-        """All that `nptcs.surface.stored.load` needs, as plain values."""
+        """Everything that `nptcs.surface.stored` needs to read it back, as plain values."""
         ...
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """What a surface says of m points.
+    """Predictions of a surface at m points.
 
     Parameters
     ----------

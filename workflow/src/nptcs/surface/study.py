@@ -1,4 +1,4 @@
-"""The surfaces of one study: for each solver that answered, one of every kind that is asked for."""
+"""The surfaces of one study: for each solver with results, one of every kind that is asked for."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ POLYNOMIAL = "polynomial"
 
 @dataclass(frozen=True)
 class StudySurfaces:
-    """What became of the fits of a study.
+    """The fits of a study.
 
     Parameters
     ----------

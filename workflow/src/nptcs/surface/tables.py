@@ -84,7 +84,7 @@ def comparison_tables(study: str, done: StudySurfaces) -> tuple[pd.DataFrame, pd
 
 
 def form_of(surface: ResponseSurface) -> str:
-    """Say of what a surface is made: its terms, shape parameters or hyperparameters."""
+    """Describe a surface by its terms, shape parameters or hyperparameters."""
     if isinstance(surface, Surface):
         return " + ".join(surface.polynomial.names)
     if isinstance(surface, LinkedSurface):
