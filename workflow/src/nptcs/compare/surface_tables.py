@@ -32,10 +32,10 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
         ``table``, ``quality``, ``comparison``, ``by_factor`` and ``problems``.
     """
     factors = [factor.name for factor in study.factors]
-    comparison, by_factor = comparison_tables(study.name, done)
+    comparison, by_factor = comparison_tables(done)
     return {
         "table": (surface_table(done.polynomials, by_powers(published, factors)), SurfaceTable),
-        "quality": (quality_table(study.name, done), SurfaceQuality),
+        "quality": (quality_table(done), SurfaceQuality),
         "comparison": (comparison, SurfaceComparison),
         "by_factor": (by_factor, SurfaceByFactor),
         "problems": (done.problems, Problems),

@@ -40,6 +40,26 @@ class LeftOut:
     covered: Mask
     cpu_s: float
 
+    @property
+    def known(self) -> Array:
+        """Errors of the cases without which the surface could be fitted."""
+        return self.error[np.isfinite(self.error)]
+
+    @property
+    def largest(self) -> float:
+        """Largest error in size; NaN if no case could be left out."""
+        return float(np.abs(self.known).max()) if len(self.known) else np.nan
+
+    @property
+    def rms(self) -> float:
+        """Root mean square error; NaN if no case could be left out."""
+        return float(np.sqrt(np.mean(self.known**2))) if len(self.known) else np.nan
+
+    @property
+    def coverage_percent(self) -> float:
+        """Share of these cases in the prediction interval; NaN if none could be left out."""
+        return 100 * float(self.covered.sum()) / len(self.known) if len(self.known) else np.nan
+
 
 @dataclass(frozen=True)
 class LevelError:
