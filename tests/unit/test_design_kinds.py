@@ -134,9 +134,9 @@ def test_what_a_design_refuses():
         {"name": "c", "label": "c", "unit": "MPa", "levels": [{"rubber": "r"}, {"rubber": "q"}]}
     ]
     for design, factors, match in (
-        ({"kind": "latin_hypercube", "cases": 5}, rubber, "no rubbers between"),
+        ({"kind": "latin_hypercube", "cases": 5}, rubber, "no rubber between"),
         ({"kind": "sobol", "cases": 4, "whole_plates": True}, FACTORS[1:], "not a factor"),
-        ({"kind": "d_optimal", "cases": 4, "terms": TERMS}, FACTORS, "takes at least 5"),
+        ({"kind": "d_optimal", "cases": 4, "terms": TERMS}, FACTORS, "needs at least 5"),
         (
             {"kind": "d_optimal", "cases": 9, "terms": [*TERMS, "angle_deg^3"]},
             FACTORS,

@@ -1,4 +1,4 @@
-"""Design tables: full factorial, numbered as tables 5 and 7 of the paper are, and others."""
+"""Design tables: full factorial, numbered like tables 5 and 7 of the paper, and other kinds."""
 
 from __future__ import annotations
 
@@ -41,19 +41,19 @@ def build_design(
     rubber_c10_mpa : mapping of str to float
         C10 of each tested rubber that a level or a fixed value names.
     tyre : TyreGeometry
-        Its width decides which spacings have a whole number of plates.
+        Its width decides which spacings give a whole number of plates.
 
     Returns
     -------
     DataFrame
-        ``case_id`` (``plate_017``), ``case`` (from 1), a column for each factor, then one for
+        ``case_id`` (``plate_017``), ``case`` (from 1), one column for each factor, then one for
         each fixed value.
 
     Raises
     ------
     InputError
-        When a level names a rubber that has no card, two levels of a factor coincide, tested
-        rubbers would have to be spread, or a design is not made for so many factors or cases.
+        When a level names a rubber that has no card, two levels of a factor coincide, the design
+        needs values between tested rubbers, or it does not suit the number of factors or cases.
     """
     levels = _levels(study, rubber_c10_mpa)
     design = study.design
@@ -86,7 +86,7 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
 
     The last factor of the configuration changes fastest, so that spacing × thickness × angle
     gives the numbering of table 5 and T-C × S-C that of table 7. Parameters, result and errors
-    as `build_design`.
+    are those of `build_design`.
 
     Examples
     --------
@@ -137,7 +137,8 @@ def _between(study: Study, levels: Mapping[str, list[float]], coded: Array) -> A
     for factor in study.factors:
         if any(isinstance(level, MeasuredRubber) for level in factor.levels):
             raise InputError(
-                "there are no rubbers between tested ones",
+                "this kind of design needs values between the levels, and there is no rubber "
+                "between tested ones",
                 column=f"studies.{study.name}.factors.{factor.name}",
                 value=study.design.kind,
                 remedy="use full_factorial or d_optimal, or give numbers as levels",

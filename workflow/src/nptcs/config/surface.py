@@ -19,7 +19,8 @@ class PolynomialModel(Strict):
     kind: Literal["polynomial"]
     link: Link = Field(
         "identity",
-        description="What is a polynomial: the response K (identity), log K, or 1/K (reciprocal)",
+        description="What the polynomial is fitted to: the response K (identity), log K, or 1/K "
+        "(reciprocal)",
     )
     terms: tuple[str, ...] = Field((), description="Terms; empty: those of the study")
     choose: Choice = Field(
@@ -38,8 +39,8 @@ class LaminationModel(Strict):
     kind: Literal["lamination"]
     coefficients: LaminationCoefficients = Field(
         7,
-        description="8: all; 7 and 6: one or two of the exponent m and the rubber's additions to "
-        "A66 and D11 are left out, those with the smallest sum of squares",
+        description="8: all; 7 or 6: one or two of the exponent m and the rubber's additions to "
+        "A66 and D11 are left out, whichever gives the smallest sum of squares",
     )
 
 
@@ -47,11 +48,13 @@ Mean = Annotated[PolynomialModel | LaminationModel, Field(discriminator="kind")]
 
 
 class GaussianProcessModel(Strict):
-    """A Gaussian process (Matérn 5/2, a length scale for each factor) on a mean."""
+    """A Gaussian process (Matérn 5/2, one length scale for each factor) on a mean."""
 
     kind: Literal["gaussian_process"]
     mean: Mean | None = Field(
-        None, description="Surface whose residuals it follows; none: the mean of the cases"
+        None,
+        description="Surface whose residuals the process models; null: the mean response of the "
+        "cases",
     )
 
 
@@ -78,7 +81,7 @@ def name_of(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> 
 
 
 def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> bool:
-    """Tell whether a surface is made of the ply's constants."""
+    """Tell whether a surface uses the constants of the ply."""
     match model:
         case PolynomialModel():
             return False
@@ -93,7 +96,7 @@ def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -
 def own_terms(
     model: PolynomialModel | LaminationModel | GaussianProcessModel,
 ) -> tuple[tuple[str, ...], bool]:
-    """Return the terms that a surface names itself, and whether it goes through the origin."""
+    """Return the terms that a surface itself lists, and whether it goes through the origin."""
     match model:
         case PolynomialModel():
             return model.terms, model.through_origin
