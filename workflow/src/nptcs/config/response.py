@@ -84,9 +84,7 @@ class ResponseChoice(Strict):
         placed = self.load_n is not None or self.displacement_mm is not None
         taken = RESPONSE_KINDS[self.name].taken
         if placed and taken is not Taken.ANYWHERE:
-            raise ValueError(
-                f"{self.name} is taken {taken}: leave load_n and displacement_mm out"
-            )
+            raise ValueError(f"{self.name} is taken {taken}: leave load_n and displacement_mm out")
         if self.load_n is not None and self.displacement_mm is not None:
             raise ValueError(f"{self.name}: give load_n or displacement_mm, not both")
         return self

@@ -34,11 +34,14 @@ class LeftOut:
         Whether the response lies in the prediction interval.
     cpu_s : float
         Processor time of all refits.
+    what : str
+        What was left out at a time.
     """
 
     error: Array
     covered: Mask
     cpu_s: float
+    what: str = "a case"
 
     @property
     def known(self) -> Array:
@@ -78,20 +81,24 @@ class LevelError:
 
 
 def leave_one_out(surface: ResponseSurface) -> LeftOut:
-    """Fit the surface again without each case, all its parameters anew, and predict that case."""
+    """Fit the surface again without each group of cases, all parameters anew, and predict them.
+
+    A group is a single case, or all cases that the kind of surface says belong together
+    (`ResponseSurface.groups`): leaving one of them out would test nothing.
+    """
     start = time.process_time()
     error, covered = np.full(len(surface.y), np.nan), np.zeros(len(surface.y), bool)
-    for case in range(len(surface.y)):
-        kept = np.arange(len(surface.y)) != case
+    groups = surface.groups()
+    for group in np.unique(groups.labels):
+        out = groups.labels == group
         try:
-            other = surface.refit(surface.x[kept], surface.y[kept])
+            other = surface.refit(surface.x[~out], surface.y[~out])
         except InputError:
             continue
-        point = surface.x[[case]]
-        low, high = other.interval(point, CONFIDENCE)
-        error[case] = other.predict(point)[0] - surface.y[case]
-        covered[case] = low[0] <= surface.y[case] <= high[0]
-    return LeftOut(error, covered, time.process_time() - start)
+        low, high = other.interval(surface.x[out], CONFIDENCE)
+        error[out] = other.predict(surface.x[out]) - surface.y[out]
+        covered[out] = (low <= surface.y[out]) & (surface.y[out] <= high)
+    return LeftOut(error, covered, time.process_time() - start, groups.what)
 
 
 def leave_one_level_out(surface: ResponseSurface, axis: int) -> LevelError:
@@ -102,9 +109,7 @@ def leave_one_level_out(surface: ResponseSurface, axis: int) -> LevelError:
     """
     levels = np.unique(surface.x[:, axis])
     if len(levels) > MOST_LEVELS:
-        return LevelError(
-            np.nan, f"not assessed: {len(levels)} values and no levels"
-        )
+        return LevelError(np.nan, f"not assessed: {len(levels)} values and no levels")
     errors, refusals = [], []
     for level in levels:
         kept = surface.x[:, axis] != level

@@ -13,7 +13,7 @@ from scipy import stats
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.surface import least_squares
-from nptcs.surface.response_surface import Outside, box, refuse_unusable
+from nptcs.surface.response_surface import Groups, Outside, box, refuse_unusable, single_cases
 from nptcs.terms import Polynomial, coded_to_natural, parse
 
 RANK_TOLERANCE = 1e-9
@@ -110,6 +110,10 @@ class Surface:
     def refit(self, x: Array, y: Array) -> Surface:
         """Fit the same terms to other cases."""
         return fit_points(x, y, self.polynomial, self.through_origin)
+
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
 
     def content(self) -> dict[str, Any]:
         """Everything that defines the surface, as plain values."""

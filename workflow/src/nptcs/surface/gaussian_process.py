@@ -16,7 +16,13 @@ from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, Whi
 
 from nptcs.arrays import Array
 from nptcs.surface.fit import coding
-from nptcs.surface.response_surface import Outside, ResponseSurface, refuse_unusable
+from nptcs.surface.response_surface import (
+    Groups,
+    Outside,
+    ResponseSurface,
+    refuse_unusable,
+    single_cases,
+)
 
 NUGGET = 1e-8
 """Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
@@ -80,6 +86,10 @@ class GaussianProcess:
         if self.mean is not None:
             mean = self.mean.refit(x[:, self._mean_columns()], y)
         return _fitted(self.factor_names, x, y, mean, self.theta, restarts=0)
+
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
 
     def content(self) -> dict[str, Any]:
         """Everything that defines the surface except its mean, as plain values."""

@@ -24,7 +24,7 @@ from scipy.optimize import least_squares
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.laminate import abd
-from nptcs.surface.response_surface import Outside, refuse_unusable
+from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
 
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg")
 REFERENCE_SPACING_MM = 15.0
@@ -99,6 +99,10 @@ class Lamination:
     def refit(self, x: Array, y: Array) -> Lamination:
         """Fit the same form to other cases, from the parameters found here."""
         return _best(x, y, self.ply, {self.shape: [self.parameters]})
+
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
 
     def content(self) -> dict[str, Any]:
         """Everything that defines the surface, as plain values."""

@@ -145,7 +145,9 @@ class FittedSurface:
                 )
             points = points[list(self.factors)].to_numpy(float)
         if not np.isfinite(points).all():
-            raise InputError("a point has no number for a factor", remedy="give all factors a value")
+            raise InputError(
+                "a point has no number for a factor", remedy="give all factors a value"
+            )
         return points
 
 

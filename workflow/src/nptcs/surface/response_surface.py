@@ -9,7 +9,7 @@ from typing import Any, Protocol, Self
 
 import numpy as np
 
-from nptcs.arrays import Array, Mask
+from nptcs.arrays import Array, Index, Mask
 from nptcs.errors import InputError
 
 INSIDE_TOLERANCE = 1e-9
@@ -21,6 +21,27 @@ class Outside(StrEnum):
 
     REFUSED = "refused"
     FLAGGED = "flagged"
+
+
+@dataclass(frozen=True)
+class Groups:
+    """Cases that are left out together.
+
+    Parameters
+    ----------
+    labels : ndarray of shape (m,)
+        Number of the group of each case.
+    what : str
+        What a group is, in words.
+    """
+
+    labels: Index
+    what: str
+
+
+def single_cases(y: Array) -> Groups:
+    """Each case is a group of its own."""
+    return Groups(np.arange(len(y)), "a case")
 
 
 class ResponseSurface(Protocol):
@@ -63,6 +84,10 @@ class ResponseSurface(Protocol):
 
     def refit(self, x: Array, y: Array) -> Self:
         """Fit the same surface to other cases: its terms or form kept, all parameters anew."""
+        ...
+
+    def groups(self) -> Groups:
+        """Tell which cases are left out together when the surface is tested."""
         ...
 
     def content(self) -> dict[str, Any]:

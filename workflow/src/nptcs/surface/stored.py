@@ -20,6 +20,7 @@ from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
 from nptcs.terms import Polynomial
 
+
 def dump(surfaces: Mapping[str, Surface]) -> str:
     """Write polynomials, by the name of their solver, as JSON text."""
     content = {solver: surface.content() for solver, surface in surfaces.items()}
