@@ -17,9 +17,9 @@ SEAL = "_seal"
 FORMATS: Mapping[str, int] = {
     "CaseRecord": 1,
     "CaseRecords": 1,
+    "FittedSurfaces": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
-    "Models": 1,
     "PlyCard": 1,
     "RubberCard": 1,
     "Surfaces": 1,

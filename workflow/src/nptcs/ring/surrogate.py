@@ -1,8 +1,8 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
 The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
-Gaussian process over `laminate_features`. A predicted table serves search and exploration; a design
-that is decided on is solved with a computed table.
+Gaussian process over `laminate_features`. A predicted table serves search and exploration; the
+design that is chosen in the end is solved with a computed table.
 """
 
 from __future__ import annotations
@@ -113,7 +113,7 @@ class SpokeSurrogate:
         ):
             if not low - slack <= value <= high + slack:
                 raise InputError(
-                    f"the surrogate knows spokes from {low:g} to {high:g} only",
+                    f"the surrogate was fitted to spokes from {low:g} to {high:g} only",
                     "compute this spoke's table, or fit the surrogate to a wider box",
                     column=name,
                     value=float(value),
@@ -148,13 +148,13 @@ class SpokeSurrogate:
     def next_design(
         self, importance: Array | None = None, candidates: int = 256, seed: int = 1
     ) -> tuple[dict[str, float], float]:
-        """Name the spoke whose computed table would lower the mean variance over the box most.
+        """Name the spoke whose table, once computed, would lower the mean variance in the box most.
 
         Parameters
         ----------
         importance : array (components,), optional
             Weight of each component's variance, for example the squares of a displacement's
-            derivatives by the components; its share of the energy's variance is 1 if not given.
+            derivatives by the components; 1 for all if not given.
         candidates : int
             Points of the box that are compared, and as many at which the variance is counted.
         seed : int
@@ -162,7 +162,7 @@ class SpokeSurrogate:
         Returns
         -------
         tuple
-            The design by `DESIGN`, and the part of the mean variance that it would take away.
+            The design by `DESIGN`, and the part of the mean variance that it would remove.
         """
         weight = np.ones(COMPONENTS) if importance is None else np.asarray(importance)
         points = qmc.Sobol(len(DESIGN), seed=seed).random(2 * candidates)

@@ -1,4 +1,4 @@
-"""A Gaussian process on a mean of one's choice: it passes through cases that have no noise."""
+"""A Gaussian process on any mean; it passes through cases that have no noise."""
 
 from __future__ import annotations
 
@@ -16,7 +16,13 @@ from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, Whi
 
 from nptcs.arrays import Array
 from nptcs.surface.fit import coding
-from nptcs.surface.response_surface import Outside, ResponseSurface, refuse_unusable
+from nptcs.surface.response_surface import (
+    Groups,
+    Outside,
+    ResponseSurface,
+    refuse_unusable,
+    single_cases,
+)
 
 NUGGET = 1e-8
 """Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
@@ -30,7 +36,7 @@ VARIANCE_BOUNDS = (1e-3, 1e3)
 
 @dataclass(frozen=True)
 class GaussianProcess:
-    """A Matérn 5/2 process in coded units that follows what its mean leaves of the cases.
+    """A Matérn 5/2 process in coded units that follows the residuals of its mean.
 
     Parameters
     ----------
@@ -81,8 +87,12 @@ class GaussianProcess:
             mean = self.mean.refit(x[:, self._mean_columns()], y)
         return _fitted(self.factor_names, x, y, mean, self.theta, restarts=0)
 
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
+
     def content(self) -> dict[str, Any]:
-        """All that makes the surface but its mean, as plain values."""
+        """Everything that defines the surface except its mean, as plain values."""
         return {
             "factor_names": self.factor_names,
             "x": self.x.tolist(),
@@ -110,7 +120,7 @@ class GaussianProcess:
 
     @cached_property
     def _scale(self) -> float:
-        """Root mean square of what the mean leaves; 1 where it leaves nothing."""
+        """Root mean square of the mean's residuals; 1 where there are none."""
         return float(np.sqrt(np.mean(self._residual**2))) or 1.0
 
     @cached_property

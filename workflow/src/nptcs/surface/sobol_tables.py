@@ -40,7 +40,7 @@ class VarianceShares:
 def variance_shares(
     models: Models, failed: Mapping[tuple[str, str], int], settings: Sensitivity
 ) -> VarianceShares:
-    """Share the variance of every surface out among its factors.
+    """Divide the variance of every surface among its factors.
 
     Parameters
     ----------
