@@ -1,7 +1,7 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
 The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
-Gaussian process over `laminate_features`. A predicted table serves search and exploration; the
+Gaussian process over `spoke_features`. A predicted table serves search and exploration; the
 design that is chosen in the end is solved with a computed table.
 """
 
@@ -20,7 +20,7 @@ from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteK
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.ring.laminate_features import spoke_features
+from nptcs.spoke_features import spoke_features
 
 COMPONENTS = 10
 DESIGN = ("plate_count", "thickness_mm", "angle_deg", "spoke_c10_mpa")

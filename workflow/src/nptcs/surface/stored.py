@@ -18,6 +18,7 @@ from nptcs.surface.lamination import Lamination
 from nptcs.surface.linked import LinkedSurface
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
+from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.terms import Polynomial
 
 
@@ -175,9 +176,21 @@ def _process(content: Mapping[str, Any]) -> GaussianProcess:
     )
 
 
+def _spoke_process(content: Mapping[str, Any]) -> SpokeProcess:
+    return SpokeProcess(
+        factor_names=tuple(content["factor_names"]),
+        x=np.array(content["x"]),
+        y=np.array(content["y"]),
+        ply=content["ply"],
+        degree=content["degree"],
+        theta=np.array(content["theta"]),
+    )
+
+
 READERS: dict[str, Callable[[Mapping[str, Any]], ResponseSurface]] = {
     Surface.__name__: _polynomial,
     LinkedSurface.__name__: _linked,
     Lamination.__name__: _lamination,
     GaussianProcess.__name__: _process,
+    SpokeProcess.__name__: _spoke_process,
 }

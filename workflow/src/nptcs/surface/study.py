@@ -11,7 +11,7 @@ import pandas as pd
 
 from nptcs.config.response import RESPONSE_KINDS
 from nptcs.config.study import Study
-from nptcs.config.surface import SurfaceModel, needs_ply
+from nptcs.config.surface import SurfaceModel, describes_stiffness_alone
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases, solved_cases
 from nptcs.surface.comparison import LeftOut, leave_one_out
@@ -214,7 +214,7 @@ def _fits(wanted: _Wanted) -> Iterator[Fit | tuple[str, ...]]:
 
 def _describes(model: SurfaceModel, response: Response) -> bool:
     """Tell whether a kind of surface is made for a response: the plates' form is a stiffness."""
-    return response.unit == "N/mm" or not needs_ply(model)
+    return response.unit == "N/mm" or not describes_stiffness_alone(model)
 
 
 def _too_few(wanted: _Wanted, count: int, lacking: int) -> InputError:
