@@ -10,7 +10,6 @@ out.
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
@@ -19,12 +18,12 @@ from typing import Any
 
 import numpy as np
 from scipy import stats
-from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
 
 from nptcs.arrays import Array, Index
 from nptcs.errors import InputError
+from nptcs.likelihood import SearchError, bounds_are_answers, maximise
 from nptcs.spoke_features import spoke_features
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable
 
@@ -312,9 +311,12 @@ def _kernel(features: int) -> Kernel:
 
 
 def _fitted_theta(unit: Array, score: Array) -> Array:
-    process = GaussianProcessRegressor(_kernel(unit.shape[1]), normalize_y=True)
-    with warnings.catch_warnings():
-        # a length at its upper bound is a feature without effect, a noise at its lower one none
-        warnings.filterwarnings("ignore", "The optimal value found.*bound", ConvergenceWarning)
-        process.fit(unit, score)
+    process = GaussianProcessRegressor(_kernel(unit.shape[1]), optimizer=maximise, normalize_y=True)
+    try:
+        with bounds_are_answers():
+            process.fit(unit, score)
+    except SearchError as error:
+        raise InputError(
+            str(error), column="surfaces", remedy="leave this surface out, or solve more spokes"
+        ) from None
     return np.asarray(process.kernel_.theta)

@@ -16,7 +16,7 @@ from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
 from nptcs.surface.linked import LinkedSurface
-from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
+from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
 from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.terms import Polynomial
@@ -66,6 +66,17 @@ def read_registry(path: str | Path) -> SurfaceRegistry:
         return load_registry(read_stored(path, "file of surfaces"))
     except BrokenSealError as error:
         raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
+
+
+def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
+    """Read the surfaces of a study's stiffness at its load, by solver and name.
+
+    Raises
+    ------
+    InputError
+        As `read_registry`.
+    """
+    return read_registry(path).by_solver(Response(STIFFNESS))
 
 
 def dump_registry(registry: SurfaceRegistry) -> str:
