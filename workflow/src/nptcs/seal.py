@@ -17,11 +17,12 @@ SEAL = "_seal"
 FORMATS: Mapping[str, int] = {
     "CaseRecord": 1,
     "CaseRecords": 1,
+    "FittedSurfaces": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
-    "Models": 1,
     "PlyCard": 1,
     "RubberCard": 1,
+    "SpokeSurrogate": 1,
     "Surfaces": 1,
 }
 """Version of each format: raise it with any change of what the fields mean."""

@@ -8,7 +8,8 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.design import Design, DOptimal, FullFactorial, number_of_cases
+from nptcs.config.design import Design, DOptimal, FullFactorial, SplitPlot, number_of_cases
+from nptcs.config.response import ResponseChoice
 from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
 from nptcs.terms import parse
 
@@ -101,6 +102,12 @@ class Study(Strict):
         description="Surfaces that are fitted and compared with the polynomial of `terms`: other "
         "polynomials, the lamination form, Gaussian processes",
     )
+    responses: tuple[ResponseChoice, ...] = Field(
+        (),
+        description="Responses to which the same surfaces are fitted, besides the secant stiffness "
+        "at `load_n`: e.g. plate_mass, {name: secant_stiffness, load_n: 3000}. A case that does "
+        "not have one is left out of its surfaces and counted",
+    )
     published_coefficients: str | None = Field(
         None,
         description="CSV with the paper's coefficients (term, coefficient), shown next to ours",
@@ -126,6 +133,7 @@ class Study(Strict):
             "terms",
             "least_cases",
             "surfaces",
+            "responses",
             "published_coefficients",
             "published_spoke_stiffness",
             "calibration_cases",
@@ -174,6 +182,27 @@ class Study(Strict):
         return self
 
     @model_validator(mode="after")
+    def _plots_are_of_its_factors(self) -> Self:
+        if not isinstance(self.design, SplitPlot):
+            return self
+        names = {factor.name for factor in self.factors}
+        hard, spaced = set(self.design.hard_to_change), set(self.design.log_spaced)
+        if stray := sorted((hard | spaced) - names):
+            raise ValueError(f"study {self.name}: design names {stray}, which are not its factors")
+        if hard == names:
+            raise ValueError(
+                f"study {self.name}: all factors are hard_to_change; leave at least one to vary on "
+                "each whole plot, or use latin_hypercube"
+            )
+        for factor in self.factors:
+            low = min((each for each in factor.levels if isinstance(each, float)), default=1.0)
+            if factor.name in spaced and low <= 0.0:
+                raise ValueError(
+                    f"study {self.name}: log_spaced needs levels of {factor.name} above zero"
+                )
+        return self
+
+    @model_validator(mode="after")
     def _terms_can_be_read(self) -> Self:
         factors = [factor.name for factor in self.factors]
         if isinstance(self.design, DOptimal):
@@ -195,6 +224,18 @@ class Study(Strict):
         if self.surfaces and not self.terms:
             raise ValueError(
                 f"study {self.name}: surfaces are compared with the polynomial of `terms`, which "
+                "are missing"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _responses_differ(self) -> Self:
+        given = [(choice.name, choice.at(self.load_n)) for choice in self.responses]
+        if len(set(given)) < len(given):
+            raise ValueError(f"study {self.name}: a response is named twice: {given}")
+        if self.responses and not self.terms:
+            raise ValueError(
+                f"study {self.name}: surfaces are fitted to its responses only with `terms`, which "
                 "are missing"
             )
         return self
