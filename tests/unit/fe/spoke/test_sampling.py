@@ -115,7 +115,8 @@ def test_rows_take_turns_and_the_middle_one_has_every_level():
     assert middle.levels == tuple(range(6))
     for row in rows:
         if row is not middle:
-            assert len(row.levels) == 3
+            assert len(row.levels) == 4
+            assert {0, 5} < set(row.levels)
     by_place = {(round(row.beta, 3), round(row.phi, 3)): row for row in rows}
     assert by_place[0.09, 0.0].levels != by_place[0.09, 0.08].levels
 
@@ -123,7 +124,7 @@ def test_rows_take_turns_and_the_middle_one_has_every_level():
 def test_a_row_that_loses_its_stability_ends_the_table_at_its_last_level(monkeypatch):
     model = SpokeModel(design(30.0), OPTIONS.accepted_work)
     grid = Grid(OPTIONS, HEIGHT)
-    side = next(row for row in grid.rows() if row.beta > 0 and row.levels == (0, 2, 4))
+    side = next(row for row in grid.rows() if row.beta > 0 and row.levels == (0, 2, 4, 5))
     limit = grid.motions(side, [1])[0]
     found = SpokeModel.next_state
 

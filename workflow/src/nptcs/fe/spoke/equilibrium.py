@@ -248,14 +248,19 @@ class SpokeModel(SpokePeriod):
         self, displacement: Array, factor: BlockCholesky, step: Array, work: float, accepted: float
     ) -> Array:
         """Take a step, and more with the same matrix as long as their work shrinks."""
+        displacement = self._taken(displacement, step)
         while True:
-            displacement = displacement + step
-            for group in self.mixed:
-                group.follow(step)
             before = work
             step, work = self._step(factor, self._forces(displacement)[1])
             if work < BELOW_ACCEPTED * accepted or work > FOLLOWED * before:
                 return displacement
+            displacement = self._taken(displacement, step)
+
+    def _taken(self, displacement: Array, step: Array) -> Array:
+        """Displacements after a step, which the stresses of rubber and plates follow."""
+        for group in self.mixed:
+            group.follow(step)
+        return displacement + step
 
     def _condense(
         self,
