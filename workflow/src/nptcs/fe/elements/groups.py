@@ -109,6 +109,9 @@ class LinearGroup:
         MPa, Voigt order; rows of zeros for components that carry nothing.
     frame : array (elements, points, 3, 3) or None
         Local axes as columns.
+    stress : array (elements, points, 6) or None
+        Second Piola–Kirchhoff stress that the last Newton step led to (`follow`), MPa: the tangent
+        takes it, forces do not. None before the first step: that of the displacements.
     """
 
     nodes: Index
