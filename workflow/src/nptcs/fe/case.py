@@ -48,7 +48,7 @@ def spoke_design(
 @threadpool_limits.wrap(limits=1)
 def energy_table(model: FeModel, design: SpokeDesign) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
-    return computed_table(design, model.table)[0]
+    return computed_table(design, model.table)
 
 
 def tyre_model(
