@@ -16,6 +16,7 @@ include: "workflow/rules/solve.smk"
 include: "workflow/rules/surface.smk"
 include: "workflow/rules/responses.smk"
 include: "workflow/rules/compare.smk"
+include: "workflow/rules/decide.smk"
 include: "workflow/rules/report.smk"
 
 
