@@ -29,7 +29,8 @@ from nptcs.fe.case import spoke_design, tyre_model
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
-from nptcs.ring.responses import contact_length_mm, responses
+from nptcs.fe.tyre.responses import contact_responses
+from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.tables.material_card import PUBLISHED_PLY
@@ -125,19 +126,17 @@ def _shapes(
     theta = finite.mesh.theta
     outward = line[:, 0] * np.sin(theta) - line[:, 1] * np.cos(theta)
     along = line[:, 0] * np.cos(theta) + line[:, 1] * np.sin(theta)
-    there = [
+    nodes = [
         np.interp(ring.nodes.theta, theta, part, period=2 * np.pi) for part in (outward, along)
     ]
-    gap = np.hypot(*(a - b for a, b in zip(ring.neutral_line(own.u), there, strict=True))).max()
-    place, pressure = finite.ground.pressure_profile(state.displacement, state.rise_mm)
-    order = np.argsort(place)
-    length = contact_length_mm(place[order], np.gradient(place[order]) * pressure[order])
-    found = responses(ring, own)
-    return (
-        float(100 * gap / np.hypot(outward, along).max()),
-        float(100 * (found["largest_pressure_mpa"] / pressure.max() - 1)),
-        100 * (found["contact_length_mm"] / length - 1),
+    gap = np.hypot(*(a - b for a, b in zip(ring.neutral_line(own.u), nodes, strict=True))).max()
+    there = contact_responses(finite.ground.cells(state.displacement, state.rise_mm))
+    here = responses(ring, own)
+    peak, length = (
+        100 * (here.get(name, np.nan) / there.get(name, np.nan) - 1)
+        for name in ("largest_pressure_mpa", "contact_length_mm")
     )
+    return float(100 * gap / np.hypot(outward, along).max()), peak, length
 
 
 def label(design: dict[str, float]) -> str:
@@ -152,7 +151,7 @@ def summed_up(group: list[Difference]) -> str:
     """Say how far the group is apart."""
     every = np.concatenate([one.percent for one in group])
     shapes = {
-        name: np.nanmax(np.abs([getattr(one, name) for one in group]))
+        name: np.nanmax(np.abs([0.0, *(getattr(one, name) for one in group)]))
         for name in ("line", "peak", "length")
     }
     return (

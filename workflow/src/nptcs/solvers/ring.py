@@ -93,7 +93,8 @@ def solve(inputs: CaseInputs) -> SolverResult:
         extra={
             "table_force_residual_n": table.force_residual_n,
             "plate_volume_mm3": plate_volume_mm3(design, inputs.tyre.spoke_count),
-            **_summary(tyre, last, table, inputs.tyre.tread_width_mm),
+            **responses(tyre, last),
+            **spoke_forces(table, tyre.spoke_motion(last.u)),
             **rubber,
             "iterations": float(sum(state.iterations for state in states)),
         },
@@ -113,15 +114,6 @@ def _inside(
         return *loaded_spokes(SpokeModel(design), table, motion), ""
     except SpokeError as error:
         return None, {}, f"stress of plates and spokes' rubber not assessed: {error}"
-
-
-def _summary(
-    tyre: RingTyre, state: RingState, table: SpokeEnergyTable, width_mm: float
-) -> dict[str, float]:
-    found = responses(tyre, state)
-    mean = state.force_n / (found["contact_length_mm"] * width_mm)
-    forces = spoke_forces(table, tyre.spoke_motion(state.u))
-    return {**found, "mean_pressure_mpa": mean, **forces}
 
 
 def _curve(states: list[RingState]) -> dict[str, list[float]]:
