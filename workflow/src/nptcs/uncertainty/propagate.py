@@ -88,8 +88,8 @@ def moments(model: ResponseModel, inputs: Sequence[UncertainInput], x: Array) ->
         node, weight = NODES[one.shape]
         variance = np.zeros(len(x))
         for column in one.root.T:
-            above = model.value(x, _changes(one, column * node, len(x))) - nominal
-            below = model.value(x, _changes(one, -column * node, len(x))) - nominal
+            above = model.value(x, _changes(model, one, column * node, x)) - nominal
+            below = model.value(x, _changes(model, one, -column * node, x)) - nominal
             shift = weight * (above + below)
             mean += shift
             variance += weight * (above**2 + below**2) - shift**2
@@ -113,6 +113,7 @@ def distribution(
     Parameters
     ----------
     models : sequence of ResponseModel
+        Of the same factors.
     inputs : sequence of UncertainInput
         A model ignores an input that it cannot follow.
     x : ndarray of shape (n,)
@@ -137,7 +138,8 @@ def distribution(
         start += size
         z = stats.norm.ppf(part) if one.shape == "normal" else 2 * part - 1
         for name, row in zip(one.quantities, one.root, strict=True):
-            changes[name] = changes.get(name, 0.0) + z @ row
+            scale = x[models[0].factors.index(name)] if one.relative else 1.0
+            changes[name] = changes.get(name, 0.0) + scale * (z @ row)
     points = np.repeat(x[None, :], samples, axis=0)
     own = stats.norm.ppf(unit[:, start:])
     return np.column_stack(
@@ -148,5 +150,10 @@ def distribution(
     )
 
 
-def _changes(one: UncertainInput, steps: Array, points: int) -> Changes:
-    return {name: np.full(points, step) for name, step in zip(one.quantities, steps, strict=True)}
+def _changes(model: ResponseModel, one: UncertainInput, steps: Array, x: Array) -> Changes:
+    """Change each quantity by its step, which for a relative input is a share of its value."""
+    changes = {}
+    for name, step in zip(one.quantities, steps, strict=True):
+        scale = x[:, model.factors.index(name)] if one.relative else np.ones(len(x))
+        changes[name] = step * scale
+    return changes
