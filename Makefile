@@ -7,10 +7,14 @@ VENV := .venv
 BIN := $(VENV)/bin
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: run test test-kernel lint format report clean
+.PHONY: run joint test test-kernel lint format report clean
 
 run: $(VENV)/ready
 	snakemake -j$(JOBS)
+
+# the five factors of plates and rubbers together, on top of the default study
+joint: $(VENV)/ready
+	snakemake -j$(JOBS) --configfile config/joint.yaml
 
 report: $(VENV)/ready
 	snakemake -j$(JOBS) report

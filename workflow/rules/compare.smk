@@ -45,6 +45,7 @@ rule compare_published:
         table="results/tables/stiffness_against_published.csv",
         errors="results/tables/stiffness_errors.csv",
         levels="results/tables/stiffness_by_level.csv",
+        exponents="results/tables/stiffness_exponents.csv",
     log:
         "results/logs/compare_published.log",
     params:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import assert_never
 
@@ -16,11 +16,13 @@ from nptcs.config.design import (
     DOptimal,
     FullFactorial,
     SpaceFilling,
+    SplitPlot,
 )
 from nptcs.config.study import Level, MeasuredRubber, Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.d_optimal import d_optimal
 from nptcs.doe.points import box_behnken, central_composite, space_filling
+from nptcs.doe.split_plot import split_plot
 from nptcs.doe.whole_plates import whole_plates
 from nptcs.errors import InputError
 from nptcs.terms import parse
@@ -68,6 +70,8 @@ def build_design(
             points = _between(study, levels, coded)
         case BoxBehnken():
             points = _between(study, levels, box_behnken(len(levels), design.centre_cases))
+        case SplitPlot():
+            points = _between(study, levels, _on_plots(list(levels), design), design.log_spaced)
         case DOptimal():
             points = _chosen(levels, design, tyre)
         case _:
@@ -132,7 +136,23 @@ def _combinations(levels: Mapping[str, list[float]]) -> Array:
     return np.array(list(product(*levels.values())), dtype=float)
 
 
-def _between(study: Study, levels: Mapping[str, list[float]], coded: Array) -> Array:
+def _on_plots(factors: list[str], design: SplitPlot) -> Array:
+    """Coded points of a split-plot design, columns in the order of the factors."""
+    hard = [name for name in factors if name in design.hard_to_change]
+    easy = [name for name in factors if name not in design.hard_to_change]
+    coded = split_plot(
+        len(hard), len(easy), design.whole_plots, design.cases_per_plot, design.corners, design.seed
+    )
+    order = [*hard, *easy]
+    return coded[:, [order.index(name) for name in factors]]
+
+
+def _between(
+    study: Study,
+    levels: Mapping[str, list[float]],
+    coded: Array,
+    log_spaced: Sequence[str] = (),
+) -> Array:
     """Map coded points to the box between the lowest and the highest level of each factor."""
     for factor in study.factors:
         if any(isinstance(level, MeasuredRubber) for level in factor.levels):
@@ -145,6 +165,10 @@ def _between(study: Study, levels: Mapping[str, list[float]], coded: Array) -> A
             )
     low, high = (np.array([side(values) for values in levels.values()]) for side in (min, max))
     points = (low + high) / 2 + coded * (high - low) / 2
+    for name in log_spaced:
+        axis = list(levels).index(name)
+        part = (coded[:, axis] + 1) / 2
+        points[:, axis] = low[axis] * (high[axis] / low[axis]) ** part
     rounded = [[float(f"{value:.{DIGITS}g}") for value in point] for point in points]
     return np.clip(np.array(rounded), low, high)
 

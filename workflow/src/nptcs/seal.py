@@ -22,6 +22,7 @@ FORMATS: Mapping[str, int] = {
     "MaterialCard": 1,
     "PlyCard": 1,
     "RubberCard": 1,
+    "SpokeSurrogate": 1,
     "Surfaces": 1,
 }
 """Version of each format: raise it with any change of what the fields mean."""

@@ -39,15 +39,14 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.config.root import read_config
     from nptcs.doe.augment import augment, candidates_in_box
     from nptcs.errors import InputError
-    from nptcs.surface.stored import read_registry
-    from nptcs.surface.study import RESPONSE
+    from nptcs.surface.stored import read_models
 
     file = arguments.models / f"{arguments.study}.json"
     if not file.is_file():
         raise InputError(
             "this study has no fitted surfaces", file=file, remedy="run snakemake first"
         )
-    fitted = read_registry(file).by_solver(RESPONSE).get(arguments.solver, {})
+    fitted = read_models(file).get(arguments.solver, {})
     if arguments.surface not in fitted:
         raise InputError(
             f"solver {arguments.solver} has no such surface",

@@ -81,11 +81,39 @@ class DOptimal(Strict):
     )
 
 
+class SplitPlot(Strict):
+    """Several cases on each of many values of the factors that are costly to change.
+
+    For the solver `ring`: a spoke costs seconds, a ring on it milliseconds.
+    """
+
+    kind: Literal["split_plot"]
+    hard_to_change: tuple[str, ...] = Field(
+        min_length=1,
+        description="Factors that are costly to change, e.g. spacing, thickness, angle and rubber "
+        "of the spokes; the others vary on each whole plot",
+    )
+    whole_plots: int = Field(
+        ge=2, description="How many values of the factors that are costly to change"
+    )
+    cases_per_plot: int = Field(ge=2, description="Cases on each of them")
+    corners: bool = Field(
+        True, description="Corners of the box of the costly factors are among the whole plots"
+    )
+    log_spaced: tuple[str, ...] = Field(
+        (), description="Factors that are spread evenly in their logarithm, such as moduli"
+    )
+    seed: int = Field(1, ge=0, description="Of the random numbers: the same seed, the same cases")
+    whole_plates: bool = Field(
+        False, description="Move each spacing to the nearest one with a whole number of plates"
+    )
+
+
 Design = Annotated[
-    FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal,
+    FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal | SplitPlot,
     Field(discriminator="kind"),
 ]
-AnyDesign = FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal
+AnyDesign = FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal | SplitPlot
 
 
 def number_of_cases(design: AnyDesign, levels: list[int]) -> int:
@@ -96,6 +124,8 @@ def number_of_cases(design: AnyDesign, levels: list[int]) -> int:
             return prod(levels)
         case SpaceFilling() | DOptimal():
             return design.cases
+        case SplitPlot():
+            return design.whole_plots * design.cases_per_plot
         case CentralComposite():
             return int(2**factors) + 2 * factors + design.centre_cases
         case BoxBehnken():

@@ -8,7 +8,7 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.design import Design, DOptimal, FullFactorial, number_of_cases
+from nptcs.config.design import Design, DOptimal, FullFactorial, SplitPlot, number_of_cases
 from nptcs.config.response import ResponseChoice
 from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
 from nptcs.terms import parse
@@ -188,6 +188,27 @@ class Study(Strict):
                 raise ValueError(
                     f"study {self.name}: further_cases, case {number}: give {sorted(names)}, got "
                     f"{sorted(case)}"
+                )
+        return self
+
+    @model_validator(mode="after")
+    def _plots_are_of_its_factors(self) -> Self:
+        if not isinstance(self.design, SplitPlot):
+            return self
+        names = {factor.name for factor in self.factors}
+        hard, spaced = set(self.design.hard_to_change), set(self.design.log_spaced)
+        if stray := sorted((hard | spaced) - names):
+            raise ValueError(f"study {self.name}: design names {stray}, which are not its factors")
+        if hard == names:
+            raise ValueError(
+                f"study {self.name}: all factors are hard_to_change; leave at least one to vary on "
+                "each whole plot, or use latin_hypercube"
+            )
+        for factor in self.factors:
+            low = min((each for each in factor.levels if isinstance(each, float)), default=1.0)
+            if factor.name in spaced and low <= 0.0:
+                raise ValueError(
+                    f"study {self.name}: log_spaced needs levels of {factor.name} above zero"
                 )
         return self
 

@@ -58,12 +58,23 @@ class GaussianProcessModel(Strict):
     )
 
 
-SurfaceModel = Annotated[
-    PolynomialModel | LaminationModel | GaussianProcessModel, Field(discriminator="kind")
-]
+class SpokeProcessModel(Strict):
+    """For studies in which each spoke is solved with several rings (design `split_plot`)."""
+
+    kind: Literal["spoke_process"]
+    degree: int = Field(
+        3,
+        ge=1,
+        le=6,
+        description="Degree of the polynomial in the logarithms of the ring's factors on one spoke",
+    )
 
 
-def name_of(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> str:
+AnySurface = PolynomialModel | LaminationModel | GaussianProcessModel | SpokeProcessModel
+SurfaceModel = Annotated[AnySurface, Field(discriminator="kind")]
+
+
+def name_of(model: AnySurface) -> str:
     """Return the name of a surface in tables, e.g. ``gaussian process on lamination 7``."""
     match model:
         case PolynomialModel():
@@ -76,11 +87,13 @@ def name_of(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> 
             return f"lamination {model.coefficients}"
         case GaussianProcessModel():
             return f"gaussian process on {name_of(model.mean) if model.mean else 'the mean'}"
+        case SpokeProcessModel():
+            return "spoke process"
         case _:
             assert_never(model)
 
 
-def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> bool:
+def needs_ply(model: AnySurface) -> bool:
     """Tell whether a surface uses the constants of the ply."""
     match model:
         case PolynomialModel():
@@ -89,12 +102,14 @@ def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -
             return True
         case GaussianProcessModel():
             return model.mean is not None and needs_ply(model.mean)
+        case SpokeProcessModel():
+            return True
         case _:
             assert_never(model)
 
 
 def own_terms(
-    model: PolynomialModel | LaminationModel | GaussianProcessModel,
+    model: AnySurface,
 ) -> tuple[tuple[str, ...], bool]:
     """Return the terms that a surface itself lists, and whether it goes through the origin."""
     match model:
@@ -104,5 +119,20 @@ def own_terms(
             return (), False
         case GaussianProcessModel():
             return own_terms(model.mean) if model.mean is not None else ((), False)
+        case SpokeProcessModel():
+            return (), False
+        case _:
+            assert_never(model)
+
+
+def describes_stiffness_alone(model: AnySurface) -> bool:
+    """Tell whether a surface is the form of a stiffness, which no other response follows."""
+    match model:
+        case PolynomialModel() | SpokeProcessModel():
+            return False
+        case LaminationModel():
+            return True
+        case GaussianProcessModel():
+            return model.mean is not None and describes_stiffness_alone(model.mean)
         case _:
             assert_never(model)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,11 +9,12 @@ from typing import Any
 
 import numpy as np
 from scipy import stats
-from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, WhiteKernel
 
 from nptcs.arrays import Array
+from nptcs.errors import InputError
+from nptcs.likelihood import SearchError, bounds_are_answers, maximise
 from nptcs.surface.fit import coding
 from nptcs.surface.response_surface import (
     Groups,
@@ -180,11 +180,15 @@ def _fitted(
     process = GaussianProcessRegressor(
         kernel.clone_with_theta(start),
         alpha=NUGGET,
+        optimizer=maximise,
         n_restarts_optimizer=restarts,
         random_state=0,
     )
-    with warnings.catch_warnings():
-        # a length at its bound is a factor without, or with local, effect: nothing to warn of
-        warnings.simplefilter("ignore", ConvergenceWarning)
-        process.fit(draft._coded(x), draft._residual / draft._scale)
+    try:
+        with bounds_are_answers():
+            process.fit(draft._coded(x), draft._residual / draft._scale)
+    except SearchError as error:
+        raise InputError(
+            str(error), column="surfaces", remedy="leave this surface out, or change its mean"
+        ) from None
     return GaussianProcess(factors, x, y, mean, np.asarray(process.kernel_.theta))

@@ -89,7 +89,7 @@ def response_impacts(
                 rows += _ranked(fitted, settings)
             except InputError as error:
                 about = f"{fitted.solver}, {fitted.response}, {fitted.name}"
-                problems.append(("sensitivity", registry.study, about, "refused", str(error)))
+                problems.append(("surface", registry.study, about, "refused", str(error)))
     table = pd.DataFrame(rows, columns=list(ResponseImpact.to_schema().columns))
     for _, part in table.groupby(["study", "response", "at"]):
         ties = near_ties(part, ["solver"], "factor", "effect", settings.near_tie_ratio)

@@ -16,8 +16,9 @@ from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
 from nptcs.surface.linked import LinkedSurface
-from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
+from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
+from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.terms import Polynomial
 
 
@@ -65,6 +66,17 @@ def read_registry(path: str | Path) -> SurfaceRegistry:
         return load_registry(read_stored(path, "file of surfaces"))
     except BrokenSealError as error:
         raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
+
+
+def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
+    """Read the surfaces of a study's stiffness at its load, by solver and name.
+
+    Raises
+    ------
+    InputError
+        As `read_registry`.
+    """
+    return read_registry(path).by_solver(Response(STIFFNESS))
 
 
 def dump_registry(registry: SurfaceRegistry) -> str:
@@ -175,9 +187,21 @@ def _process(content: Mapping[str, Any]) -> GaussianProcess:
     )
 
 
+def _spoke_process(content: Mapping[str, Any]) -> SpokeProcess:
+    return SpokeProcess(
+        factor_names=tuple(content["factor_names"]),
+        x=np.array(content["x"]),
+        y=np.array(content["y"]),
+        ply=content["ply"],
+        degree=content["degree"],
+        theta=np.array(content["theta"]),
+    )
+
+
 READERS: dict[str, Callable[[Mapping[str, Any]], ResponseSurface]] = {
     Surface.__name__: _polynomial,
     LinkedSurface.__name__: _linked,
     Lamination.__name__: _lamination,
     GaussianProcess.__name__: _process,
+    SpokeProcess.__name__: _spoke_process,
 }

@@ -11,7 +11,7 @@ import pandas as pd
 
 from nptcs.config.response import RESPONSE_KINDS
 from nptcs.config.study import Study
-from nptcs.config.surface import SurfaceModel, needs_ply
+from nptcs.config.surface import SurfaceModel, describes_stiffness_alone
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases, solved_cases
 from nptcs.surface.comparison import LeftOut, leave_one_out
@@ -151,9 +151,14 @@ def fit_study(
     fits: list[Fit] = []
     problems: list[tuple[str, ...]] = []
     for response in [RESPONSE, *responses_of(study)]:
-        for solver in study.solvers:
-            found = _values(response, solved[solver].table, solver, values)
-            wanted = _Wanted(study, solver, response, solved[solver], found, ply)
+        by_solver = {
+            solver: _values(response, solved[solver].table, solver, values)
+            for solver in study.solvers
+        }
+        having = [solver for solver, found in by_solver.items() if found.notna().any()]
+        # an archive of stiffness has no stress: only what no solver has is a problem
+        for solver in having or study.solvers:
+            wanted = _Wanted(study, solver, response, solved[solver], by_solver[solver], ply)
             for fitted in _fits(wanted):
                 if isinstance(fitted, Fit):
                     fits.append(fitted)
@@ -214,7 +219,7 @@ def _fits(wanted: _Wanted) -> Iterator[Fit | tuple[str, ...]]:
 
 def _describes(model: SurfaceModel, response: Response) -> bool:
     """Tell whether a kind of surface is made for a response: the plates' form is a stiffness."""
-    return response.unit == "N/mm" or not needs_ply(model)
+    return response.unit == "N/mm" or not describes_stiffness_alone(model)
 
 
 def _too_few(wanted: _Wanted, count: int, lacking: int) -> InputError:

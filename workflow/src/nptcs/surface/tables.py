@@ -15,12 +15,20 @@ from nptcs.surface.linked import LinkedSurface
 from nptcs.surface.quality import assess
 from nptcs.surface.registry import STIFFNESS
 from nptcs.surface.response_surface import ResponseSurface, box
+from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.surface.study import Fit, StudySurfaces
 from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
 
-COMPARISON_RULE = (
+ALL_ANEW = (
     "terms or form kept, all parameters and hyperparameters fitted anew without each case or level"
 )
+COMPARISON_RULE: Mapping[type[ResponseSurface], str] = {
+    Surface: ALL_ANEW,
+    LinkedSurface: ALL_ANEW,
+    Lamination: ALL_ANEW,
+    GaussianProcess: ALL_ANEW,
+    SpokeProcess: "hyperparameters kept, all else fitted anew without each spoke or level",
+}
 
 
 def surface_table(
@@ -93,6 +101,12 @@ def form_of(surface: ResponseSurface) -> str:
         sizes = ", ".join(f"{value:.3g}" for value in np.exp(surface.theta))
         mean = "constant" if surface.mean is None else form_of(surface.mean)
         return f"Matérn 5/2, variance and lengths in half ranges {sizes}; mean: {mean}"
+    if isinstance(surface, SpokeProcess):
+        response = "log of the response" if surface.logarithmic else "response"
+        return (
+            f"{response} on one spoke of degree {surface.degree} in the ring's logarithms; "
+            f"{len(surface.theta)} processes over spokes"
+        )
     raise TypeError(f"not a kind of surface: {type(surface).__name__}")
 
 
@@ -113,7 +127,7 @@ def _compared(fit: Fit, levels: list[LevelError]) -> dict[str, object]:
         "outside_the_box": surface.outside.value,
         "fit_cpu_s": fit.cpu_s,
         "leave_one_out_cpu_s": left_out.cpu_s,
-        "rule": COMPARISON_RULE,
+        "rule": COMPARISON_RULE[type(surface)],
     }
 
 

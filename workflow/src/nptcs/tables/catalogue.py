@@ -35,6 +35,7 @@ from nptcs.tables.published_stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
+    StiffnessExponents,
 )
 from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.result_table import (
@@ -376,6 +377,15 @@ TABLES: dict[str, ResultTable] = {
         "stiffness_against_published.csv, averaged over the cases at each level",
         section=ReportSection.PUBLISHED_STIFFNESS,
         headings=headings.LEVELS,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "stiffness_exponents.csv": ResultTable(
+        StiffnessExponents,
+        "Exponents of the stiffness by each modulus, computed and published",
+        "compare_published",
+        "stiffness_against_published.csv, logarithms of stiffness by those of each modulus",
+        section=ReportSection.PUBLISHED_STIFFNESS,
+        headings=headings.EXPONENTS,
         synthetic=SyntheticBy.ROWS,
     ),
     "neutral_line.csv": ResultTable(

@@ -42,6 +42,13 @@ LEVELS = {
     "level": Heading("level", "unit of the factor"),
     "compared": Heading("cases compared"),
 }
+EXPONENTS = {
+    "held": Heading("other factors at"),
+    "levels": Heading("levels"),
+    "computed_exponent": Heading("computed"),
+    "published_exponent": Heading("published"),
+    "exponent_difference": Heading("computed − published"),
+}
 QUALITY = {
     "press": Heading("PRESS", "(N/mm)²"),
     "residual_sd": Heading("residual SD", "N/mm"),
