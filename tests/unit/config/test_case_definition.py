@@ -1,4 +1,4 @@
-"""What decides the cases of a study: a change of anything else must not solve them again."""
+"""What decides a study's cases: a change of anything else must not solve any case again."""
 
 import pytest
 

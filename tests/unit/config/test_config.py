@@ -1,4 +1,4 @@
-"""A faulty configuration is refused in words that say where and what to do."""
+"""A faulty configuration is refused with a message that says where the fault is and what to do."""
 
 import copy
 from pathlib import Path
@@ -121,7 +121,7 @@ def test_single_spokes_have_no_surface():
     assert "fe_spoke" in str(refusal.value)
 
 
-def test_table_10_with_solvers_of_tyres_is_refused():
+def test_table_10_for_a_study_of_tyres_is_refused():
     config = copy.deepcopy(DEFAULT)
     config["studies"][SPOKE] |= {"solvers": ["lca"], "fixed": {"shear_band_c10_mpa": 5}}
     config = read_config(config)
@@ -139,7 +139,7 @@ def test_table_10_with_solvers_of_tyres_is_refused():
     ],
     ids=["without published", "of published", "of a spoke"],
 )
-def test_calibration_cases_that_nothing_compares_are_refused(name, change):
+def test_calibration_cases_that_are_never_compared_are_refused(name, change):
     config = copy.deepcopy(DEFAULT)
     next(study for study in config["studies"] if study["name"] == name).update(change)
     config = read_config(config)

@@ -12,7 +12,6 @@ from nptcs.campaign.record import CaseRecord
 from nptcs.config.responses import TyreResponseSettings
 from nptcs.responses.curve import CurvePoint, LoadCurve
 from nptcs.responses.strength import PlyStrengths, maximum_stress_factor, tsai_wu_factor
-from nptcs.solvers.contract import Status
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 OK, NOT_ASSESSED, NOT_REACHED = "ok", "not assessed", "not reached"
@@ -119,7 +118,7 @@ def _solved(records: Sequence[CaseRecord]) -> list[CaseRecord]:
     return [
         record
         for record in records
-        if record.result.status == Status.OK
+        if record.result.status.solved
         and record.load_n is not None
         and record.result.curve is not None
     ]

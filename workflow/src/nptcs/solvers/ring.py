@@ -23,6 +23,8 @@ from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -38,6 +40,8 @@ class RingSolverOptions(SolverOptions, RingModel):
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
+    case_s: float = Field(15.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
     plate_stress: Literal["all", "off"] = Field(
         "off",
         description="all: the spokes that are loaded most are solved again at their motion in the "
