@@ -202,22 +202,38 @@ def _improved(
         return start
     span = (space.upper - space.lower)[free]
 
-    def there(unit: Array) -> Evaluation:
-        point = start.copy()
-        point[free] = space.lower[free] + np.clip(unit, 0.0, 1.0) * span
-        return problem.evaluate(point[None, :])
+    seen: dict[bytes, tuple[Array, Array]] = {}
+
+    def around(unit: Array) -> tuple[Array, Array]:
+        """Merit and probability at a point, then one step along each factor."""  # noqa: D401
+        if (key := unit.tobytes()) not in seen:
+            # at the upper edge the step goes inwards
+            signs = np.where(unit + STEP > 1.0, -1.0, 1.0)
+            units = np.vstack([unit, unit + STEP * np.diag(signs)])
+            points = np.repeat(start[None, :], len(units), axis=0)
+            points[:, free] = space.lower[free] + np.clip(units, 0.0, 1.0) * span
+            found = problem.evaluate(points)
+            seen[key] = rank(problem, scale, found), found.probability
+        return seen[key]
+
+    def slope(values: Array, unit: Array) -> Array:
+        signs = np.where(unit + STEP > 1.0, -1.0, 1.0)
+        gradient: Array = (values[1:] - values[0]) / (STEP * signs)
+        return gradient
 
     first = np.clip((start[free] - space.lower[free]) / span, STEP, 1 - STEP)
     ended = minimize(
-        lambda unit: -float(rank(problem, scale, there(unit))[0]),
+        lambda unit: -around(unit)[0][0],
         first,
+        jac=lambda unit: -slope(around(unit)[0], unit),
         method="SLSQP",
         bounds=[(0.0, 1.0)] * len(free),
         constraints={
             "type": "ineq",
-            "fun": lambda unit: float(there(unit).probability[0]) - probability,
+            "fun": lambda unit: around(unit)[1][0] - probability,
+            "jac": lambda unit: slope(around(unit)[1], unit),
         },
-        options={"maxiter": 30, "eps": STEP, "ftol": 1e-6},
+        options={"maxiter": 30, "ftol": 1e-6},
     )
     point = start.copy()
     point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
