@@ -1,4 +1,5 @@
 # The configuration and the specimen sheet, checked, and what the rules need from them.
+import sys
 import time
 from functools import cache
 from pathlib import Path
@@ -10,7 +11,9 @@ from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
-from nptcs.files import sha256_of_file
+from nptcs.files import remove_unfinished, sha256_of_file
+from nptcs.processes.runs import begin_job, begin_run
+from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import (
     load,
@@ -23,6 +26,17 @@ from nptcs.tables.catalogue import result_files
 from nptcs.tables.specimens import read_sheet
 
 STARTED = time.time()
+
+# Snakemake looks at its locks after it has read this file
+if not workflow.is_main_process:
+    begin_job()
+elif begin_run(Path(".snakemake")):
+    remove_unfinished("results")
+
+
+onstart:
+    stop_jobs_on_signals(sys.argv)
+
 
 try:
     CONFIG = read_config(config)

@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import shutil
 import signal
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 
 from nptcs.campaign import worker
 from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
+from nptcs.processes.marked import MARK, end_marked
+from nptcs.processes.scratch import scratch_folder
 from nptcs.solvers.contract import SolverResult, Status
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -39,6 +44,7 @@ class _Running:
     job: CaseJob
     process: BaseProcess
     channel: Connection
+    folder: Path
     started: float
 
 
@@ -108,18 +114,22 @@ def _solve_all(
                 yield position, _collect(case)
     finally:
         for case in running.values():
-            _stop(case.process)
+            case.process.terminate()
+        for case in running.values():
+            _stop(case)
 
 
 def _start(job: CaseJob) -> _Running:
     """Start the process of a case."""
     context = multiprocessing.get_context("forkserver")
     receive, send = context.Pipe(duplex=False)
-    process = context.Process(target=worker.run, args=(job, send), name=job.case_id)
-    with _without_main_file(), _one_thread():
+    scratch = scratch_folder()
+    folder = Path(tempfile.mkdtemp(dir=scratch, prefix="case-"))
+    process = context.Process(target=worker.run, args=(job, send, str(folder)), name=job.case_id)
+    with _without_main_file(), _environment(scratch):
         process.start()
     send.close()
-    return _Running(job, process, receive, time.monotonic())
+    return _Running(job, process, receive, folder, time.monotonic())
 
 
 def _ended(running: dict[int, _Running]) -> list[int]:
@@ -152,7 +162,7 @@ def _collect(case: _Running) -> Outcome:
         return SolverResult(status=Status.ERROR, message=message, died=died), seconds, None
     finally:
         case.channel.close()
-        _stop(case.process)
+        _stop(case)
 
 
 def _cause_of_death(exit_code: int | None) -> str:
@@ -162,8 +172,9 @@ def _cause_of_death(exit_code: int | None) -> str:
     return f"the solver's process ended without a result (exit code {exit_code})"
 
 
-def _stop(process: BaseProcess) -> None:
-    """End a process, politely first, and free it."""
+def _stop(case: _Running) -> None:
+    """End a case's process, politely first, and whatever it has left."""
+    process = case.process
     process.join(0.1)
     if process.is_alive():
         process.terminate()
@@ -171,14 +182,18 @@ def _stop(process: BaseProcess) -> None:
     if process.is_alive():
         process.kill()
         process.join()
+    if process.exitcode != 0:  # it may have had no time to end its commands
+        end_marked(str(case.folder))
     process.close()
+    shutil.rmtree(case.folder, ignore_errors=True)
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
-    """Limit numerical libraries to one thread in the fork server, which the first case starts."""
-    before = {name: os.environ.get(name) for name in THREAD_LIMITS}
-    os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
+def _environment(scratch: Path) -> Iterator[None]:
+    """Start the fork server, and with it all cases, with one thread and the mark of this batch."""
+    changes = {**dict.fromkeys(THREAD_LIMITS, "1"), MARK: str(scratch)}
+    before = {name: os.environ.get(name) for name in changes}
+    os.environ.update(changes)
     try:
         yield
     finally:

@@ -7,15 +7,18 @@ import os
 import resource
 import signal
 import sys
+import tempfile
 import threading
 import time
 import traceback
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection
-from types import FrameType
 
 from nptcs.campaign.record import CaseJob
 from nptcs.config.tyre import TyreGeometry
+from nptcs.errors import SHORTAGES
+from nptcs.processes.marked import MARK
+from nptcs.processes.stops import leave_in_order
 from nptcs.solvers.contract import CaseInputs, SolverResult, Status
 from nptcs.solvers.external import end_all
 from nptcs.solvers.registry import load, read_options
@@ -52,12 +55,18 @@ def solve(job: CaseJob) -> SolverResult:
         return SolverResult(
             status=Status.ERROR,
             message=f"{type(error).__name__}: {error} ({file}, line {where.lineno})",
+            died=isinstance(error, OSError) and error.errno in SHORTAGES,
         )
 
 
-def run(job: CaseJob, channel: Connection) -> None:
-    """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe."""
-    signal.signal(signal.SIGTERM, _leave)
+def run(job: CaseJob, channel: Connection, folder: str) -> None:
+    """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe.
+
+    Temporary files of the solver go to `folder`, and its commands carry the mark of it; the
+    campaign removes both.
+    """
+    tempfile.tempdir = os.environ["TMPDIR"] = os.environ[MARK] = folder
+    signal.signal(signal.SIGTERM, leave_in_order)
     threading.Thread(target=_leave_with_parent, daemon=True).start()
     start = time.perf_counter()
     result = solve(job)
@@ -69,11 +78,6 @@ def _peak_memory_mb() -> float:
     """Return the largest memory of this process so far, in MB."""
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / (1e6 if sys.platform == "darwin" else 1e3)
-
-
-def _leave(number: int, frame: FrameType | None) -> None:
-    """Leave in order, so that a solver can end the commands that it has started."""
-    raise SystemExit(128 + number)
 
 
 def _leave_with_parent() -> None:
