@@ -1,4 +1,4 @@
-# The configuration and the specimen sheet, checked; what the rules ask of them.
+# The configuration and the specimen sheet, checked, and what the rules need from them.
 import shlex
 import sys
 import time
@@ -75,16 +75,16 @@ wildcard_constraints:
 def plain(section):
     """A configuration section or a row of the sheet as plain values.
 
-    Snakemake notices each change of them. Remarks decide nothing: only the report has them.
+    Snakemake notices each change of them. Remarks decide nothing; only the report shows them.
     """
     return section.model_dump(mode="json", exclude={"remarks"})
 
 
 def code_of(script, *modules, words=False):
-    """Hash of a rule's script, of all that it imports from the package, and of further modules.
+    """Hash of a rule's script, of everything that it imports from the package, and of further modules.
 
-    Snakemake goes by the script's time stamp, which a checkout renews, and not by its imports.
-    Rules whose output prints messages and descriptions ask for their `words` too.
+    Snakemake looks at the script's time stamp, which a checkout renews, and not at its imports.
+    Rules whose output shows messages and descriptions ask for `words` too.
     """
     return code_hash(
         str(Path(workflow.basedir) / f"scripts/{script}.py"),

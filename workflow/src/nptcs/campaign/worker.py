@@ -77,7 +77,7 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 
 def _leave_with_parent() -> None:
-    """End this process when the campaign that started it is gone, however it went."""
+    """End this process when the campaign that started it is gone, however that ended."""
     parent = parent_process()
     if parent is not None:
         parent.join()
