@@ -8,6 +8,7 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
+from nptcs.campaign.bulk import in_bulk
 from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
@@ -147,10 +148,32 @@ def batches_of(study_name, solver_name):
     )
 
 
+def solved_in_bulk(study_name, solver_name):
+    """Whether a solver solves the cases of a study as a table: no record of each, no curves."""
+    solver, _ = solver_of(study_name, solver_name)
+    cases = CONFIG.study(study_name).number_of_cases()
+    return in_bulk(solver, cases, CONFIG.campaign.bulk_from)
+
+
 def batches(study_name, solver_name=None):
+    """The files with the results of a study, of one of its solvers or of all."""
     study = CONFIG.study(study_name)
     return [
-        f"results/5_solve/{study_name}/{solver}/batch_{batch}.jsonl"
+        f"results/5_solve/{study_name}/{solver}/"
+        + (
+            f"bulk_{batch}.npz"
+            if solved_in_bulk(study_name, solver)
+            else f"batch_{batch}.jsonl"
+        )
         for solver in ([solver_name] if solver_name else study.solvers)
         for batch in range(1, batches_of(study_name, solver) + 1)
     ]
+
+
+def record_batches(study_name, solver_name):
+    """As `batches`, but only those with a record of each case; none if it is solved in bulk."""
+    return (
+        []
+        if solved_in_bulk(study_name, solver_name)
+        else batches(study_name, solver_name)
+    )

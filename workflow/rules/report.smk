@@ -83,6 +83,7 @@ rule report:
             "config": plain(CONFIG),
             "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
             "solvers": solver_facts(),
+            "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
                 for template in sorted(

@@ -108,7 +108,7 @@ def _solve_all(
                 yield position, _collect(case)
     finally:
         for case in running.values():
-            _stop(case.process)
+            stop(case.process)
 
 
 def _start(job: CaseJob) -> _Running:
@@ -116,7 +116,7 @@ def _start(job: CaseJob) -> _Running:
     context = multiprocessing.get_context("forkserver")
     receive, send = context.Pipe(duplex=False)
     process = context.Process(target=worker.run, args=(job, send), name=job.case_id)
-    with _without_main_file(), _one_thread():
+    with without_main_file(), one_thread():
         process.start()
     send.close()
     return _Running(job, process, receive, time.monotonic())
@@ -148,21 +148,21 @@ def _collect(case: _Running) -> Outcome:
         case.process.join(KILL_AFTER_S)
         code = case.process.exitcode
         died = code is not None and -code in SENT_FROM_OUTSIDE
-        message = _cause_of_death(code)
+        message = cause_of_death(code)
         return SolverResult(status=Status.ERROR, message=message, died=died), seconds, None
     finally:
         case.channel.close()
-        _stop(case.process)
+        stop(case.process)
 
 
-def _cause_of_death(exit_code: int | None) -> str:
+def cause_of_death(exit_code: int | None) -> str:
     """Describe how a process ended that sent no result."""
     if exit_code is not None and exit_code < 0:
         return f"the solver's process was killed by signal {signal.Signals(-exit_code).name}"
     return f"the solver's process ended without a result (exit code {exit_code})"
 
 
-def _stop(process: BaseProcess) -> None:
+def stop(process: BaseProcess) -> None:
     """End a process, politely first, and free it."""
     process.join(0.1)
     if process.is_alive():
@@ -175,7 +175,7 @@ def _stop(process: BaseProcess) -> None:
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
+def one_thread() -> Iterator[None]:
     """Limit numerical libraries to one thread in the fork server, which the first case starts."""
     before = {name: os.environ.get(name) for name in THREAD_LIMITS}
     os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
@@ -190,7 +190,7 @@ def _one_thread() -> Iterator[None]:
 
 
 @contextmanager
-def _without_main_file() -> Iterator[None]:
+def without_main_file() -> Iterator[None]:
     """Keep a new process from running the caller's main script a second time.
 
     multiprocessing imports the parent's ``__main__`` in each child when it has a file. Here that

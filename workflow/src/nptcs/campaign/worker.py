@@ -47,25 +47,32 @@ def solve(job: CaseJob) -> SolverResult:
     except MemoryError as error:
         return SolverResult(status=Status.ERROR, message=f"out of memory: {error}", died=True)
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
-        where = traceback.extract_tb(error.__traceback__)[-1]
-        file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
-        return SolverResult(
-            status=Status.ERROR,
-            message=f"{type(error).__name__}: {error} ({file}, line {where.lineno})",
-        )
+        return SolverResult(status=Status.ERROR, message=message_of(error))
+
+
+def message_of(error: Exception) -> str:
+    """Name an exception and where it was raised, in one line."""
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
+    return f"{type(error).__name__}: {error} ({file}, line {where.lineno})"
 
 
 def run(job: CaseJob, channel: Connection) -> None:
     """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe."""
-    signal.signal(signal.SIGTERM, _leave)
-    threading.Thread(target=_leave_with_parent, daemon=True).start()
+    leave_with_parent()
     start = time.perf_counter()
     result = solve(job)
-    channel.send((result.model_dump_json(), time.perf_counter() - start, _peak_memory_mb()))
+    channel.send((result.model_dump_json(), time.perf_counter() - start, peak_memory_mb()))
     channel.close()
 
 
-def _peak_memory_mb() -> float:
+def leave_with_parent() -> None:
+    """Let this process end in order on SIGTERM, and when the campaign that started it is gone."""
+    signal.signal(signal.SIGTERM, _leave)
+    threading.Thread(target=_leave_with_parent, daemon=True).start()
+
+
+def peak_memory_mb() -> float:
     """Return the largest memory of this process so far, in MB."""
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / (1e6 if sys.platform == "darwin" else 1e3)
