@@ -120,7 +120,11 @@ rule cases:
     input:
         records=[path for study in STUDIES for path in batches(study)],
     output:
-        cases="results/tables/cases.csv",
+        cases=report(
+            "results/tables/cases.csv",
+            caption="../report/cases.rst",
+            category="Cases",
+        ),
     log:
         "results/logs/cases.log",
     params:
