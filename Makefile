@@ -33,14 +33,14 @@ test-kernel: $(VENV)/ready-dev
 lint: $(VENV)/ready-dev
 	ruff check .
 	ruff format --check .
-	snakefmt --check Snakefile workflow/rules
+	snakefmt --check workflow/Snakefile workflow/rules
 	mypy
 	lint-imports
 
 format: $(VENV)/ready-dev
 	ruff check --fix .
 	ruff format .
-	snakefmt Snakefile workflow/rules
+	snakefmt workflow/Snakefile workflow/rules
 
 $(VENV)/ready: pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "nptcs needs Python 3.11 or newer")'

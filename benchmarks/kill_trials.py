@@ -105,7 +105,7 @@ class Project:
     def start(self) -> subprocess.Popen[bytes]:
         """Start the run; always the same command."""
         command = [
-            *(sys.executable, "-m", "snakemake", "-s", str(ROOT / "Snakefile")),
+            *(sys.executable, "-m", "snakemake", "-s", str(ROOT / "workflow/Snakefile")),
             *("-d", str(self.folder), "-j2", "--workflow-profile", "none", "--rerun-incomplete"),
             *("--configfile", "kill.yaml", "--scheduler", "greedy", "--", TARGET),
         ]

@@ -1,4 +1,5 @@
 # The configuration and the specimen sheet, checked, and what the rules need from them.
+import shlex
 import sys
 import time
 from functools import cache
@@ -7,7 +8,9 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
+from nptcs.campaign.bulk import in_bulk
 from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
+from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
@@ -24,8 +27,16 @@ from nptcs.solvers.registry import (
 )
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.specimens import read_sheet
+from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()
+
+one_thread_per_process()  # of the linear algebra in all jobs; cases already share the cores
+# Snakemake writes the interpreter of scripts and submitted jobs into shell commands as it is, and a
+# blank in its path (a virtual environment in "OneDrive - Lab") would end the command there: its
+# issue 2645, open in 9.27
+if Path(sys.executable).exists():
+    sys.executable = shlex.quote(sys.executable)
 
 # Snakemake looks at its locks after it has read this file
 if not workflow.is_main_process:
@@ -90,7 +101,7 @@ def code_of(script, *modules, words=False):
     Rules whose output shows messages and descriptions ask for `words` too.
     """
     return code_hash(
-        str(Path(workflow.basedir) / f"workflow/scripts/{script}.py"),
+        str(Path(workflow.basedir) / f"scripts/{script}.py"),
         *modules,
         words=words,
     )
@@ -142,10 +153,40 @@ def tyre_solvers(study_name):
     ]
 
 
+def batches_of(study_name, solver_name):
+    """Number of jobs into which the cases of a study are divided for a solver."""
+    _, options = solver_of(study_name, solver_name)
+    return batch_count(
+        CONFIG.study(study_name).number_of_cases(), CONFIG.campaign, options
+    )
+
+
+def solved_in_bulk(study_name, solver_name):
+    """Whether a solver solves the cases of a study as a table: no record of each, no curves."""
+    solver, _ = solver_of(study_name, solver_name)
+    cases = CONFIG.study(study_name).number_of_cases()
+    return in_bulk(solver, cases, CONFIG.campaign.bulk_from)
+
+
 def batches(study_name, solver_name=None):
+    """The files with the results of a study, of one of its solvers or of all."""
     study = CONFIG.study(study_name)
     return [
-        f"results/5_solve/{study_name}/{solver}/batch_{batch}.jsonl"
+        f"results/5_solve/{study_name}/{solver}/"
+        + (
+            f"bulk_{batch}.npz"
+            if solved_in_bulk(study_name, solver)
+            else f"batch_{batch}.jsonl"
+        )
         for solver in ([solver_name] if solver_name else study.solvers)
-        for batch in range(1, CONFIG.campaign.batches + 1)
+        for batch in range(1, batches_of(study_name, solver) + 1)
     ]
+
+
+def record_batches(study_name, solver_name):
+    """As `batches`, but only those with a record of each case; none if it is solved in bulk."""
+    return (
+        []
+        if solved_in_bulk(study_name, solver_name)
+        else batches(study_name, solver_name)
+    )

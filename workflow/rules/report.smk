@@ -42,6 +42,17 @@ def configured_inputs():
     return list(dict.fromkeys(filter(None, paths)))
 
 
+rule configuration:
+    output:
+        configuration="results/configuration.yaml",
+    log:
+        "results/logs/configuration.log",
+    params:
+        job={"config": plain(CONFIG), "code": code_of("configuration")},
+    script:
+        "../scripts/configuration.py"
+
+
 rule problems:
     input:
         records=records(SPECIMENS),
@@ -74,8 +85,16 @@ rule report:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         inputs=[ancient(path) for path in configured_inputs()],
     output:
-        page="results/report.html",
-        workbook="results/workbook.xlsx",
+        page=report(
+            "results/report.html",
+            caption="../report/page.rst",
+            category="Report",
+        ),
+        workbook=report(
+            "results/workbook.xlsx",
+            caption="../report/workbook.rst",
+            category="Report",
+        ),
     log:
         "results/logs/report.log",
     params:
@@ -83,6 +102,7 @@ rule report:
             "config": plain(CONFIG),
             "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
             "solvers": solver_facts(),
+            "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
                 for template in sorted(

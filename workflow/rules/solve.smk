@@ -1,5 +1,6 @@
 # Design tables → one record per case. A failed case is a record too; records are kept by content.
 
+from nptcs.campaign.queue import batch_memory_mb, batch_minutes, licence_request
 from nptcs.campaign.tries import read_tries
 
 
@@ -16,7 +17,7 @@ def solver_tables(wildcards):
     return [ancient(path) for path in options.tables().values()]
 
 
-def solve_job(wildcards):
+def solve_job(wildcards, output):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
     _, checked = solver_of(wildcards.study, wildcards.solver)
@@ -29,11 +30,17 @@ def solve_job(wildcards):
         "tables": contents(checked.tables().values()),
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
-        "batches": CONFIG.campaign.batches,
-        "tries": read_tries(
-            "results/5_solve/{study}/{solver}/batch_{batch}.jsonl".format(**wildcards)
-        ),
+        "batches": batches_of(wildcards.study, wildcards.solver),
+        "tries": read_tries(output[0]),
         "code": code_of("solve", module_of(wildcards.solver, options)),
+    }
+
+
+def solve_bulk_job(wildcards, output):
+    options = CONFIG.solver_options(CONFIG.study(wildcards.study))[wildcards.solver]
+    return {
+        **solve_job(wildcards, output),
+        "code": code_of("solve_bulk", module_of(wildcards.solver, options)),
     }
 
 
@@ -45,6 +52,24 @@ def solve_cores(wildcards):
 def solve_tokens(wildcards, threads):
     _, options = solver_of(wildcards.study, wildcards.solver)
     return batch_tokens(threads, options)
+
+
+def solve_memory_mb(wildcards, threads, attempt):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    return batch_memory_mb(threads, options, attempt)
+
+
+def solve_minutes(wildcards, threads, attempt):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    cases = CONFIG.study(wildcards.study).number_of_cases()
+    parts = batches_of(wildcards.study, wildcards.solver)
+    return batch_minutes(cases, parts, threads, options, attempt)
+
+
+def solve_licence(wildcards, threads):
+    return licence_request(
+        solve_tokens(wildcards, threads), CONFIG.campaign.queue_licence
+    )
 
 
 rule solve:
@@ -59,6 +84,9 @@ rule solve:
     threads: solve_cores
     resources:
         licence_tokens=solve_tokens,
+        mem_mb=solve_memory_mb,
+        runtime=solve_minutes,
+        slurm_extra=solve_licence,
     params:
         job=solve_job,
         store="results/5_solve/records",
@@ -66,11 +94,37 @@ rule solve:
         "../scripts/solve.py"
 
 
+rule solve_bulk:
+    input:
+        design="results/4_design/{study}.csv",
+        ply=ply_card,
+        tables=solver_tables,
+    output:
+        results="results/5_solve/{study}/{solver}/bulk_{batch}.npz",
+    log:
+        "results/logs/solve/{study}_{solver}_bulk_{batch}.log",
+    threads: solve_cores
+    resources:
+        licence_tokens=solve_tokens,
+        mem_mb=solve_memory_mb,
+        runtime=solve_minutes,
+        slurm_extra=solve_licence,
+    params:
+        job=solve_bulk_job,
+        store="results/5_solve/records",
+    script:
+        "../scripts/solve_bulk.py"
+
+
 rule cases:
     input:
         records=[path for study in STUDIES for path in batches(study)],
     output:
-        cases="results/tables/cases.csv",
+        cases=report(
+            "results/tables/cases.csv",
+            caption="../report/cases.rst",
+            category="Cases",
+        ),
     log:
         "results/logs/cases.log",
     params:

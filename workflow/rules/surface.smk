@@ -78,7 +78,11 @@ rule sensitivity:
         ),
         published=[ancient(path) for path in PUBLISHED_IMPACT],
     output:
-        impact="results/tables/impact.csv",
+        impact=report(
+            "results/tables/impact.csv",
+            caption="../report/impact.rst",
+            category="Sensitivity",
+        ),
         quality="results/tables/surface_quality.csv",
         comparison="results/tables/surface_comparison.csv",
         by_factor="results/tables/surface_by_factor.csv",

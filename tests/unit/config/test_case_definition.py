@@ -1,4 +1,4 @@
-"""What decides a study's cases: a change of anything else must solve nothing anew."""
+"""What decides a study's cases: a change of anything else must not solve any case again."""
 
 import pytest
 

@@ -15,8 +15,10 @@ SEAL = "_seal"
 """Key of the seal; no field of a stored record may have this name."""
 
 FORMATS: Mapping[str, int] = {
+    "BulkResults": 1,
     "CaseRecord": 1,
     "CaseRecords": 1,
+    "Figure": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
     "Models": 1,

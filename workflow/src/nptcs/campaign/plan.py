@@ -8,6 +8,7 @@ from itertools import islice
 from pathlib import Path
 from statistics import median
 
+from nptcs.campaign.bulk import in_bulk, known_in_bulk
 from nptcs.campaign.checks import solvers_of
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
@@ -73,6 +74,10 @@ def known_cases(
         ply = next(iter(plies.values())).values() if solver.needs_ply else None
         given = options[solver.name]
         design = build_design(study, c10, config.tyre)
+        if in_bulk(solver, len(design), config.campaign.bulk_from):
+            given_table = (study, solver.name, given, config.tyre, design, ply)
+            known[solver.name] = known_in_bulk(*given_table, store.folder)
+            continue
         jobs = make_jobs(study, solver.name, given, config.tyre, design, ply)
         known[solver.name] = sum(store.read(job) is not None for job in jobs)
     return known

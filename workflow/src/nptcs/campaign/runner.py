@@ -116,17 +116,16 @@ def _solve_all(
         for case in running.values():
             case.process.terminate()
         for case in running.values():
-            _stop(case)
+            stop(case.process, case.folder)
 
 
 def _start(job: CaseJob) -> _Running:
     """Start the process of a case."""
     context = multiprocessing.get_context("forkserver")
     receive, send = context.Pipe(duplex=False)
-    scratch = scratch_folder()
-    folder = Path(tempfile.mkdtemp(dir=scratch, prefix="case-"))
+    folder = case_folder()
     process = context.Process(target=worker.run, args=(job, send, str(folder)), name=job.case_id)
-    with _without_main_file(), _environment(scratch):
+    with without_main_file(), case_environment():
         process.start()
     send.close()
     return _Running(job, process, receive, folder, time.monotonic())
@@ -158,23 +157,27 @@ def _collect(case: _Running) -> Outcome:
         case.process.join(KILL_AFTER_S)
         code = case.process.exitcode
         died = code is not None and -code in SENT_FROM_OUTSIDE
-        message = _cause_of_death(code)
+        message = cause_of_death(code)
         return SolverResult(status=Status.ERROR, message=message, died=died), seconds, None
     finally:
         case.channel.close()
-        _stop(case)
+        stop(case.process, case.folder)
 
 
-def _cause_of_death(exit_code: int | None) -> str:
+def cause_of_death(exit_code: int | None) -> str:
     """Describe how a process ended that sent no result."""
     if exit_code is not None and exit_code < 0:
         return f"the solver's process was killed by signal {signal.Signals(-exit_code).name}"
     return f"the solver's process ended without a result (exit code {exit_code})"
 
 
-def _stop(case: _Running) -> None:
-    """End a case's process, politely first, and whatever it has left."""
-    process = case.process
+def case_folder() -> Path:
+    """Make the folder in which a process that solves cases has its temporary files."""
+    return Path(tempfile.mkdtemp(dir=scratch_folder(), prefix="case-"))
+
+
+def stop(process: BaseProcess, folder: Path) -> None:
+    """End a process, politely first, and whatever it has left; remove its folder."""
     process.join(0.1)
     if process.is_alive():
         process.terminate()
@@ -183,15 +186,15 @@ def _stop(case: _Running) -> None:
         process.kill()
         process.join()
     if process.exitcode != 0:  # it may have had no time to end its commands
-        end_marked(str(case.folder))
+        end_marked(str(folder))
     process.close()
-    shutil.rmtree(case.folder, ignore_errors=True)
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextmanager
-def _environment(scratch: Path) -> Iterator[None]:
-    """Start the fork server, and with it all cases, with one thread and the mark of this batch."""
-    changes = {**dict.fromkeys(THREAD_LIMITS, "1"), MARK: str(scratch)}
+def case_environment() -> Iterator[None]:
+    """Start the fork server, and so all cases, with one thread and the mark of this process."""
+    changes = {**dict.fromkeys(THREAD_LIMITS, "1"), MARK: str(scratch_folder())}
     before = {name: os.environ.get(name) for name in changes}
     os.environ.update(changes)
     try:
@@ -205,7 +208,7 @@ def _environment(scratch: Path) -> Iterator[None]:
 
 
 @contextmanager
-def _without_main_file() -> Iterator[None]:
+def without_main_file() -> Iterator[None]:
     """Keep a new process from running the caller's main script a second time.
 
     multiprocessing imports the parent's ``__main__`` in each child when it has a file. Here that

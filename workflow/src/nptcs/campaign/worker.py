@@ -50,31 +50,44 @@ def solve(job: CaseJob) -> SolverResult:
     except MemoryError as error:
         return SolverResult(status=Status.ERROR, message=f"out of memory: {error}", died=True)
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
-        where = traceback.extract_tb(error.__traceback__)[-1]
-        file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
         return SolverResult(
-            status=Status.ERROR,
-            message=f"{type(error).__name__}: {error} ({file}, line {where.lineno})",
-            died=isinstance(error, OSError) and error.errno in SHORTAGES,
+            status=Status.ERROR, message=message_of(error), died=of_the_machine(error)
         )
 
 
-def run(job: CaseJob, channel: Connection, folder: str) -> None:
-    """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe.
+def message_of(error: Exception) -> str:
+    """Name an exception and where it was raised, in one line."""
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
+    return f"{type(error).__name__}: {error} ({file}, line {where.lineno})"
 
-    Temporary files of the solver go to `folder`, and its commands carry the mark of it; the
-    campaign removes both.
+
+def of_the_machine(error: Exception) -> bool:
+    """Tell whether an error says that the machine lacked something: disk space, open files."""
+    return isinstance(error, OSError) and error.errno in SHORTAGES
+
+
+def run(job: CaseJob, channel: Connection, folder: str) -> None:
+    """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe."""
+    begin_in(folder)
+    start = time.perf_counter()
+    result = solve(job)
+    channel.send((result.model_dump_json(), time.perf_counter() - start, peak_memory_mb()))
+    channel.close()
+
+
+def begin_in(folder: str) -> None:
+    """Let this process end in order on SIGTERM, and when the campaign that started it is gone.
+
+    Temporary files of a solver go to `folder`, and its commands carry the mark of it; the campaign
+    removes both when the process has ended.
     """
     tempfile.tempdir = os.environ["TMPDIR"] = os.environ[MARK] = folder
     signal.signal(signal.SIGTERM, leave_in_order)
     threading.Thread(target=_leave_with_parent, daemon=True).start()
-    start = time.perf_counter()
-    result = solve(job)
-    channel.send((result.model_dump_json(), time.perf_counter() - start, _peak_memory_mb()))
-    channel.close()
 
 
-def _peak_memory_mb() -> float:
+def peak_memory_mb() -> float:
     """Return the largest memory of this process so far, in MB."""
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / (1e6 if sys.platform == "darwin" else 1e3)

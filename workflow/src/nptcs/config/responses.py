@@ -1,4 +1,4 @@
-"""What is reported of every solved tyre, beyond the stiffness at the load of its case."""
+"""What is reported for every solved tyre, beyond the stiffness at the load of its case."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The whole configuration, and its errors in words that a user can act on."""
+"""The whole configuration, and its errors described so that a user can act on them."""
 
 from __future__ import annotations
 
@@ -39,11 +39,29 @@ class Campaign(Strict):
         ge=1,
         description="Cases of a study above which a run is refused; raise it to ask for more",
     )
+    bulk_from: int = Field(
+        1000,
+        ge=1,
+        description="Cases of a study from which solvers that can solve a table of cases do so: "
+        "minutes instead of hours, one file of columns, but no curves and no neutral lines",
+    )
     batches: int = Field(
         1,
         ge=1,
         le=1000,
         description="Jobs into which each solver's cases of a study are divided (for clusters)",
+    )
+    minutes_per_batch: float | None = Field(
+        None,
+        gt=0,
+        description="Divide the cases into jobs that usually take about this long, by the `case_s` "
+        "of their solver, instead of into `batches` jobs",
+    )
+    queue_licence: str = Field(
+        "",
+        pattern=r"^[A-Za-z0-9_@.-]*$",
+        description="Name under which Slurm counts the licence tokens of a solver (`Licenses=` in "
+        "slurm.conf); empty: only `--resources licence_tokens=N` of Snakemake limits them",
     )
     cores_per_batch: int = Field(
         2,

@@ -18,6 +18,8 @@ from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -26,6 +28,7 @@ from nptcs.solvers.contract import (
     neutral_line_columns,
 )
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.tables import one_by_one
 
 
 class RingSolverOptions(SolverOptions, RingModel):
@@ -33,6 +36,8 @@ class RingSolverOptions(SolverOptions, RingModel):
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
+    case_s: float = Field(15.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
     spoke_cache: Path | None = Field(
         None,
         description="Folder in which cases share the tables of equal spokes, also with `fe_tyre`; "
@@ -109,4 +114,6 @@ SOLVER = Solver(
     needs_ply=True,
     realise=realised_spacing,
     about="the tyre as a sandwich ring on the energies of finite element spokes",
+    solve_table=one_by_one(solve),
+    table_cases=10,
 )

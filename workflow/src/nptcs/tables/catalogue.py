@@ -190,7 +190,7 @@ TABLES: dict[str, ResultTable] = {
     ),
     "surface_selection.csv": ResultTable(
         SurfaceSelection,
-        "Terms of the polynomials dropped one after the other, by AICc and by PRESS",
+        "Terms of the polynomials dropped one by one, by AICc and by PRESS",
         "diagnostics",
         "the polynomials' terms; only a term that no other one needs may go",
         section=ReportSection.SURFACES,
@@ -279,9 +279,9 @@ TABLES: dict[str, ResultTable] = {
     ),
     "stiffness_errors.csv": ResultTable(
         StiffnessErrors,
-        "Differences from the published stiffness, blind cases apart from calibrated ones",
+        "Differences from the published stiffness, blind cases and calibration cases",
         "compare_published",
-        "stiffness_against_published.csv, summed up",
+        "stiffness_against_published.csv, summarised",
         section=ReportSection.PUBLISHED_STIFFNESS,
         headings=headings.ERRORS,
         synthetic=SyntheticBy.ROWS,

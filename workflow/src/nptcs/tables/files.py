@@ -18,12 +18,12 @@ STATUSES = (
 
 
 class Files(pa.DataFrameModel):
-    """One row a file: in the folder, or named by the sheet and not there.
+    """One row per file that is in the folder or that the sheet names.
 
     ``used``: read for an included specimen; ``left out``: read, its specimen is left out with
     the reason given; ``repeated``: its data are those of another specimen and are not counted
     again; ``not understood``: named, but its specimen failed with the reason given;
-    ``not named``: no row of the sheet names it; ``note``: nor that, but it is a README;
+    ``not named``: no row of the sheet names it; ``note``: a README, which none has to name;
     ``missing``: named, but not in the folder; ``sheet``: the specimen sheet itself.
     """
 

@@ -1,4 +1,4 @@
-"""How a case ends: the one list of it, for records and tables alike."""
+"""The ways in which a case can end: one list for records and tables."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One study's cases, its solvers next to each other, and what all its figures share."""
+"""The cases of one study with its solvers next to each other, and the order of the solvers."""
 
 from __future__ import annotations
 

@@ -28,7 +28,7 @@ def line_blocks(results: Results) -> list[PageBlock]:
     missing = [case_id for case_id in _line_cases(results) if case_id not in set(lines["case_id"])]
     blocks: list[PageBlock] = []
     if missing:
-        blocks.append(Text(f"No solver gave a neutral line of {joined(missing)}."))
+        blocks.append(Text(f"No solver gave a neutral line for {joined(missing)}."))
     return blocks if lines.empty else [*blocks, *_drawn_lines(results)]
 
 
@@ -52,16 +52,16 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
         synthetic = rests_on_synthetic(results, results.config.study(str(study)), rows)
         title = f"{case_id}, {rows['load_n'].iloc[0]:g} N"
         for column, label in DISPLACEMENTS.items():
-            figure = neutral_lines(rows, column, title, solver_order(results), synthetic)
-            plots.append(plot(figure, f"{label} of {case_id} against θ", synthetic))
+            given = (rows, column, title, solver_order(results), synthetic)
+            plots.append(plot(f"{label} of {case_id} against θ", synthetic, neutral_lines, *given))
         sentences += line_words(rows)
     return [
         Plots(
             "Displacement of the band's neutral line relative to the rim (figure 14 of the "
             "paper), by every solver that computes it. Finite elements: the middle between the "
-            f"wire layers, radius {middle:g} mm, all spokes point one way, so that the two sides "
-            f"differ; load-bearing model: the ring of radius {tyre.band_radius_mm:g} mm, the same "
-            "on both sides.",
+            f"wire layers, radius {middle:g} mm, all spokes lean the same way, so that the two "
+            f"sides differ; load-bearing model: the ring of radius {tyre.band_radius_mm:g} mm, the "
+            "same on both sides.",
             tuple(plots),
         ),
         Listing("What the neutral lines show", tuple(sentences)),

@@ -1,4 +1,4 @@
-"""Section of the report that compares computed with published stiffness: tables 5, 7, figure 14."""
+"""Section of the report on computed against published stiffness: tables 5 and 7, figure 14."""
 
 from __future__ import annotations
 
@@ -57,8 +57,8 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
     return [
         Text(
             "Differences are (computed − published) / published. Cases that a solver was "
-            "calibrated on are named by the configuration and summed up apart; all others are "
-            "blind. " + ply_words(results)
+            "calibrated on are named in the configuration and summarised separately; all others "
+            "are blind. " + ply_words(results)
         ),
         sheet_view(sheet_of(sheets, StiffnessErrors)),
         Plots(
@@ -88,8 +88,8 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    figure = parity(rows, f"study {study.name}", solver_order(results), synthetic)
-    return plot(figure, alt, synthetic)
+    given = (rows, f"study {study.name}", solver_order(results), synthetic)
+    return plot(alt, synthetic, parity, *given)
 
 
 def _effects(results: Results, studies: list[Study], *, differences: bool) -> list[Plot]:
@@ -106,8 +106,8 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
                 "Mean difference from the published stiffness" if differences else "Mean stiffness"
             )
             alt = f"{what} by {label.label}, study {study.name}"
-            figure = draw(rows, label, solver_order(results), synthetic)
-            plots.append(plot(figure, alt, synthetic))
+            given = (rows, label, solver_order(results), synthetic)
+            plots.append(plot(alt, synthetic, draw, *given))
     return plots
 
 

@@ -1,4 +1,4 @@
-"""Sections 3 to 6 of the report: designs, cases, response surfaces and sensitivity."""
+"""Sections of the report on designs, cases, response surfaces and sensitivity."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
-        asked = f"No surface is asked for of the study {study.name}: it has no terms."
+        asked = f"The study {study.name} has no terms, so no surface is fitted to it."
         return [Text(study.title, "heading"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = f"No surface could be fitted to the study {study.name}; see the problems above."
@@ -179,13 +179,14 @@ def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     maps, lines = [], []
     for pair in pairs(surface):
         alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
-        maps.append(plot(contours(surface, solved, pair, labels, synthetic), alt, synthetic))
+        maps.append(plot(alt, synthetic, contours, surface, solved, pair, labels, synthetic))
     drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
     for varied in drawn:
         # the factor with more levels is drawn along the axis
         by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
         alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
-        lines.append(plot(slices(surface, solved, by_levels, labels, synthetic), alt, synthetic))
+        given = (surface, solved, by_levels, labels, synthetic)
+        lines.append(plot(alt, synthetic, slices, *given))
     return maps + lines
 
 
@@ -218,5 +219,6 @@ def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:
         for name, label in factor_labels(study).items()
     }
     synthetic = any(results.study_is_synthetic(study, solver) for study in studies)
-    figure = impact_bars(rows, labels, results.config.sensitivity.rules, synthetic)
-    return plot(figure, f"Impact values of solver {solver} by factor and rule", synthetic)
+    alt = f"Impact values of solver {solver} by factor and rule"
+    given = (rows, labels, results.config.sensitivity.rules, synthetic)
+    return plot(alt, synthetic, impact_bars, *given)

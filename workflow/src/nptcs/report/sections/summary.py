@@ -19,7 +19,7 @@ from nptcs.tables.result_table import ReportSection
 from nptcs.tables.surface import SurfaceQuality
 
 WARNING = "warning: "
-"""How a check of a material card begins that a reader of any result must see."""
+"""Prefix of those checks of a material card that every reader must see."""
 
 
 def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
@@ -128,7 +128,7 @@ def _rankings(results: Results) -> list[Fact]:
 
 
 def _published_differences(results: Results) -> list[Fact]:
-    """Sum up how far the computed stiffness is from the published one."""
+    """Summarise how far the computed stiffness is from the published one."""
     facts = []
     for row in results.table(StiffnessErrors).itertuples():
         kind = "blind" if row.group == "blind" else "used for calibration"
