@@ -10,6 +10,7 @@ from snakemake.exceptions import WorkflowError
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
 from nptcs.campaign.bulk import in_bulk
 from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
+from nptcs.campaign.plan import plan_lines
 from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
@@ -18,6 +19,7 @@ from nptcs.files import remove_unfinished, sha256_of_file
 from nptcs.processes.runs import begin_job, begin_run
 from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.provenance import code_hash
+from nptcs.report.stale import refused
 from nptcs.solvers.registry import (
     load,
     model_choices,
@@ -47,6 +49,8 @@ elif begin_run(Path(".snakemake")):
 
 onstart:
     stop_jobs_on_signals(sys.argv)
+    if any(job.rule.name == "solve" for job in workflow.dag.needrun_jobs()):
+        print(*plan_lines(CONFIG), sep="\n", file=sys.stderr, flush=True)
 
 
 try:
@@ -61,12 +65,11 @@ try:
         SPECIMENS,
         CONFIG.calibration,
     )
-    if faults:
-        raise faults[0]
     if workflow.is_main_process:
-        refuse_faults([*study_faults(CONFIG), *name_faults(SPECIMENS, CONFIG)])
+        faults = [*study_faults(CONFIG), *faults, *name_faults(SPECIMENS, CONFIG)]
+    refuse_faults(faults)
 except InputError as error:
-    raise WorkflowError(str(error)) from None
+    raise WorkflowError(refused(error, "results/report.html")) from None
 
 SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
 SERIES = sorted({specimen.series for specimen in SPECIMENS})
