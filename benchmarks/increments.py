@@ -2,8 +2,8 @@
 
     python benchmarks/increments.py [--project FOLDER]
 
-Jobs are those that Snakemake plans. Cases are counted by their keys, or, where a material changes, by
-solving them. FOLDER keeps the finished project for the next time. Exit code 1 for any difference.
+Jobs are those that Snakemake plans. Cases are counted by their keys or, where a material changes,
+by solving them. FOLDER keeps the finished project for the next time. Exit code 1 for a difference.
 """
 
 from __future__ import annotations

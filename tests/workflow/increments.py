@@ -225,9 +225,7 @@ def another_specimen(folder: Path) -> None:
         place = header.index(column)
         if row[place]:
             name = row[place].replace(".", "_new.", 1)
-            shutil.copy(
-                folder / "raw_data/example" / row[place], folder / "raw_data/example" / name
-            )
+            shutil.copy(raw / row[place], raw / name)
             row[place] = name
     row[header.index("specimen")] += "-new"
     with (folder / SHEET).open("a", encoding="utf-8", newline="") as stream:
