@@ -14,7 +14,9 @@ from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
-from nptcs.files import sha256_of_file
+from nptcs.files import remove_unfinished, sha256_of_file
+from nptcs.processes.runs import begin_job, begin_run
+from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import (
     load,
@@ -35,6 +37,17 @@ one_thread_per_process()  # of the linear algebra in all jobs; cases already sha
 # issue 2645, open in 9.27
 if Path(sys.executable).exists():
     sys.executable = shlex.quote(sys.executable)
+
+# Snakemake looks at its locks after it has read this file
+if not workflow.is_main_process:
+    begin_job()
+elif begin_run(Path(".snakemake")):
+    remove_unfinished("results")
+
+
+onstart:
+    stop_jobs_on_signals(sys.argv)
+
 
 try:
     CONFIG = read_config(config)

@@ -27,8 +27,9 @@ from nptcs.campaign.bulk_file import read_bulk, write_bulk
 from nptcs.campaign.record import read_tables
 from nptcs.campaign.runner import (
     SENT_FROM_OUTSIDE,
+    case_environment,
+    case_folder,
     cause_of_death,
-    one_thread,
     stop,
     without_main_file,
 )
@@ -73,6 +74,7 @@ class _Running:
     rows: np.ndarray
     process: BaseProcess
     channel: Connection
+    folder: Path
     started: float
 
 
@@ -250,19 +252,22 @@ def _solve(
                     yield part.rows, results
     finally:
         for part in running:
-            stop(part.process)
+            part.process.terminate()
+        for part in running:
+            stop(part.process, part.folder)
 
 
 def _start(task: _Task, rows: np.ndarray) -> _Running:
     context = multiprocessing.get_context("forkserver")
     receive, send = context.Pipe(duplex=False)
     options = task.inputs.options.model_dump(mode="json")
-    arguments = (task.module, options, task.part(rows), send)
+    folder = case_folder()
+    arguments = (task.module, options, task.part(rows), send, str(folder))
     process = context.Process(target=bulk_worker.run, args=arguments)
-    with without_main_file(), one_thread():
+    with without_main_file(), case_environment():
         process.start()
     send.close()
-    return _Running(rows, process, receive, time.monotonic())
+    return _Running(rows, process, receive, folder, time.monotonic())
 
 
 def _ended(running: list[_Running], timeout_s: float) -> list[_Running]:
@@ -289,7 +294,7 @@ def _collect(part: _Running, timeout_s: float) -> tuple[pd.DataFrame | None, lis
         died = code is not None and -code in SENT_FROM_OUTSIDE
     finally:
         part.channel.close()
-        stop(part.process)
+        stop(part.process, part.folder)
     if len(part.rows) > 1:
         half = len(part.rows) // 2
         return None, [part.rows[half:], part.rows[:half]]

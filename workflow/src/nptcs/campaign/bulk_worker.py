@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from nptcs.campaign.worker import leave_with_parent, message_of
+from nptcs.campaign.worker import begin_in, message_of, of_the_machine
 from nptcs.solvers.contract import TYRE_RESPONSES, Solver, Status, TableInputs
 from nptcs.solvers.registry import load, read_options
 from nptcs.tables.cases import realised_column
@@ -21,13 +21,15 @@ DIED = "died"
 """Column: 1 where a case ended for a reason outside it, killed or out of memory."""
 
 
-def run(module: str, options: Mapping[str, Any], inputs: TableInputs, channel: Connection) -> None:
+def run(
+    module: str, options: Mapping[str, Any], inputs: TableInputs, channel: Connection, folder: str
+) -> None:
     """Solve a part and send ``(results, wall time in s)`` back through the pipe.
 
     The options come as plain values: a solver's own file, where their class may be, is not known
     to a new process before it is loaded.
     """
-    leave_with_parent()
+    begin_in(folder)
     start = time.perf_counter()
     solver = load(module)
     results = solve_part(solver, replace(inputs, options=read_options(solver, options)))
@@ -60,7 +62,7 @@ def solve_part(solver: Solver, inputs: TableInputs) -> pd.DataFrame:
             return failed_row(Status.ERROR, f"out of memory: {error}", died=True)
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
         if number == 1:
-            return failed_row(Status.ERROR, message_of(error))
+            return failed_row(Status.ERROR, message_of(error), died=of_the_machine(error))
     half = number // 2
     parts = [inputs.rows(0, half), inputs.rows(half, number)]
     return pd.concat([solve_part(solver, part) for part in parts], ignore_index=True)
