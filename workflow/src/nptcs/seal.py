@@ -24,6 +24,7 @@ FORMATS: Mapping[str, int] = {
     "Models": 1,
     "PlyCard": 1,
     "RubberCard": 1,
+    "StartFacts": 1,
     "Surfaces": 1,
 }
 """Version of each format: raise it with any change of what the fields mean."""

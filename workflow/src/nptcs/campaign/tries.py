@@ -8,10 +8,13 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from nptcs.campaign.record import CaseRecord
 from nptcs.files import write_text
-from nptcs.solvers.contract import Status
+from nptcs.tables.status import Status
+
+if TYPE_CHECKING:
+    from nptcs.campaign.record import CaseRecord
 
 OUTSIDE_THE_CASE = frozenset({Status.TIMEOUT, Status.LICENCE})
 """Ends that may turn out differently next time, for the same case."""
