@@ -18,6 +18,9 @@ GRID_POINTS = 10_000
 MOST_LEVELS = 10
 """A factor with more values than this has no levels that could be left out."""
 
+MOST_REFITS = 2000
+"""Cases beyond which a surface is not fitted again without each of them."""
+
 FLAT = 1e-9
 """Share of the response's range below which a step along a factor has no direction."""
 
@@ -34,11 +37,14 @@ class LeftOut:
         Whether the response lies in the prediction interval.
     cpu_s : float
         Processor time of all refits.
+    assessed : bool
+        False where there are more than `MOST_REFITS` cases.
     """
 
     error: Array
     covered: Mask
     cpu_s: float
+    assessed: bool = True
 
 
 @dataclass(frozen=True)
@@ -59,6 +65,9 @@ class LevelError:
 
 def leave_one_out(surface: ResponseSurface) -> LeftOut:
     """Fit the surface again without each case, all its parameters anew, and predict that case."""
+    if len(surface.y) > MOST_REFITS:
+        nothing = np.full(len(surface.y), np.nan)
+        return LeftOut(nothing, np.zeros(len(surface.y), bool), 0.0, assessed=False)
     start = time.process_time()
     error, covered = np.full(len(surface.y), np.nan), np.zeros(len(surface.y), bool)
     for case in range(len(surface.y)):

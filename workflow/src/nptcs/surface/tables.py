@@ -7,7 +7,13 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from nptcs.surface.comparison import LevelError, directions, leave_one_level_out, leave_one_out
+from nptcs.surface.comparison import (
+    MOST_REFITS,
+    LevelError,
+    directions,
+    leave_one_level_out,
+    leave_one_out,
+)
 from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
@@ -19,6 +25,10 @@ from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQual
 
 COMPARISON_RULE = (
     "terms or form kept, all parameters and hyperparameters fitted anew without each case or level"
+)
+
+NOT_LEFT_OUT = (
+    f"levels left out; no case left out alone: there are more than {MOST_REFITS:,} of them"
 )
 
 
@@ -114,13 +124,13 @@ def _compared(surface: ResponseSurface, levels: list[LevelError]) -> dict[str, o
         "largest_residual": float(np.abs(residual).max()),
         "leave_one_out_largest": float(np.abs(errors).max()) if len(errors) else np.nan,
         "leave_one_out_rms": float(np.sqrt(np.mean(errors**2))) if len(errors) else np.nan,
-        "leave_one_out_not_fitted": len(surface.y) - len(errors),
+        "leave_one_out_not_fitted": len(surface.y) - len(errors) if left_out.assessed else 0,
         "coverage_percent": 100 * left_out.covered.sum() / len(errors) if len(errors) else np.nan,
         "level_out_largest": max(worst, default=np.nan),
         "level_out_not_fitted": ", ".join(name for name, level in names if level.refused),
         "outside_the_box": surface.outside.value,
         "leave_one_out_cpu_s": left_out.cpu_s,
-        "rule": COMPARISON_RULE,
+        "rule": COMPARISON_RULE if left_out.assessed else NOT_LEFT_OUT,
     }
 
 
