@@ -325,6 +325,7 @@ def main() -> int:
             print(undisturbed.last_log())
             return 1
         wanted = undisturbed.table()
+        bad = 0
         for number, victims in enumerate(chains):
             project = Project(Path(base) / f"project {number}")
             ended, table = chain(project, victims, counts, when)
@@ -332,11 +333,12 @@ def main() -> int:
             equal += table == wanted
             if ended and table == wanted:
                 shutil.rmtree(project.folder)
-    return report(counts, ends, equal, len(chains))
+            bad = report(counts, ends, equal, number + 1)
+    return bad
 
 
 def report(counts: dict[str, Count], ends: int, equal: int, chains: int) -> int:
-    """Print the counts as a table; 1 if anything is wrong."""
+    """Print the counts so far as a table; 1 if anything is wrong."""
     print(
         "\n| hit | trials | children gone after at most | half written | lost | solved twice",
         end="",

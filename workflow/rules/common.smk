@@ -14,6 +14,7 @@ from nptcs.errors import InputError
 from nptcs.files import remove_unfinished, sha256_of_file
 from nptcs.processes.runs import begin_job, begin_run
 from nptcs.processes.stops import stop_jobs_on_signals
+from nptcs.report.stale import refused
 from nptcs.start.facts import known_facts
 from nptcs.tables.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
@@ -36,6 +37,12 @@ elif begin_run(Path(".snakemake")):
 
 onstart:
     stop_jobs_on_signals(sys.argv)
+    if any(
+        job.rule.name.startswith("solve") for job in workflow.dag.needrun_jobs()
+    ):
+        from nptcs.campaign.plan import plan_lines
+
+        print(*plan_lines(CONFIG), sep="\n", file=sys.stderr, flush=True)
 
 
 def own_solvers():
@@ -70,7 +77,7 @@ try:
         find_facts,
     )
 except InputError as error:
-    raise WorkflowError(str(error)) from None
+    raise WorkflowError(refused(error, "results/report.html")) from None
 
 SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
 SERIES = sorted({specimen.series for specimen in SPECIMENS})

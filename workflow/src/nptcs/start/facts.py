@@ -6,7 +6,7 @@ import atexit
 import hashlib
 import json
 import sys
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
@@ -69,6 +69,8 @@ class Facts:
         Hash of what each format profile says.
     tables : tuple of str
         Names of all result tables.
+    files : dict of str to str
+        Hash of each file that was looked into; another content, and the facts are found anew.
     code : dict of str to str
         Hashes of code that were asked for.
     """
@@ -80,6 +82,7 @@ class Facts:
     ply: dict[str, str]
     profiles: dict[str, str]
     tables: tuple[str, ...]
+    files: dict[str, str] = field(default_factory=dict)
     code: dict[str, str] = field(default_factory=dict)
 
     def code_of(self, *modules: str, words: bool = False) -> str:
@@ -129,13 +132,20 @@ def known_facts(
 def key_of(given: Mapping[str, Any], inputs: Sequence[str | Path]) -> str:
     """Hash everything that facts rest on: values, files, this package, the version of Python."""
     digest = hashlib.sha256(json.dumps([sys.version, given], sort_keys=True, default=str).encode())
-    for path in [*sorted(map(Path, inputs)), *sorted(PACKAGE.rglob("*.py"))]:
-        digest.update(str(path).encode())
-        try:
-            digest.update(hashlib.sha256(path.read_bytes()).digest())
-        except OSError:
-            digest.update(b"missing")
+    read = contents([*map(str, inputs), *map(str, PACKAGE.rglob("*.py"))])
+    digest.update(json.dumps(read, sort_keys=True).encode())
     return digest.hexdigest()
+
+
+def contents(paths: Iterable[str]) -> dict[str, str]:
+    """Hash files; one that cannot be read is ``missing``."""
+    found = {}
+    for path in paths:
+        try:
+            found[path] = hashlib.sha256(Path(path).read_bytes()).hexdigest()
+        except OSError:
+            found[path] = "missing"
+    return found
 
 
 def _read(file: str | Path, key: str) -> Facts | None:
@@ -148,6 +158,7 @@ def _read(file: str | Path, key: str) -> Facts | None:
             study: {name: SolverFacts(**one) for name, one in of_study.items()}
             for study, of_study in facts.pop("solvers").items()
         }
-        return Facts(solvers=solvers, **facts)
+        found = Facts(solvers=solvers, **facts)
+        return found if contents(found.files) == found.files else None
     except (OSError, UnicodeDecodeError, BrokenSealError, KeyError, TypeError):
         return None

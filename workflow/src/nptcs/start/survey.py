@@ -19,7 +19,7 @@ from nptcs.solvers.registry import (
     needs_ply,
     read_options,
 )
-from nptcs.start.facts import Facts, SolverFacts
+from nptcs.start.facts import Facts, SolverFacts, contents
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.specimens import Specimen
 
@@ -45,13 +45,14 @@ def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) 
         (study, needs_ply(study, config.solver_options(study))) for study in config.studies
     ]
     faults, _ = check_materials(takes_ply, specimens, config.calibration)
-    if faults:
-        raise faults[0]
     if checked:
-        refuse_faults([*study_faults(config), *name_faults(specimens, config)])
+        faults = [*study_faults(config), *faults, *name_faults(specimens, config)]
+    refuse_faults(faults)
     profiles = load_profiles(config.lab_data.formats)
+    solvers = {study.name: _solvers(study, config) for study in config.studies}
     return Facts(
-        solvers={study.name: _solvers(study, config) for study in config.studies},
+        solvers=solvers,
+        files=contents(_files(config, solvers)),
         modules=dict(MODULES),
         plies=tuple(plies(specimens, config.calibration)),
         rubbers=tuple(rubbers(specimens)),
@@ -65,6 +66,23 @@ def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) 
             file for file, _, _ in result_files([s.name for s in config.studies if s.terms])
         ),
     )
+
+
+def _files(config: Config, solvers: Mapping[str, Mapping[str, SolverFacts]]) -> set[str]:
+    """Name the files in which a check of the studies may have looked."""
+    of_solvers = {
+        path
+        for named in solvers.values()
+        for one in named.values()
+        for path in one.tables().values()
+    }
+    of_studies = {
+        path
+        for study in config.studies
+        for path in (study.published_coefficients, study.published_spoke_stiffness)
+        if path is not None
+    }
+    return of_solvers | of_studies
 
 
 def _solvers(study: Study, config: Config) -> dict[str, SolverFacts]:
