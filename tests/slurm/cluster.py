@@ -240,7 +240,7 @@ def study(folder: Path, status: str, config: str, least_s: float) -> int:
         say(f"local run ends with exit code {code}")
         if code:
             return code
-    copy_repository(cluster)
+    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns("results", ".snakemake"))
     say(f"run through Slurm begins, status by {status}")
     process = snakemake(
         cluster,
