@@ -18,8 +18,8 @@ report: $(VENV)/ready
 test: $(VENV)/ready-dev
 	python -m pytest -n $(JOBS)
 
-# the numeric tests once more with the plainest kernels of OpenBLAS and NumPy, two threads, another
-# seed: what holds only to the last bit of one processor fails here
+# the numerical tests once more with the plainest kernels of OpenBLAS and NumPy, two threads and another
+# seed: a test that holds only to the last bit of one processor fails here
 ifeq ($(shell uname -m),x86_64)
 PLAIN := OPENBLAS_CORETYPE=Prescott NPY_DISABLE_CPU_FEATURES="X86_V3 X86_V4 AVX512_ICL AVX512_SPR"
 else

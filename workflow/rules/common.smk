@@ -1,4 +1,4 @@
-# The configuration and the specimen sheet, checked; what the rules ask of them.
+# The configuration and the specimen sheet, checked, and what the rules need from them.
 import shlex
 import sys
 import time
@@ -8,12 +8,15 @@ from pathlib import Path
 from snakemake.exceptions import WorkflowError
 
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
+from nptcs.campaign.bulk import in_bulk
 from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
-from nptcs.files import sha256_of_file
+from nptcs.files import remove_unfinished, sha256_of_file
+from nptcs.processes.runs import begin_job, begin_run
+from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import (
     load,
@@ -34,6 +37,17 @@ one_thread_per_process()  # of the linear algebra in all jobs; cases already sha
 # issue 2645, open in 9.27
 if Path(sys.executable).exists():
     sys.executable = shlex.quote(sys.executable)
+
+# Snakemake looks at its locks after it has read this file
+if not workflow.is_main_process:
+    begin_job()
+elif begin_run(Path(".snakemake")):
+    remove_unfinished("results")
+
+
+onstart:
+    stop_jobs_on_signals(sys.argv)
+
 
 try:
     CONFIG = read_config(config)
@@ -75,16 +89,16 @@ wildcard_constraints:
 def plain(section):
     """A configuration section or a row of the sheet as plain values.
 
-    Snakemake notices each change of them. Remarks decide nothing: only the report has them.
+    Snakemake notices each change of them. Remarks decide nothing; only the report shows them.
     """
     return section.model_dump(mode="json", exclude={"remarks"})
 
 
 def code_of(script, *modules, words=False):
-    """Hash of a rule's script, of all that it imports from the package, and of further modules.
+    """Hash of a rule's script, of everything that it imports from the package, and of further modules.
 
-    Snakemake goes by the script's time stamp, which a checkout renews, and not by its imports.
-    Rules whose output prints messages and descriptions ask for their `words` too.
+    Snakemake looks at the script's time stamp, which a checkout renews, and not at its imports.
+    Rules whose output shows messages and descriptions ask for `words` too.
     """
     return code_hash(
         str(Path(workflow.basedir) / f"scripts/{script}.py"),
@@ -147,10 +161,32 @@ def batches_of(study_name, solver_name):
     )
 
 
+def solved_in_bulk(study_name, solver_name):
+    """Whether a solver solves the cases of a study as a table: no record of each, no curves."""
+    solver, _ = solver_of(study_name, solver_name)
+    cases = CONFIG.study(study_name).number_of_cases()
+    return in_bulk(solver, cases, CONFIG.campaign.bulk_from)
+
+
 def batches(study_name, solver_name=None):
+    """The files with the results of a study, of one of its solvers or of all."""
     study = CONFIG.study(study_name)
     return [
-        f"results/5_solve/{study_name}/{solver}/batch_{batch}.jsonl"
+        f"results/5_solve/{study_name}/{solver}/"
+        + (
+            f"bulk_{batch}.npz"
+            if solved_in_bulk(study_name, solver)
+            else f"batch_{batch}.jsonl"
+        )
         for solver in ([solver_name] if solver_name else study.solvers)
         for batch in range(1, batches_of(study_name, solver) + 1)
     ]
+
+
+def record_batches(study_name, solver_name):
+    """As `batches`, but only those with a record of each case; none if it is solved in bulk."""
+    return (
+        []
+        if solved_in_bulk(study_name, solver_name)
+        else batches(study_name, solver_name)
+    )

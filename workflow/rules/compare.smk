@@ -19,7 +19,7 @@ rule spoke_stiffness:
             for study in CONFIG.studies
             for solver in study.solvers
             if solver not in tyre_solvers(study.name)
-            for path in batches(study.name, solver)
+            for path in record_batches(study.name, solver)
         ],
         published=[ancient(path) for path in PUBLISHED_SPOKES.values()],
     output:
@@ -73,7 +73,7 @@ rule neutral_line:
             path
             for name in LINE_STUDIES
             for solver in tyre_solvers(name)
-            for path in batches(name, solver)
+            for path in record_batches(name, solver)
         ],
         designs=expand("results/4_design/{study}.csv", study=LINE_STUDIES),
     output:

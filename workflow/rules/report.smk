@@ -3,7 +3,7 @@ from importlib.resources import files as package_files
 
 
 def solver_facts():
-    """What the report says of each solver: what it is, and what it is given.
+    """What the report says about each solver: what it is, and what it is given.
 
     A solver's choices between models are listed once for each study that makes them differently.
     """
@@ -102,6 +102,7 @@ rule report:
             "config": plain(CONFIG),
             "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
             "solvers": solver_facts(),
+            "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
                 for template in sorted(
@@ -135,7 +136,7 @@ rule verdict:
         "../scripts/verdict.py"
 
 
-# After a failed run a report that was not built by it must not look current.
+# After a failed run, a report that it did not build must not look current.
 onerror:
     import nptcs.report.stale
 

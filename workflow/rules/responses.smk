@@ -11,7 +11,7 @@ rule tyre_responses:
             for study in STUDIES
             for solver in tyre_solvers(study)
             if solver != PUBLISHED
-            for path in batches(study, solver)
+            for path in record_batches(study, solver)
         ],
         statistics="results/tables/statistics.csv",
     output:

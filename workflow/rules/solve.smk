@@ -17,7 +17,7 @@ def solver_tables(wildcards):
     return [ancient(path) for path in options.tables().values()]
 
 
-def solve_job(wildcards):
+def solve_job(wildcards, output):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
     _, checked = solver_of(wildcards.study, wildcards.solver)
@@ -31,10 +31,16 @@ def solve_job(wildcards):
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": batches_of(wildcards.study, wildcards.solver),
-        "tries": read_tries(
-            "results/5_solve/{study}/{solver}/batch_{batch}.jsonl".format(**wildcards)
-        ),
+        "tries": read_tries(output[0]),
         "code": code_of("solve", module_of(wildcards.solver, options)),
+    }
+
+
+def solve_bulk_job(wildcards, output):
+    options = CONFIG.solver_options(CONFIG.study(wildcards.study))[wildcards.solver]
+    return {
+        **solve_job(wildcards, output),
+        "code": code_of("solve_bulk", module_of(wildcards.solver, options)),
     }
 
 
@@ -86,6 +92,28 @@ rule solve:
         store="results/5_solve/records",
     script:
         "../scripts/solve.py"
+
+
+rule solve_bulk:
+    input:
+        design="results/4_design/{study}.csv",
+        ply=ply_card,
+        tables=solver_tables,
+    output:
+        results="results/5_solve/{study}/{solver}/bulk_{batch}.npz",
+    log:
+        "results/logs/solve/{study}_{solver}_bulk_{batch}.log",
+    threads: solve_cores
+    resources:
+        licence_tokens=solve_tokens,
+        mem_mb=solve_memory_mb,
+        runtime=solve_minutes,
+        slurm_extra=solve_licence,
+    params:
+        job=solve_bulk_job,
+        store="results/5_solve/records",
+    script:
+        "../scripts/solve_bulk.py"
 
 
 rule cases:

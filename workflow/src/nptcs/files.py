@@ -1,16 +1,18 @@
-"""Files written whole or not at all, and files known by their content."""
+"""Files written completely or not at all, and files identified by their content."""
 
 from __future__ import annotations
 
 import hashlib
 import json
 import os
+import socket
 import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TypeVar
 
+import psutil
 from pydantic import BaseModel, ValidationError
 
 from nptcs.errors import InputError
@@ -21,9 +23,9 @@ Model = TypeVar("Model", bound=BaseModel)
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """Give a temporary name next to `path`; rename it to `path` when the block ends well.
+    """Give a temporary name next to `path`; rename it to `path` when the block succeeds.
 
-    A reader sees the old file or the new one, never half of it, also after ``kill -9``.
+    A reader sees the old file or the new one, never half a file, even after ``kill -9``.
 
     Parameters
     ----------
@@ -49,20 +51,56 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=_own_prefix(), suffix=path.suffix)
     os.close(handle)
     temporary = Path(name)
     try:
         yield temporary
         with temporary.open("rb+") as stream:
             os.fsync(stream.fileno())
-        # mkstemp makes files private; results are as readable as any other file
+        # mkstemp makes files private; results are to be as readable as any other file
         umask = os.umask(0)
         os.umask(umask)
         temporary.chmod(0o666 & ~umask)
         temporary.replace(path)
+    except OSError as error:
+        if error.filename in (None, name):  # the user knows the file by its own name
+            error.filename = str(path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
+
+
+UNFINISHED = ".nptcs-"
+"""How the name of a file begins that is being written."""
+
+
+def _own_prefix() -> str:
+    """Return the beginning of names that says which process writes the file."""
+    return f"{UNFINISHED}{socket.gethostname()}-{os.getpid()}-"
+
+
+def remove_unfinished(folder: str | Path) -> list[Path]:
+    """Remove the files that processes of this machine were writing when they were killed.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Searched with all folders in it.
+
+    Returns
+    -------
+    list of Path
+        What was removed.
+    """
+    ours = f"{UNFINISHED}{socket.gethostname()}-"
+    removed = []
+    for path in sorted(Path(folder).rglob(f"{UNFINISHED}*")):
+        pid, _, _ = path.name.removeprefix(ours).partition("-")
+        if path.name.startswith(ours) and pid.isdecimal() and not psutil.pid_exists(int(pid)):
+            path.unlink(missing_ok=True)
+            removed.append(path)
+    return removed
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -71,7 +109,7 @@ def write_text(path: str | Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
-REWRITE = "delete this file and run snakemake again; it is then written anew"
+REWRITE = "delete this file and run snakemake again; the run writes a new one"
 """Remedy for a file of ours that is damaged: Snakemake does not look into a file that is there."""
 
 
@@ -115,7 +153,7 @@ def read_stored(path: str | Path, kind: str) -> str:
         For a file that is missing or is not UTF-8.
     """
     if not Path(path).is_file():
-        remedy = "run snakemake again; it writes this file anew"
+        remedy = "run snakemake again; the run writes this file"
         raise InputError(f"this {kind} does not exist", remedy, file=path)
     try:
         return Path(path).read_text(encoding="utf-8")

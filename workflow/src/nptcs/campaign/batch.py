@@ -39,7 +39,7 @@ def solve_batch(
     store : RecordStore
         Cases that were solved before are taken from it, those solved now are kept in it.
     cores, tokens : int
-        What the batch was granted; they decide how many cases run at a time.
+        Cores and licence tokens that the batch was given; they decide how many cases run at a time.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""What a run would solve: cases, those that are known, and what earlier cases took."""
+"""What a run would solve: how many cases, how many of them are known, and what they will cost."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ from itertools import islice
 from pathlib import Path
 from statistics import median
 
+from nptcs.campaign.bulk import in_bulk, known_in_bulk
 from nptcs.campaign.checks import solvers_of
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
@@ -20,12 +21,12 @@ from nptcs.files import read_model
 from nptcs.tables.material_card import MaterialCard
 
 SAMPLE = 300
-"""Stored records that are looked at for what a case takes."""
+"""Newest stored records from which the cost of a case is estimated."""
 
 
 @dataclass(frozen=True)
 class Costs:
-    """What solved cases of one solver took, in the middle of those that are stored."""
+    """Median cost of the stored cases of one solver."""
 
     seconds: float
     memory_mb: float | None
@@ -33,7 +34,7 @@ class Costs:
 
 
 def costs_by_solver(store: RecordStore) -> dict[str, Costs]:
-    """Return what a case takes by solver, from the newest records of a store."""
+    """Return the cost of a case by solver, from the newest records of a store."""
     files = sorted(store.folder.glob("??/*.json"), key=lambda file: -file.stat().st_mtime)
     found: dict[str, list[tuple[CaseRecord, float]]] = {}
     for file in islice(files, SAMPLE):
@@ -73,13 +74,17 @@ def known_cases(
         ply = next(iter(plies.values())).values() if solver.needs_ply else None
         given = options[solver.name]
         design = build_design(study, c10, config.tyre)
+        if in_bulk(solver, len(design), config.campaign.bulk_from):
+            given_table = (study, solver.name, given, config.tyre, design, ply)
+            known[solver.name] = known_in_bulk(*given_table, store.folder)
+            continue
         jobs = make_jobs(study, solver.name, given, config.tyre, design, ply)
         known[solver.name] = sum(store.read(job) is not None for job in jobs)
     return known
 
 
 def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
-    """Say in words what a run would solve, one line per study and solver, and the disk space.
+    """Describe what a run would solve: one line per study and solver, and the disk space.
 
     Parameters
     ----------

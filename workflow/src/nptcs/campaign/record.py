@@ -19,8 +19,8 @@ from nptcs.solvers.contract import SolverResult, Status, missing_responses
 class CaseJob(BaseModel):
     """One case as it is handed to a solver's process.
 
-    All that decides the result is in here, and nothing else is but the case's name and the time
-    limit; `key` is made of it.
+    It holds everything that decides the result, and besides that only the case's name and its time
+    limit. `key` is made from it.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -41,7 +41,7 @@ class CaseJob(BaseModel):
 
     @property
     def key(self) -> str:
-        """The content address: the same key, the same result."""
+        """The content address: cases with the same key have the same result."""
         content = self.model_dump(exclude={"study", "case_id", "module", "without_effect"})
         for name in self.without_effect:
             content["options"].pop(name, None)
@@ -122,7 +122,7 @@ class RecordStore:
         return record.model_copy(update={"study": job.study, "case_id": job.case_id})
 
     def write(self, record: CaseRecord) -> None:
-        """Keep a solved case; one that failed is not kept, so that it is tried again."""
+        """Keep a solved case; a failed one is not kept, so that it can be tried again."""
         if record.result.status == Status.OK:
             write_model(self.path(record.key), record)
 

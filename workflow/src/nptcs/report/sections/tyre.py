@@ -100,8 +100,9 @@ def _curve_plots(results: Results) -> list[Plot]:
         ["study", "solver"], sort=False
     ):
         synthetic = _synthetic(results, study, solver)
-        figure = load_displacement(curves, f"{study}, {solver}", synthetic)
-        plots.append(plot(figure, f"Load against displacement, {study}, {solver}", synthetic))
+        given = (curves, f"{study}, {solver}", synthetic)
+        alt = f"Load against displacement, {study}, {solver}"
+        plots.append(plot(alt, synthetic, load_displacement, *given))
     return plots
 
 
@@ -113,6 +114,7 @@ def _stress_plots(results: Results) -> list[Plot]:
         worst = stress["case_id"].iloc[int(stress["mises_mpa"].argmax())]
         rows = stress[stress["case_id"] == worst]
         synthetic = _synthetic(results, study, solver)
-        figure = plate_faces(rows, f"{worst}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
-        plots.append(plot(figure, f"Stress at the plates' faces, {worst}, {solver}", synthetic))
+        given = (rows, f"{worst}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
+        alt = f"Stress at the plates' faces, {worst}, {solver}"
+        plots.append(plot(alt, synthetic, plate_faces, *given))
     return plots
