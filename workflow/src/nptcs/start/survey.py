@@ -70,12 +70,8 @@ def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) 
 
 def _files(config: Config, solvers: Mapping[str, Mapping[str, SolverFacts]]) -> set[str]:
     """Name the files in which a check of the studies may have looked."""
-    of_solvers = {
-        path
-        for named in solvers.values()
-        for one in named.values()
-        for path in one.tables().values()
-    }
+    read = [one.tables().values() for named in solvers.values() for one in named.values()]
+    of_solvers = {path for paths in read for path in paths}
     of_studies = {
         path
         for study in config.studies
