@@ -62,7 +62,7 @@ def campaign_words(progress: Progress) -> str:
 
 def closing_lines(run: Run, seconds: float, log: str, pages: Sequence[str] = PAGES) -> list[str]:
     """Say at the end what was done, what failed, and where the report is."""
-    jobs = f"{run.done} of {run.total} jobs done in {duration(seconds)}"
+    jobs = f"{run.done} of {run.total} jobs in {duration(seconds)}"
     lines = [jobs if run.failed or run.done < run.total else f"Done: {jobs}"]
     lines += [f"  {campaign_words(one)}" for one in run.campaigns()]
     for job in run.failed:

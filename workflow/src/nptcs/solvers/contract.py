@@ -245,6 +245,8 @@ class Solver:
         raise: the campaign then divides the table until it has found the cases at fault.
     table_cases : int
         Most cases that the table function is given at once; the time limit is that of all of them.
+    table_case_s : float, optional
+        Wall time that a case of a table usually takes; without it that of a single case.
     """
 
     name: str
@@ -259,6 +261,7 @@ class Solver:
     realise: Callable[[Mapping[str, float], TyreGeometry], dict[str, float]] | None = None
     solve_table: Callable[[TableInputs], pd.DataFrame] | None = None
     table_cases: int = 5000
+    table_case_s: float | None = None
 
     def missing_responses(self, result: SolverResult) -> list[str]:
         """Name what a result that says ``ok`` must give and does not."""

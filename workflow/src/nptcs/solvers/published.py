@@ -110,4 +110,5 @@ SOLVER = Solver(
     about="the published finite element results, looked up case by case",
     options=PublishedOptions,
     solve_table=solve_table,
+    table_case_s=1e-4,
 )

@@ -83,13 +83,15 @@ def _files(config: Config, solvers: Mapping[str, Mapping[str, SolverFacts]]) -> 
 
 def _solvers(study: Study, config: Config) -> dict[str, SolverFacts]:
     options = config.solver_options(study)
-    return {name: _solver(name, options[name]) for name in study.solvers}
+    bulk = study.number_of_cases() >= config.campaign.bulk_from
+    return {name: _solver(name, options[name], bulk) for name in study.solvers}
 
 
-def _solver(name: str, given: Mapping[str, Any]) -> SolverFacts:
+def _solver(name: str, given: Mapping[str, Any], bulk: bool) -> SolverFacts:
     module = module_of(name, given)
     solver = load(module)
     options = read_options(solver, given)
+    in_tables = bulk and solver.solve_table is not None and solver.table_case_s is not None
     return SolverFacts(
         module=module,
         about=solver.about,
@@ -101,7 +103,7 @@ def _solver(name: str, given: Mapping[str, Any]) -> SolverFacts:
         without_effect=tuple(sorted(options.without_effect)),
         cores=options.cores_per_case(),
         tokens=options.tokens_per_case(),
-        case_s=options.case_s,
+        case_s=(solver.table_case_s if in_tables else None) or options.case_s,
         case_memory_mb=options.case_memory_mb,
         timeout_s=options.timeout_s,
     )
