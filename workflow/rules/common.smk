@@ -105,6 +105,12 @@ def plain(section):
     return section.model_dump(mode="json", exclude={"remarks"})
 
 
+# found from this file: the workflow may be the top Snakefile, or a module of another
+SCRIPTS = (
+    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
+)
+
+
 def code_of(script, *modules, words=False):
     """Hash of a rule's script, of everything that it imports from the package, and of further modules.
 
@@ -112,7 +118,7 @@ def code_of(script, *modules, words=False):
     Rules whose output shows messages and descriptions ask for `words` too.
     """
     return FACTS.code_of(
-        str(Path(workflow.basedir) / f"scripts/{script}.py"),
+        str(SCRIPTS / f"{script}.py"),
         *modules,
         words=words,
     )

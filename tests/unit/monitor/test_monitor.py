@@ -12,6 +12,7 @@ from nptcs.campaign.progress import ProgressWriter, progress_file, read_progress
 from nptcs.monitor.handler import RunHandler
 from nptcs.monitor.run import Run
 from nptcs.monitor.words import closing_lines, error_message, status_line
+from nptcs.tables.status import Status
 
 QUIET = SimpleNamespace(
     stdout=False, dryrun=False, verbose=False, printshellcmds=False, nocolor=True, quiet=None,
@@ -49,7 +50,7 @@ def job(jobid, rule, **facts):
 
 
 def case(seconds, status="ok"):
-    result = SimpleNamespace(status=SimpleNamespace(value=status), message="no equilibrium")
+    result = SimpleNamespace(status=Status(status), message="no equilibrium")
     return SimpleNamespace(case_id="plate_001", wall_time_s=seconds, result=result)
 
 

@@ -58,10 +58,10 @@ class ProgressWriter:
 
     def case(self, record: CaseRecord, reused: bool, done: int, total: int) -> None:
         """Note a case that has ended, or that was known."""
-        status, message = record.result.status.value, record.result.message
+        status, message = record.result.status, record.result.message
         how = "known" if reused else f"{record.wall_time_s:.2f} s"
-        why = "" if status == "ok" else f": {message}"
-        self.failed += status != "ok"
+        why = "" if status.solved else f": {message}"
+        self.failed += not status.solved
         if not reused:
             self.seconds.append(record.wall_time_s)
         self._line(f"{done}/{total} {record.case_id} {status} ({how}){why}")

@@ -1,0 +1,8 @@
+# From raw test files to the report: `snakemake -j2` here. What depends on what is in workflow/rules.
+# workflow/Snakefile is where Snakemake's workflow catalogue, and a study that imports this workflow
+# as a module, look for it.
+include: "workflow/Snakefile"
+
+
+# an included rule is nobody's default until it is named
+workflow.default_target = "all"
