@@ -1,5 +1,5 @@
 # Computed results compared with the paper: section 4.3.1, tables 5, 7, 10 and 11, figures 14, 15.
-from nptcs.tables.published_stiffness import PUBLISHED
+from nptcs.tables.solver_names import PUBLISHED
 
 COMPARED_STUDIES = [
     study.name for study in CONFIG.studies if PUBLISHED in study.solvers

@@ -162,7 +162,7 @@ def test_the_plan_counts_what_is_known_and_what_it_took(archive, tmp_path):
         "batches": 3,
     }
     store = RecordStore(tmp_path / "5_solve" / "records")
-    records = solve_batch(job, full_factorial(study, {}), None, store, 1, 0)
+    records = solve_batch(job, full_factorial(study, {}), None, store, 1, 0, tmp_path / "log")
     assert [record.result.status for record in records] == ["ok"] * 3
     assert all(1.0 < record.peak_memory_mb < 10_000.0 for record in records)
 

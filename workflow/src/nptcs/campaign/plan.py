@@ -27,6 +27,9 @@ SAMPLE = 300
 RECORD_MB = 0.03
 """Size of a record where none is stored: a tyre's curve and its neutral line."""
 
+BULK_RECORD_MB = 2.5e-4
+"""Size of a case among results in bulk: in the store, and in the file of its batch."""
+
 
 @dataclass(frozen=True)
 class Costs:
@@ -113,6 +116,9 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
             at_a_time = max(1, cores // checked.cores_per_case())
             stated = Costs(checked.case_s, checked.case_memory_mb, RECORD_MB, measured=False)
             cost = costs.get(solver.name, stated)
+            if in_bulk(solver, study.number_of_cases(), config.campaign.bulk_from):
+                seconds = solver.table_case_s or checked.case_s
+                cost = Costs(seconds, checked.case_memory_mb, BULK_RECORD_MB, measured=False)
             words, needed_mb = _words(study.number_of_cases(), known[solver.name], cost, at_a_time)
             lines.append(f"  {solver.name}: {words}")
             if solver.name in rounded:

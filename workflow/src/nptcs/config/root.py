@@ -108,6 +108,11 @@ class Config(Strict):
     studies: tuple[Study, ...] = Field(
         min_length=1, description="Studies, independent of each other"
     )
+    further_studies: tuple[Study, ...] = Field(
+        (),
+        description="Studies after those of `studies`, so that a second file can add some: "
+        "`snakemake --configfile config/joint.yaml`",
+    )
     solvers: dict[str, dict[str, Any]] = Field(
         default_factory=dict, description="Options of each solver, by its name"
     )
@@ -116,6 +121,14 @@ class Config(Strict):
     tyre_responses: TyreResponseSettings = TyreResponseSettings()
     lca_validation: LcaValidation = LcaValidation()
     report: ReportSettings = ReportSettings()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _join_studies(cls, values: Any) -> Any:
+        if not isinstance(values, Mapping) or not values.get("further_studies"):
+            return values
+        further = list(values["further_studies"])
+        return {**values, "studies": [*values.get("studies", ()), *further], "further_studies": ()}
 
     @model_validator(mode="after")
     def _study_names_differ(self) -> Self:

@@ -43,8 +43,8 @@ class FeTyreOptions(SolverOptions, FeModel):
     case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
     plate_stress: Literal["all", "off"] = Field(
         "all",
-        description="all: the spokes that are loaded most are solved again at their motion in the "
-        "tyre, for the stress of plates and rubber; off: those responses are not assessed",
+        description="all: the most loaded spokes are solved again at their motion in the tyre, for "
+        "the stress of plates and rubber; off: those responses are not assessed",
     )
     curve_to_mm: float | None = Field(
         None,

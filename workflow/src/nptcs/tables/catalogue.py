@@ -30,6 +30,7 @@ from nptcs.tables.published_stiffness import (
     StiffnessByLevel,
     StiffnessErrors,
 )
+from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.result_table import (
     PER_STUDY,
     ReportSection,
@@ -223,6 +224,26 @@ TABLES: dict[str, ResultTable] = {
         section=ReportSection.SENSITIVITY,
         headings=headings.of(headings.SOBOL, MainEffects),
         synthetic=SyntheticBy.STUDIES,
+    ),
+    "response_surfaces.csv": ResultTable(
+        ResponseSurfaces,
+        "Surfaces of every response, and how they predict cases that were left out",
+        "surface, sensitivity",
+        "cases.csv and the responses of solved tyres, realised values; left-out cases predicted by "
+        "surfaces that were fitted anew",
+        section=ReportSection.SURFACES,
+        headings=headings.RESPONSE_SURFACES,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "response_impact.csv": ResultTable(
+        ResponseImpact,
+        "What each factor does to each response",
+        "sobol",
+        "of each response the surface that predicts left-out cases best; Sobol indices by "
+        "Saltelli's scheme, slopes over a scrambled Sobol sequence",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.RESPONSE_IMPACT,
+        synthetic=SyntheticBy.ROWS,
     ),
     "spoke_stiffness.csv": ResultTable(
         SpokeLines,

@@ -154,7 +154,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
         Text(study.title, "heading"),
-        sheet_view(sheet, given_digits=precise),
+        sheet_view(sheet, given_digits=precise, whole=True),
     ]
     plots = [
         drawn
