@@ -41,6 +41,7 @@ SEALED_HERE = {
 NOT_STORES = {
     "archive/crate.py": "facts for people; the archive lists the checksum of each of its files",
     "commands/schema.py": "pages and the schema of the configuration, under version control",
+    "campaign/progress.py": "how far a job is, for the screen of a run",
     "processes/runs.py": "who runs: without any meaning after the run",
     "processes/scratch.py": "who runs: without any meaning after the run",
     "commands/inspect.py": "a profile for the user to edit",
