@@ -196,37 +196,49 @@ def snakemake(folder: Path, log: str, *arguments: str) -> subprocess.Popen[bytes
         )
 
 
-def kill_node_under_a_batch(process: subprocess.Popen[bytes], least_s: float) -> bool:
-    """Wait until a batch has run on the victim for some seconds, then kill the node."""
-    while process.poll() is None:
-        for job, node, state, seconds, rule in jobs("%i", "%N", "%t", "%M", "%k"):
-            minutes, _, rest = seconds.rpartition(":")
-            if node == VICTIM and state == "R" and 60 * int(minutes or 0) + int(rest) >= least_s:
-                say(f"job {job} ({rule}) runs on {node} for {seconds}")
-                kill_node(node)
-                return True
-        time.sleep(1.0)
-    return False
+class Watch:
+    """Follow a run through Slurm: print what changes, kill the victim, start it again."""
 
+    def __init__(self, least_s: float) -> None:
+        self.least_s = least_s
+        self.known: dict[str, str] = {}
+        self.killed = self.restarted = False
 
-def follow(process: subprocess.Popen[bytes]) -> int:
-    """Print each change of a job's state and node until Snakemake ends; restart a dead node."""
-    known: dict[str, str] = {}
-    restarted = False
-    while True:
-        ended = process.poll()
-        for job, node, state, rule in jobs("%i", "%N", "%T", "%k"):
+    def look(self) -> None:
+        """Look once at the queue and at the nodes."""
+        for job, node, state, rule, seconds in jobs("%i", "%N", "%T", "%k", "%M"):
             text = f"job {job} {rule}: {state} {node}"
-            if known.get(job) != text:
+            if self.known.get(job) != text:
                 say(text)
-                known[job] = text
-        if not restarted and "down" in run("sinfo", "-h", "-n", VICTIM, "-o", "%T", check=False):
-            say(f"Slurm has noticed: {run('sinfo', '-h', '-N', '-o', '%N %T %E')}")
+                self.known[job] = text
+            runs = node == VICTIM and state == "RUNNING"
+            if runs and not self.killed and in_seconds(seconds) >= self.least_s:
+                say(f"job {job} has run on {node} for {seconds}")
+                kill_node(node)
+                self.killed = True
+        dead = "down" in run("sinfo", "-h", "-n", VICTIM, "-o", "%T", check=False)
+        if self.killed and dead and not self.restarted:
+            say(f"Slurm has noticed: {run('sinfo', '-h', '-N', '-o', '%N is %T (%E)')}")
             run("slurmd", "-N", VICTIM)
-            restarted = True
-        if ended is not None:
-            return ended
-        time.sleep(2.0)
+            self.restarted = True
+
+    def follow(self, process: subprocess.Popen[bytes]) -> int:
+        """Look every second until Snakemake ends; return its exit code."""
+        while process.poll() is None:
+            self.look()
+            time.sleep(1.0)
+        self.look()
+        return process.returncode
+
+
+def in_seconds(duration: str) -> int:
+    """Read minutes and seconds of squeue.
+
+    >>> in_seconds("1:02")
+    62
+    """
+    minutes, _, seconds = duration.rpartition(":")
+    return 60 * int(minutes or 0) + int(seconds)
 
 
 def study(folder: Path, status: str, config: str, least_s: float) -> int:
@@ -240,7 +252,7 @@ def study(folder: Path, status: str, config: str, least_s: float) -> int:
         say(f"local run ends with exit code {code}")
         if code:
             return code
-    copy_repository(cluster)
+    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns("results", ".snakemake"))
     say(f"run through Slurm begins, status by {status}")
     process = snakemake(
         cluster,
@@ -250,17 +262,17 @@ def study(folder: Path, status: str, config: str, least_s: float) -> int:
         *("--config", "campaign={minutes_per_batch: 0.1}"),
         *given,
     )
-    killed = kill_node_under_a_batch(process, least_s)
-    code = follow(process)
+    watch = Watch(least_s)
+    code = watch.follow(process)
     say(f"run through Slurm ends with exit code {code}")
     if status == "sacct":
         fields = "JobID%-12,State%-12,NodeList,Elapsed,MaxRSS,ReqMem,ReqCPUS"
         print(run("sacct", "-D", "--format", fields, check=False), flush=True)
     compare = [sys.executable, str(ROOT / "benchmarks" / "same_numbers.py")]
     same = subprocess.run([*compare, str(local), str(cluster)], check=False)
-    if not killed:
+    if not watch.killed:
         say("no batch ran on the node long enough to be killed")
-    return code or same.returncode or int(not killed)
+    return code or same.returncode or int(not watch.killed)
 
 
 def main() -> int:

@@ -156,7 +156,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
         Text(study.title, "heading"),
-        sheet_view(sheet, given_digits=precise),
+        sheet_view(sheet, given_digits=precise, whole=True),
     ]
     plots = [
         drawn
@@ -201,13 +201,14 @@ def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     maps, lines = [], []
     for pair in pairs(surface):
         alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
-        maps.append(plot(contours(surface, solved, pair, labels, synthetic), alt, synthetic))
+        maps.append(plot(alt, synthetic, contours, surface, solved, pair, labels, synthetic))
     drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
     for varied in drawn:
         # the factor with more levels is drawn along the axis
         by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
         alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
-        lines.append(plot(slices(surface, solved, by_levels, labels, synthetic), alt, synthetic))
+        given = (surface, solved, by_levels, labels, synthetic)
+        lines.append(plot(alt, synthetic, slices, *given))
     return maps + lines
 
 
@@ -240,5 +241,6 @@ def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:
         for name, label in factor_labels(study).items()
     }
     synthetic = any(results.study_is_synthetic(study, solver) for study in studies)
-    figure = impact_bars(rows, labels, results.config.sensitivity.rules, synthetic)
-    return plot(figure, f"Impact values of solver {solver} by factor and rule", synthetic)
+    alt = f"Impact values of solver {solver} by factor and rule"
+    given = (rows, labels, results.config.sensitivity.rules, synthetic)
+    return plot(alt, synthetic, impact_bars, *given)
