@@ -214,10 +214,11 @@ def _residual_plots(results: Results, study: Study) -> list[Plot]:
     for solver, rows in table[table["study"] == study.name].groupby("solver", sort=False):
         synthetic = results.study_is_synthetic(study, str(solver))
         about = f"study {study.name}, solver {solver}"
-        over = residuals_over_value(rows, f"Solver {solver}", synthetic)
-        plots.append(plot(over, f"Residuals over the value of the polynomial, {about}", synthetic))
-        against = residual_quantiles(rows, f"Solver {solver}", synthetic)
-        plots.append(plot(against, f"Residuals against normal quantiles, {about}", synthetic))
+        given = (rows, f"Solver {solver}", synthetic)
+        alt = f"Residuals over the value of the polynomial, {about}"
+        plots.append(plot(alt, synthetic, residuals_over_value, *given))
+        alt = f"Residuals against normal quantiles, {about}"
+        plots.append(plot(alt, synthetic, residual_quantiles, *given))
     return plots
 
 
