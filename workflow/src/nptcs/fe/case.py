@@ -103,7 +103,8 @@ def path_to_displacement(
         try:
             path = assembled.load((np.arange(1, np.ceil(last / step) + 1) * step).tolist()).path
         except TyreError as error:
-            return error.path, str(error)
+            reached = error.path.rise_mm[-1] >= displacement_mm
+            return error.path, "" if reached else str(error)
     return path, ""
 
 
