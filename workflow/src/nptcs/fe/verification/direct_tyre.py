@@ -26,9 +26,9 @@ from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.equilibrium import MAX_ITERATIONS, LoadPath, TyreModel, TyreState
-from nptcs.fe.tyre.path import LoadPoint
 from nptcs.fe.tyre.feet import foot_operators
 from nptcs.fe.tyre.mesh import RingMesh
+from nptcs.fe.tyre.path import LoadPoint
 
 
 class Foot(Protocol):
