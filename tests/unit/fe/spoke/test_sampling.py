@@ -107,6 +107,14 @@ def test_a_guess_that_misleads_does_not_change_a_state():
     assert again.force == pytest.approx(state.force, rel=1e-5, abs=1e-4)
 
 
+def test_stresses_of_another_state_do_not_reach_the_tangent():
+    model = SpokeModel(design(30.0), FEW.accepted_work)
+    state = model.move(model.rest(), np.array([-5.0, 1.0, 0.03]))
+    other = SpokeFields(state.displacement, state.pressures, [50.0 + s for s in state.stresses])
+    tangent = model.settle(state.motion, other).tangent
+    assert tangent == pytest.approx(state.tangent, rel=1e-4, abs=1e-4 * np.abs(tangent).max())
+
+
 def test_rows_take_turns_and_the_middle_one_has_every_level():
     grid = Grid(OPTIONS, HEIGHT)
     rows = grid.rows()

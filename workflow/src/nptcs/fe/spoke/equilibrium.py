@@ -220,13 +220,14 @@ class SpokeModel(SpokePeriod):
         displacement = guess.displacement
         for group, inner in zip(self.mixed, [*guess.pressures, *guess.stresses], strict=True):
             group.put_inner(inner)
-        for _ in range(MAX_ITERATIONS):
+        for count in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
             factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
             step, work = self._step(factor, force)
             energy = sum(response.energy for response in responses)
             accepted = self._accepted_work * max(abs(energy), 1e-6)
-            if work < accepted:
+            # the stresses are those of the displacements only after a step
+            if count and work < accepted:
                 energy -= 0.5 * work
                 return self._condense(motion, displacement, responses, force, factor, energy)
             displacement = self._followed(displacement, factor, step, work, accepted)
@@ -255,7 +256,7 @@ class SpokeModel(SpokePeriod):
             step, work = self._step(factor, self._forces(displacement)[1])
             if work > FOLLOWED * before:
                 return displacement
-            if work * (work / before) < BELOW_ACCEPTED * accepted:
+            if work**2 <= before * BELOW_ACCEPTED * accepted:
                 return self._taken(displacement, step)
 
     def _taken(self, displacement: Array, step: Array) -> Array:
