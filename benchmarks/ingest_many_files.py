@@ -3,8 +3,8 @@
     python benchmarks/ingest_many_files.py [--files 1000] [--rows 10000]
 
 All figures come from one process in one run. As a measure of the machine, the same files are read
-by ``pandas.read_csv`` alone with all that detection finds out told beforehand: the ratio is what
-detection, checks, conditioning and the record cost.
+by ``pandas.read_csv`` alone, given in advance what detection finds out; the ratio is the cost of
+detection, checks, conditioning and the record.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ PARTS = (
 
 
 def write_files(folder: Path, rows: int) -> None:
-    """Write different testXpert files, of which links make up the number."""
+    """Write a few different testXpert files and fill up the number with links to them."""
     for number in range(DIFFERENT):
         random = np.random.default_rng(number)
         strain = np.linspace(0, 1.2, rows)
@@ -74,7 +74,7 @@ def ingest_all(folder: Path, files: int, profiles: Mapping[str, FormatProfile]) 
 
 
 def read_plainly(folder: Path, files: int) -> None:
-    """Read the same files with everything told beforehand."""
+    """Read the same files with the format given in advance."""
     for number in range(files):
         path = folder / f"{number % DIFFERENT}.tra"
         pd.read_csv(path, sep="\t", decimal=",", skiprows=[1], encoding="latin-1")
@@ -117,7 +117,7 @@ def main() -> int:
         read_plainly(folder, arguments.files)
         plain = time.process_time() - started
         print(f"{arguments.files} files of {arguments.rows} rows ({size / 1e6:.2f} MB each)")
-        print(f"ingest {ingest:.1f} s of CPU, {1000 * ingest / arguments.files:.0f} ms a file")
+        print(f"ingest {ingest:.1f} s of CPU, {1000 * ingest / arguments.files:.0f} ms per file")
         print(f"pandas.read_csv alone {plain:.1f} s of CPU; ratio {ingest / plain:.1f}")
         print(f"peak memory {peak:.0f} MB")
         for part, share in shares(folder, profiles):

@@ -178,6 +178,7 @@ def calibrate(
     """
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
     best, step, smallest = start, np.zeros_like(start), np.inf
+    reached = best_misfit = np.empty(0)
     slopes: Array | None = None
     with ProcessPoolExecutor(workers) as pool:
         for last in range(rounds + 1):
