@@ -114,6 +114,30 @@ SOBOL = {
     "value": Heading("value", "unit of the factor"),
     "effect_n_per_mm": Heading("effect", "N/mm"),
 }
+UNCERTAINTY = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "nominal": "nominal",
+        "mean": "mean",
+        "sd": "SD",
+        "low": "interval from",
+        "high": "interval to",
+        "effect_sd": "SD by this source",
+    }.items()
+}
+DECISION = {
+    "with_probability": Heading("probability asked for"),
+    "search_cpu_s": Heading("fit and search, CPU", "s"),
+    "mean": Heading("mean", "unit of the row"),
+    "sd": Heading("SD", "unit of the row"),
+    "low": Heading("interval from", "unit of the row"),
+    "high": Heading("interval to", "unit of the row"),
+    "smallest_accepted": Heading("smallest accepted", "unit of the row"),
+    "largest_accepted": Heading("largest accepted", "unit of the row"),
+    "predicted": Heading("predicted", "unit of the row"),
+    "solved": Heading("solved", "unit of the row"),
+    "difference": Heading("difference", "unit of the row"),
+}
 
 
 def of(headings: Mapping[str, Heading], contract: type[pa.DataFrameModel]) -> dict[str, Heading]:
