@@ -185,6 +185,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         for solver in results.surfaces[study.name]
         for drawn in _surface_plots(results, study, solver)
     ]
+    many = len(results.designs[study.name]) > MOST_MARKS
     held = " Factors that a panel does not show are at the middle level in its title."
     caption = (
         f"{study.title}: each surface over two factors, the discs are the cases on the same "
