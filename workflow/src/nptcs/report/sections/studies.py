@@ -190,11 +190,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     caption = (
         f"{study.title}: each surface over two factors, the discs are the cases on the same "
         "colour scale; and over one factor, the lines are the surface, the marks are the cases"
-        + (
-            f", {MOST_MARKS} of very many."
-            if len(results.designs[study.name]) > MOST_MARKS
-            else "."
-        )
+        + (f", some {MOST_MARKS} of very many." if many else ".")
     )
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     return blocks
