@@ -155,7 +155,7 @@ def config(change: Callable[[Any], None]) -> Callable[[Path], None]:
     return in_yaml(CONFIG, change)
 
 
-def study(name: str, **keys: Any) -> Callable[[Path], None]:
+def study(name: str, /, **keys: Any) -> Callable[[Path], None]:
     """Return an edit of keys of a study."""
 
     def change(content: Any) -> None:

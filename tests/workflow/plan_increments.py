@@ -15,6 +15,7 @@ from nptcs.campaign.plan import known_cases
 from nptcs.campaign.record import RecordStore
 from nptcs.config.root import read_config
 from nptcs.files import read_model
+from nptcs.start import facts
 from nptcs.tables.material_card import MaterialCard
 from nptcs.yaml_files import read_yaml
 
@@ -24,7 +25,7 @@ CONFIG = "config/increments.yaml"
 def plan(folder):
     """Return the planned jobs by rule and the cases that would be solved."""
     os.chdir(folder)
-    provenance._ROOT = Path(folder) / "workflow/src/nptcs"
+    facts.PACKAGE = provenance._ROOT = Path(folder) / "workflow/src/nptcs"
     out, code = io.StringIO(), None
     with contextlib.redirect_stdout(out), contextlib.redirect_stderr(out):
         try:

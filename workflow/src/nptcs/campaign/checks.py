@@ -90,7 +90,7 @@ def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputErro
         "material": sorted({specimen.material for specimen in specimens}),
         "study": [study.name for study in config.studies],
     }
-    faults = [*_capitals("material", names["material"]), *_shared_series(specimens)]
+    faults = _capitals("material", names["material"])
     faults += [_kept("study", name) for name in names["study"] if name in KEPT_STUDIES]
     faults += [
         _kept(kind, name)
@@ -116,23 +116,6 @@ def _kept(kind: str, name: str) -> InputError:
     return InputError(
         "this name is kept for another use", "choose another", column=kind, value=name
     )
-
-
-def _shared_series(specimens: Sequence[Specimen]) -> list[InputError]:
-    """Find series of different materials or tests whose names, and so files, are the same."""
-    groups: dict[str, set[tuple[str, str]]] = {}
-    for one in specimens:
-        groups.setdefault(one.series.casefold(), set()).add((one.material, one.test.value))
-    return [
-        InputError(
-            "tests of several materials would share the files of one series",
-            "rename one of the materials",
-            column="material",
-            value=", ".join(sorted({material for material, _ in group})),
-        )
-        for group in groups.values()
-        if len({(material.casefold(), test) for material, test in group}) > 1
-    ]
 
 
 def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:
