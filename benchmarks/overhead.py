@@ -34,8 +34,10 @@ def project(folder: Path) -> None:
     for study in values["studies"]:
         quick = [name for name in study["solvers"] if name in QUICK]
         if quick:
-            dropped = {"calibration_cases", "solver_options", "published_spoke_stiffness"}
+            dropped = {"calibration_cases", "published_spoke_stiffness"}
             kept = {key: value for key, value in study.items() if key not in dropped}
+            options = study.get("solver_options", {})
+            kept["solver_options"] = {key: options[key] for key in quick if key in options}
             studies.append({**kept, "solvers": quick})
     values["studies"] = studies
     values.pop("decisions", None)
