@@ -221,15 +221,16 @@ class TyreModel:
             If a load is not reached with steps down to 2 N, or a spoke leaves its table.
         """
         path = LoadPath()
+        before: LoadPoint | None = None
         self.ground.release()
         try:
-            before, last = None, self._first_touch(path)
+            last = self._first_touch(path)
             for load in loads_n:
                 while last.force_n < load:
                     before, last = last, self._advance(before, last, load, path)
         except (FloatingPointError, TableRangeError) as error:
-            last = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
-            raise TyreError(f"{error}; {last}", path) from error
+            end = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
+            raise TyreError(f"{error}; {end}", path) from error
         motion = self.spoke_motion(last.displacement)
         return TyreState(last.displacement, last.rise_mm, motion, path)
 
