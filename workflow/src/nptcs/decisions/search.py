@@ -11,6 +11,7 @@ from nptcs.arrays import Array, Mask
 from nptcs.config.goals import GoalKind
 from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, margins
 from nptcs.decisions.space import DesignSpace
+from nptcs.doe.whole_plates import SPACING
 
 STARTS = 2
 """Candidates of a cell from which the search goes on."""
@@ -271,6 +272,6 @@ def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
 def _other_plates(one: Array, other: Array, space: DesignSpace) -> bool:
     if not space.plates:
         return False
-    place = space.factors.index("spacing_mm")
+    place = space.factors.index(SPACING)
     counts = [round(space.tread_width_mm / point[place]) for point in (one, other)]
     return counts[0] != counts[1]
