@@ -1,5 +1,7 @@
 # Surfaces, cards and tolerances → how sure each response is, and designs that meet the goals.
-ADDED_CASES = "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
+ADDED_CASES = (
+    "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
+)
 
 DECIDED = (
     "studies",
@@ -15,7 +17,9 @@ DECIDED = (
 def decide_job():
     settings = plain(CONFIG)
     solvers = sorted({(d.study, d.solver) for d in CONFIG.decisions})
-    modules = [module_of(name, CONFIG.options_of(study, name)) for study, name in solvers]
+    modules = [
+        module_of(name, CONFIG.options_of(study, name)) for study, name in solvers
+    ]
     return {
         "settings": {name: settings[name] for name in DECIDED},
         "added": ADDED_CASES,

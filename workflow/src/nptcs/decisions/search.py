@@ -11,6 +11,7 @@ from nptcs.arrays import Array, Mask
 from nptcs.config.goals import GoalKind
 from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, margins
 from nptcs.decisions.space import DesignSpace
+from nptcs.doe.whole_plates import SPACING
 
 STARTS = 2
 """Candidates of a cell from which the search goes on."""
@@ -202,22 +203,38 @@ def _improved(
         return start
     span = (space.upper - space.lower)[free]
 
-    def there(unit: Array) -> Evaluation:
-        point = start.copy()
-        point[free] = space.lower[free] + np.clip(unit, 0.0, 1.0) * span
-        return problem.evaluate(point[None, :])
+    seen: dict[bytes, tuple[Array, Array]] = {}
+
+    def around(unit: Array) -> tuple[Array, Array]:
+        """Merit and probability at a point, then one step along each factor."""  # noqa: D401
+        if (key := unit.tobytes()) not in seen:
+            # at the upper edge the step goes inwards
+            signs = np.where(unit + STEP > 1.0, -1.0, 1.0)
+            units = np.vstack([unit, unit + STEP * np.diag(signs)])
+            points = np.repeat(start[None, :], len(units), axis=0)
+            points[:, free] = space.lower[free] + np.clip(units, 0.0, 1.0) * span
+            found = problem.evaluate(points)
+            seen[key] = rank(problem, scale, found), found.probability
+        return seen[key]
+
+    def slope(values: Array, unit: Array) -> Array:
+        signs = np.where(unit + STEP > 1.0, -1.0, 1.0)
+        gradient: Array = (values[1:] - values[0]) / (STEP * signs)
+        return gradient
 
     first = np.clip((start[free] - space.lower[free]) / span, STEP, 1 - STEP)
     ended = minimize(
-        lambda unit: -float(rank(problem, scale, there(unit))[0]),
+        lambda unit: -around(unit)[0][0],
         first,
+        jac=lambda unit: -slope(around(unit)[0], unit),
         method="SLSQP",
         bounds=[(0.0, 1.0)] * len(free),
         constraints={
             "type": "ineq",
-            "fun": lambda unit: float(there(unit).probability[0]) - probability,
+            "fun": lambda unit: around(unit)[1][0] - probability,
+            "jac": lambda unit: slope(around(unit)[1], unit),
         },
-        options={"maxiter": 30, "eps": STEP, "ftol": 1e-6},
+        options={"maxiter": 30, "ftol": 1e-6},
     )
     point = start.copy()
     point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
@@ -255,6 +272,6 @@ def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
 def _other_plates(one: Array, other: Array, space: DesignSpace) -> bool:
     if not space.plates:
         return False
-    place = space.factors.index("spacing_mm")
+    place = space.factors.index(SPACING)
     counts = [round(space.tread_width_mm / point[place]) for point in (one, other)]
     return counts[0] != counts[1]

@@ -148,14 +148,17 @@ def fit_response(
     fitted = _surface(results, response, surface, cases, registry)
     lamination, no_ply = _lamination(fitted.surface, response, cases)
     effect, no_rubbers = _rubber_effect(results, response, rubbers)
+    least, unknown = fitted.left_out_rms, ""
+    if not np.isfinite(least):
+        least, unknown = 0.0, "error at left-out cases not assessed: the surface's interval alone"
     return FittedResponse(
         response=response,
         unit=results.unit(response),
-        model=SurfaceResponse(fitted.surface, fitted.left_out_rms, lamination, effect),
+        model=SurfaceResponse(fitted.surface, least, lamination, effect),
         surface=fitted.name,
         cases=len(fitted.surface.y),
         left_out=int((~has).sum()),
-        notes=tuple(filter(None, [no_ply, no_rubbers])),
+        notes=tuple(filter(None, [no_ply, no_rubbers, unknown])),
     )
 
 
@@ -170,11 +173,11 @@ def _surface(
     registry: SurfaceRegistry | None,
 ) -> FittedSurface:
     """Return the stored surface of a response, or fit it to the same cases."""
-    chosen = name if response.name in STIFFNESS else name_of(GAUSSIAN_PROCESS)
-    model = _model(results, chosen)
-    stored = registry_surface(registry, results, response, chosen)
+    stored = registry_surface(registry, results, response, name)
     if stored is not None and len(stored.surface.y) == len(cases.y):
         return stored
+    chosen = name if response.name in STIFFNESS else name_of(GAUSSIAN_PROCESS)
+    model = _model(results, chosen)
     if len(cases.y) < results.study.least_solved_cases():
         raise InputError(
             f"only {len(cases.y)} cases of study {results.study.name} have {response}",
@@ -183,7 +186,7 @@ def _surface(
             remedy="solve more cases",
         )
     if stored is not None:  # cases were added: the form stays
-        surface = stored.surface.refit(cases.x, cases.y)
+        chosen, surface = stored.name, stored.surface.refit(cases.x, cases.y)
     else:
         surface = fit_model(model, cases)
     return FittedSurface(
@@ -199,17 +202,26 @@ def _surface(
 def registry_surface(
     registry: SurfaceRegistry | None, results: StudyResults, response: ResponseName, name: str
 ) -> FittedSurface | None:
-    """Return a stored surface; the study's own stiffness is stored under a name of its own."""
+    """Return the stored surface of that name; for what is no stiffness, else the best one.
+
+    The stiffness at the study's own load is stored under a name of its own.
+    """
     if registry is None:
         return None
     wanted = [(response.name, response.at)]
     if response == results.at_its_load(ResponseName("secant_stiffness")):
         wanted.append((AT_STUDY_LOAD, ""))
-    for found in registry.surfaces:
-        place = (found.response.name, found.response.at)
-        if (found.solver, found.name) == (results.solver, name) and place in wanted:
-            return found
-    return None
+    found = [
+        one
+        for one in registry.surfaces
+        if one.solver == results.solver and (one.response.name, one.response.at) in wanted
+    ]
+    named = [one for one in found if one.name == name]
+    if named:
+        return named[0]
+    if response.name in STIFFNESS or not found:
+        return None
+    return min(found, key=lambda one: np.nan_to_num(one.left_out_rms, nan=np.inf))
 
 
 def _model(results: StudyResults, surface: str) -> SurfaceModel:

@@ -10,7 +10,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.goals import ResponseName
-from nptcs.config.response import RESPONSE_KINDS
+from nptcs.config.response import RESPONSE_KINDS, Taken
 from nptcs.config.study import Study
 from nptcs.errors import InputError
 from nptcs.responses.curve import LoadCurve
@@ -58,8 +58,8 @@ class StudyResults:
         return self.solved[self.factors].to_numpy(float)
 
     def at_its_load(self, response: ResponseName) -> ResponseName:
-        """Return a stiffness without a stated load as that at the study's load."""
-        if response.at or response.name not in STIFFNESS:
+        """Return a response without a stated place as that at the study's load."""
+        if response.at or RESPONSE_KINDS[response.name].taken is Taken.UNLOADED:
             return response
         return replace(response, at=f"{self.study.load_n:g} N")
 
@@ -102,7 +102,7 @@ class StudyResults:
         at, _, unit = response.at.partition(" ")
         place = float(at)
         solved = self.solved.set_index("case_id")
-        if response.name == "secant_stiffness" and unit == "N" and place == self.study.load_n:
+        if response == self.at_its_load(ResponseName("secant_stiffness")):
             yield from solved[AT_STUDY_LOAD].items()  # type: ignore[misc]
             return
         for case_id, rows in self.curves.groupby("case_id"):

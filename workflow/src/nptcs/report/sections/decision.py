@@ -91,4 +91,6 @@ def _figures(results: Results, row: dict[str, object]) -> list[PageBlock]:
         figure = goal_intervals(rows, synthetic)
         alt = f"{goal}: best designs of the decision {decision.name} with their intervals"
         plots.append(plot(figure, alt, synthetic))
+    if not plots:
+        return []
     return [Plots("The best designs: mean and interval of each response.", tuple(plots))]

@@ -12,6 +12,7 @@ from nptcs.report.blocks import PageBlock, Plot, Plots, Section, TableView, Text
 from nptcs.report.data import Results, SolverFacts
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
+from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
 from nptcs.report.figures.surface import contours, pairs, slices
 from nptcs.report.plots import plot
 from nptcs.report.sections.ranking import ranking_blocks
@@ -23,6 +24,7 @@ from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
 from nptcs.surface.cases import solved_cases
 from nptcs.tables.cases import Cases
+from nptcs.tables.diagnostics import SurfaceInfluence
 from nptcs.tables.impact import Impact
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable
@@ -167,7 +169,27 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         "colour scale; and over one factor, the lines are the surface, the marks are the cases."
     )
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
+    if residuals := _residual_plots(results, study):
+        words_of_residuals = (
+            f"{study.title}: what the polynomial leaves of its cases, over its value (marks grow "
+            "with the leverage) and against a normal distribution. The results of a solver have no "
+            "noise: a pattern is what the polynomial cannot follow."
+        )
+        blocks.append(Plots(words_of_residuals, tuple(residuals)))
     return blocks
+
+
+def _residual_plots(results: Results, study: Study) -> list[Plot]:
+    table = results.table(SurfaceInfluence)
+    plots = []
+    for solver, rows in table[table["study"] == study.name].groupby("solver", sort=False):
+        synthetic = results.study_is_synthetic(study, str(solver))
+        about = f"study {study.name}, solver {solver}"
+        over = residuals_over_value(rows, f"Solver {solver}", synthetic)
+        plots.append(plot(over, f"Residuals over the value of the polynomial, {about}", synthetic))
+        against = residual_quantiles(rows, f"Solver {solver}", synthetic)
+        plots.append(plot(against, f"Residuals against normal quantiles, {about}", synthetic))
+    return plots
 
 
 def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
