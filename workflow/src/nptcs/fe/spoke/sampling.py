@@ -78,7 +78,7 @@ class Grid:
         small = abs(beta) < 1e-12 and abs(phi) < 1e-12
         if small or self._options.side_states == "every":
             return tuple(self._levels)
-        return tuple(level for level in self._levels if (level + colour) % 2 == 0)
+        return tuple(level for level in self._levels if (level + colour) % 2)
 
     def motions(self, row: Row, levels: Sequence[int]) -> Array:
         """Motions (n, 3) of a row at these levels."""
