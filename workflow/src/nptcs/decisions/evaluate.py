@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import stats
@@ -16,6 +16,9 @@ from nptcs.uncertainty.propagate import assessed, distribution, moments
 
 SMALLEST_SD = 1e-9
 """Share of a response below which its standard deviation counts as none."""
+
+NEGLIGIBLE = 2e-3
+"""Share of the variance below which the search leaves an input out; samples have all."""
 
 LEAST_DESIRABILITY = 1e-6
 """Desirability of the worst candidate: its logarithm must exist."""
@@ -79,6 +82,25 @@ class Problem:
         columns = [within(goal, mean[goal.response], sd[goal.response]) for goal in self.must_hold]
         probabilities = np.column_stack(columns) if columns else np.ones((len(x), 0))
         return Evaluation(x, mean, sd, probabilities)
+
+    def screened(self, x: Array) -> Problem:
+        """Return the problem without inputs that matter to no response at any of these designs.
+
+        For the search: each input that is left out has less than `NEGLIGIBLE` of the variance.
+        """
+        largest = np.zeros(len(self.inputs))
+        for fitted in self.fitted.values():
+            followed, _ = assessed(fitted.model, self.inputs)
+            variances = moments(fitted.model, followed, x).variances
+            total = np.maximum(variances.sum(axis=1), np.finfo(float).tiny)
+            for column, one in enumerate(followed):
+                place = next(n for n, other in enumerate(self.inputs) if other is one)
+                share = float((variances[:, column] / total).max())
+                largest[place] = max(largest[place], share)
+        kept = tuple(
+            one for one, share in zip(self.inputs, largest, strict=True) if share > NEGLIGIBLE
+        )
+        return replace(self, inputs=kept)
 
     def sampled(self, point: Array, samples: int, seed: int) -> dict[ResponseName, Array]:
         """Sample all responses of one design together: each of shape (samples,)."""
