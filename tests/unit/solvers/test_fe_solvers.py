@@ -37,11 +37,11 @@ def inputs(options, values=VALUES, load_n=800.0, ply=PUBLISHED_PLY):
     return CaseInputs("case_1", values, load_n, TyreGeometry(), options, ply=ply)
 
 
-def neutral_line_is_sound(result):
+def neutral_line_is_sound(result, columns):
     """Lowest over the contact by nearly δ, driven away from it, at rest in no rigid turn."""
     line = {name: np.array(column) for name, column in result.neutral_line.items()}
     theta, radial, along = line["theta_deg"], line["radial_mm"], line["tangential_mm"]
-    assert len(theta) == 240
+    assert len(theta) == columns
     assert (np.diff(theta) > 0).all()
     assert np.abs(theta).max() <= 180.0
     # the tread between band and ground gives way a little
@@ -91,9 +91,7 @@ def test_fe_tyre_goes_on_to_a_displacement_and_says_where_it_ends(tmp_path):
 def test_the_stiffness_at_25_mm_is_that_of_a_tyre_solved_there(tmp_path):
     """The curve goes on from the load of the case; the tyre is then solved at its load there."""
     soft = {**VALUES, "spoke_c10_mpa": 1.0}
-    deep = EnergyTableOptions(
-        elongation_mm=(-32.0, 8.0), inclination_rad=0.18, phi_rad=(-0.15, 0.15), samples=(8, 3, 3)
-    )
+    deep = EnergyTableOptions(elongation_mm=(-32.0, 8.0), inclination_rad=0.22)
     options = {"spoke_mesh": COARSE, "table": deep, "plate_stress": "off", "spoke_cache": tmp_path}
     further = fe_tyre.FeTyreOptions(**options, load_steps=5, curve_to_mm=25.0)
     result = fe_tyre.solve(inputs(further, soft, load_n=3000.0))
@@ -122,7 +120,9 @@ def test_the_stiffness_at_25_mm_is_that_of_a_tyre_solved_there(tmp_path):
 
 
 def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path):
-    options = fe_tyre.FeTyreOptions(spoke_cache=tmp_path, load_steps=3, **TYRE_OPTIONS)
+    # fine enough for the pressure of this short contact
+    fine = {**TYRE_OPTIONS, "tyre_mesh": TyreMesh(foot_elements=2, gap_elements=2)}
+    options = fe_tyre.FeTyreOptions(spoke_cache=tmp_path, load_steps=3, **fine)
     first = fe_tyre.solve(inputs(options, load_n=3000.0))
     assert first.status is Status.OK
     assert first.curve["force_n"][-1] == pytest.approx(3000.0)
@@ -130,7 +130,7 @@ def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path)
     assert first.vertical_stiffness_n_per_mm == pytest.approx(3000.0 / first.displacement_mm)
     assert 100.0 < first.vertical_stiffness_n_per_mm < 1500.0
     assert first.extra["smallest_u_r_mm"] > -first.displacement_mm
-    neutral_line_is_sound(first)
+    neutral_line_is_sound(first, 480)
     plates_are_sound(first)
     files = sorted(tmp_path.iterdir())
     again = fe_tyre.solve(inputs(options, load_n=3000.0))

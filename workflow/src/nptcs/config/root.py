@@ -42,6 +42,12 @@ class Campaign(Strict):
         ge=1,
         description="Cases of a study above which a run is refused; raise it to ask for more",
     )
+    bulk_from: int = Field(
+        1000,
+        ge=1,
+        description="Cases of a study from which solvers that can solve a table of cases do so: "
+        "minutes instead of hours, one file of columns, but no curves and no neutral lines",
+    )
     batches: int = Field(
         1,
         ge=1,

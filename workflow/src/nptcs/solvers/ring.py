@@ -33,6 +33,7 @@ from nptcs.solvers.contract import (
     neutral_line_columns,
 )
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.tables import one_by_one
 
 
 class RingSolverOptions(SolverOptions, RingModel):
@@ -142,4 +143,6 @@ SOLVER = Solver(
     needs_ply=True,
     realise=realised_spacing,
     about="the tyre as a sandwich ring on the energies of finite element spokes",
+    solve_table=one_by_one(solve),
+    table_cases=10,
 )

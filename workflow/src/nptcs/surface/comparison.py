@@ -24,6 +24,8 @@ MOST_LEVELS = 10
 
 MANY_CASES = 200
 """Above so many cases a polynomial's left-out errors are taken from the leverages of one fit."""
+MOST_REFITS = 2000
+"""Cases beyond which a surface is not fitted again without each of them."""
 
 FLAT = 1e-9
 """Share of the response's range below which a step along a factor has no direction."""
@@ -41,6 +43,8 @@ class LeftOut:
         Whether the response lies in the prediction interval.
     cpu_s : float
         Processor time of all refits.
+    assessed : bool
+        False where there are more than `MOST_REFITS` cases.
     what : str
         What was left out at a time.
     """
@@ -49,6 +53,7 @@ class LeftOut:
     covered: Mask
     cpu_s: float
     what: str = "a case"
+    assessed: bool = True
 
     @property
     def known(self) -> Array:
@@ -97,6 +102,9 @@ def leave_one_out(surface: ResponseSurface) -> LeftOut:
     if isinstance(surface, Surface | LinkedSurface) and len(surface.y) > MANY_CASES:
         error, covered = _by_leverage(surface)
         return LeftOut(error, covered, time.process_time() - start)
+    if len(surface.y) > MOST_REFITS:
+        nothing = np.full(len(surface.y), np.nan)
+        return LeftOut(nothing, np.zeros(len(surface.y), bool), 0.0, assessed=False)
     error, covered = np.full(len(surface.y), np.nan), np.zeros(len(surface.y), bool)
     groups = surface.groups()
     for group in np.unique(groups.labels):

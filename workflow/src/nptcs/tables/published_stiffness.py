@@ -5,10 +5,8 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.solver_names import PUBLISHED as PUBLISHED
 from nptcs.tables.status import Status
-
-PUBLISHED = "published"
-"""The solver with whose results the others are compared."""
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
 COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (

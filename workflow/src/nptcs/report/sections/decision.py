@@ -88,9 +88,8 @@ def _figures(results: Results, row: dict[str, object]) -> list[PageBlock]:
     synthetic = results.study_is_synthetic(study, decision.solver)
     plots: list[Plot] = []
     for goal, rows in designs.groupby("goal", sort=False):
-        figure = goal_intervals(rows, synthetic)
         alt = f"{goal}: best designs of the decision {decision.name} with their intervals"
-        plots.append(plot(figure, alt, synthetic))
+        plots.append(plot(alt, synthetic, goal_intervals, rows, synthetic))
     if not plots:
         return []
     return [Plots("The best designs: mean and interval of each response.", tuple(plots))]

@@ -104,7 +104,5 @@ def _shown(sheet: Sheet) -> PageBlock:
     """Show a table, or say where it is if it is too long for a page."""
     if len(sheet.table) <= MOST_ROWS:
         return sheet_view(sheet)
-    return Text(
-        f"{sheet.entry.title}: {len(sheet.table)} rows, in {sheet.entry.file} and in the sheet "
-        f"{sheet.entry.sheet} of the workbook."
-    )
+    place = f" and in the sheet {sheet.entry.sheet} of the workbook" if sheet.in_workbook else ""
+    return Text(f"{sheet.entry.title}: {len(sheet.table):,} rows, in {sheet.entry.file}{place}.")

@@ -90,8 +90,8 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    figure = parity(rows, f"study {study.name}", solver_order(results), synthetic)
-    return plot(figure, alt, synthetic)
+    given = (rows, f"study {study.name}", solver_order(results), synthetic)
+    return plot(alt, synthetic, parity, *given)
 
 
 def _effects(results: Results, studies: list[Study], *, differences: bool) -> list[Plot]:
@@ -108,8 +108,8 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
                 "Mean difference from the published stiffness" if differences else "Mean stiffness"
             )
             alt = f"{what} by {label.label}, study {study.name}"
-            figure = draw(rows, label, solver_order(results), synthetic)
-            plots.append(plot(figure, alt, synthetic))
+            given = (rows, label, solver_order(results), synthetic)
+            plots.append(plot(alt, synthetic, draw, *given))
     return plots
 
 

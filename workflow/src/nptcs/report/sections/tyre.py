@@ -114,8 +114,9 @@ def _curve_plots(results: Results) -> list[Plot]:
         ["study", "solver"], sort=False
     ):
         synthetic = _synthetic(results, study, solver)
-        figure = load_displacement(curves, f"{study}, {solver}", synthetic)
-        plots.append(plot(figure, f"Load against displacement, {study}, {solver}", synthetic))
+        given = (curves, f"{study}, {solver}", synthetic)
+        alt = f"Load against displacement, {study}, {solver}"
+        plots.append(plot(alt, synthetic, load_displacement, *given))
     return plots
 
 
@@ -131,8 +132,7 @@ def _stress_plots(results: Results) -> list[Plot]:
         for case_id in [*(mine - {worst} if len(mine) == 1 else ()), worst]:
             rows = stress[stress["case_id"] == case_id]
             synthetic = _synthetic(results, study, solver)
-            figure = plate_faces(rows, f"{case_id}, {solver}", synthetic)
-            plots.append(
-                plot(figure, f"Stress at the plates' faces, {case_id}, {solver}", synthetic)
-            )
+            given = (rows, f"{case_id}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
+            alt = f"Stress at the plates' faces, {case_id}, {solver}"
+            plots.append(plot(alt, synthetic, plate_faces, *given))
     return plots

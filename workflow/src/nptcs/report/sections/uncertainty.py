@@ -82,7 +82,7 @@ def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
     for key, rows in stiffness.dropna(subset=["share_percent"]).groupby(KEYS, sort=False):
         study, solver, design, _, at = map(str, key)
         synthetic = results.study_is_synthetic(results.config.study(study), solver)
-        figure = share_bars(rows, f"{design}, {solver}, stiffness at {at}", synthetic)
+        given = (rows, f"{design}, {solver}, stiffness at {at}", synthetic)
         alt = f"Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}"
-        plots.append(plot(figure, alt, synthetic))
+        plots.append(plot(alt, synthetic, share_bars, *given))
     return plots
