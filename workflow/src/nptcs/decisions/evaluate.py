@@ -135,15 +135,20 @@ def at_least_all(probabilities: Array) -> Array:
     return bound
 
 
-def margins(goals: Sequence[Goal], found: Evaluation) -> Array:
-    """Distance to the nearest limit in standard deviations, negative outside, (m, goals)."""
-    columns = []
+def nearness(goals: Sequence[Goal], found: Evaluation) -> Array:
+    """Order designs of which none is acceptable, the nearest highest, shape (m,).
+
+    The probability less the largest relative distance of a mean response outside its limits.
+    """
+    distances = [np.zeros(len(found.x))]
     for goal in goals:
         low, high = goal.limits
         mean = found.mean[goal.response]
-        scale = np.maximum(found.sd[goal.response], SMALLEST_SD * np.maximum(np.abs(mean), 1e-300))
-        columns.append(np.minimum((mean - low) / scale, (high - mean) / scale))
-    return np.column_stack(columns) if columns else np.full((len(found.x), 1), np.inf)
+        outside = np.maximum(np.maximum(low - mean, mean - high), 0.0)
+        limit = low if np.isfinite(low) else high
+        distances.append(outside / max(abs(limit), 1e-300))
+    result: Array = found.probability - np.max(distances, axis=0)
+    return result
 
 
 @dataclass(frozen=True)

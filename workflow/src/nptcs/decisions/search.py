@@ -9,12 +9,15 @@ from scipy.optimize import minimize
 
 from nptcs.arrays import Array, Mask
 from nptcs.config.goals import GoalKind
-from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, margins
+from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, nearness
 from nptcs.decisions.space import DesignSpace
 from nptcs.doe.whole_plates import SPACING
 
 STARTS = 1
 """Candidates of a cell from which the search goes on."""
+
+NEAREST = 2
+"""Candidates from which the nearest design is looked for where none is acceptable."""
 
 SCREENED = 8
 """Candidates of a cell at which the inputs are screened."""
@@ -111,12 +114,11 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
 
 
 def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation) -> Evaluation:
-    """Return the design that can be made whose worst goal lies least outside its limits.
+    """Return the design that can be made and comes nearest to the goals.
 
-    Distances are in standard deviations of the response (Nelder–Mead from the best candidates).
+    By `nearness`, improved from the best candidates (Nelder–Mead).
     """
-    worst = margins(problem.must_hold, candidates).min(axis=1)
-    order = np.argsort(-worst, kind="stable")[:2]
+    order = np.argsort(-nearness(problem.must_hold, candidates), kind="stable")[:NEAREST]
     free = space.free
     found = [candidates.x[place] for place in order]
     if free:
@@ -127,7 +129,7 @@ def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation)
                 point = start.copy()
                 point[free] = space.lower[free] + np.clip(unit, 0.0, 1.0) * span
                 there = problem.evaluate(point[None, :])
-                return -float(margins(problem.must_hold, there).min())
+                return -float(nearness(problem.must_hold, there)[0])
 
             first = (start[free] - space.lower[free]) / span
             ended = minimize(shortfall, first, method="Nelder-Mead", options={"maxfev": 120})
@@ -135,7 +137,7 @@ def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation)
             point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
             found.append(point)
     pool = problem.evaluate(np.unique(np.vstack([space.can_be_made(p) for p in found]), axis=0))
-    return chosen(pool, np.array([int(margins(problem.must_hold, pool).min(axis=1).argmax())]))
+    return chosen(pool, np.array([int(nearness(problem.must_hold, pool).argmax())]))
 
 
 def rank(problem: Problem, scale: Desirability, found: Evaluation) -> Array:
