@@ -102,7 +102,7 @@ class StudyResults:
         at, _, unit = response.at.partition(" ")
         place = float(at)
         solved = self.solved.set_index("case_id")
-        if response.name == "secant_stiffness" and unit == "N" and place == self.study.load_n:
+        if response == self.at_its_load(ResponseName("secant_stiffness")):
             yield from solved[AT_STUDY_LOAD].items()  # type: ignore[misc]
             return
         for case_id, rows in self.curves.groupby("case_id"):
