@@ -8,7 +8,6 @@ DECIDED = (
     "solvers",
     "tyre",
     "uncertainty",
-    "decisions",
     "tyre_responses",
     "campaign",
 )
