@@ -18,12 +18,12 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from nptcs.campaign.batch import report_progress
 from nptcs.campaign.cases import cases_table
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import RecordStore
 from nptcs.campaign.runner import run_cases
 from nptcs.config.root import read_config
+from nptcs.decisions.confirm import say
 from nptcs.files import read_model
 from nptcs.surface.cases import as_realised
 from nptcs.surface.response_surface import predict
@@ -68,7 +68,7 @@ def main() -> int:
     options = {**options, "spoke_cache": cache, "plate_stress": "off"}
     jobs = make_jobs(study, given.solver, options, config.tyre, table, ply)
     store = RecordStore(given.results / "5_solve" / "records")
-    solved = cases_table(run_cases(jobs, store, given.cores, report_progress))
+    solved = cases_table(run_cases(jobs, store, given.cores, say))
     x = as_realised(solved, FACTORS)[FACTORS].to_numpy()
     registry = read_registry(given.results / "6_surface" / "models" / "plate.json")
     said = predict(registry.find(RESPONSE, given.solver, given.surface).surface, x)
