@@ -3,24 +3,26 @@ ADDED_CASES = (
     "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
 )
 
-DECIDED = (
-    "studies",
-    "solvers",
-    "tyre",
-    "uncertainty",
-    "tyre_responses",
-    "campaign",
-)
+DECIDED = ("solvers", "tyre", "uncertainty", "tyre_responses", "campaign")
+
+
+def decided_study(study):
+    """A study without titles and labels, which decide no number."""
+    return {
+        **plain(study),
+        "title": "",
+        "factors": study.case_definition()["factors"],
+        "decisions": [{**plain(one), "title": ""} for one in study.decisions],
+    }
 
 
 def decide_job():
     settings = plain(CONFIG)
     solvers = sorted({(d.study, d.solver) for d in CONFIG.decisions})
-    modules = [
-        module_of(name, CONFIG.options_of(study, name)) for study, name in solvers
-    ]
+    modules = [module_of(name, CONFIG.options_of(study, name)) for study, name in solvers]
     return {
         "settings": {name: settings[name] for name in DECIDED},
+        "studies": [decided_study(study) for study in CONFIG.studies],
         "added": ADDED_CASES,
         "added_cases": contents([ADDED_CASES]),
         "code": code_of("decide", *dict.fromkeys(modules), words=True),
