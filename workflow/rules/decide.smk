@@ -3,7 +3,7 @@ ADDED_CASES = (
     "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
 )
 
-DECIDED = ("solvers", "tyre", "uncertainty", "tyre_responses", "campaign")
+DECIDED = ("solvers", "tyre", "uncertainty", "tyre_responses")
 
 
 def decided_study(study):
@@ -19,7 +19,9 @@ def decided_study(study):
 def decide_job():
     settings = plain(CONFIG)
     solvers = sorted({(d.study, d.solver) for d in CONFIG.decisions})
-    modules = [module_of(name, CONFIG.options_of(study, name)) for study, name in solvers]
+    modules = [
+        module_of(name, CONFIG.options_of(study, name)) for study, name in solvers
+    ]
     return {
         "settings": {name: settings[name] for name in DECIDED},
         "studies": [decided_study(study) for study in CONFIG.studies],
