@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize
 
-from nptcs.arrays import Array, Mask
+from nptcs.arrays import Array, Mask, Rows
 from nptcs.config.goals import GoalKind
 from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, nearness
 from nptcs.decisions.space import DesignSpace
@@ -173,7 +173,7 @@ def joined(parts: list[Evaluation]) -> Evaluation:
     )
 
 
-def chosen(found: Evaluation, places: Array) -> Evaluation:
+def chosen(found: Evaluation, places: Rows) -> Evaluation:
     """Return some of the designs of an evaluation."""
     return Evaluation(
         found.x[places],
@@ -283,7 +283,7 @@ def _make(
     return problem.evaluate(np.unique(made, axis=0))
 
 
-def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
+def _different(x: Array, order: Rows, space: DesignSpace, top: int) -> Rows:
     """Pick designs in an order, each different from those before it."""
     span = np.where(space.upper > space.lower, space.upper - space.lower, 1.0)
     picked: list[int] = []
