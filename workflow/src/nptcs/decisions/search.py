@@ -99,16 +99,21 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
             return Found(nearest, np.zeros(1), False, candidates, acceptable, none)
         scale = desirability(problem, nearest)
         return Found(nearest, scale.of(nearest), True, candidates, acceptable, nearest)
-    scale = desirability(problem, chosen(candidates, np.flatnonzero(acceptable)))
+    accepted = chosen(candidates, np.flatnonzero(acceptable))
+    scale = desirability(problem, accepted)
     promising = _promising(problem, parts, scale, probability, top)
     best = [_best_of_cell(problem, space, part, scale, probability) for part in promising]
     found = [one for one in best if one is not None]
-    rest = _make(problem, space, chosen(candidates, np.flatnonzero(acceptable)), scale, top)
+    rest = _make(problem, space, accepted, scale, top)
     pool = joined([*found, chosen(rest, np.flatnonzero(rest.probability >= probability))])
+    if not len(pool.x):  # nothing that can be made in these steps is acceptable
+        pool = chosen(accepted, np.array([int(rank(problem, scale, accepted).argmax())]))
+    # what was found may be better than any candidate: it has the desirability 1
+    scale = desirability(problem, joined([accepted, pool]))
     value = rank(problem, scale, pool)
     picked = _different(pool.x, np.argsort(-value, kind="stable"), space, top)
     designs = chosen(pool, picked)
-    everything = joined([chosen(candidates, np.flatnonzero(acceptable)), designs])
+    everything = joined([accepted, designs])
     front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
     return Found(designs, scale.of(designs), True, candidates, acceptable, front)
 
