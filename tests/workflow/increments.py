@@ -105,6 +105,10 @@ class Change:
         jobs = [str(number) if number else "" for number in (self.measure, self.design, self.solve)]
         return f"| {self.name} | {' | '.join(jobs)} | {cases} | {self.after} |"
 
+    def expected_jobs(self) -> dict[str, Any]:
+        """Return what must follow but for the cases."""
+        return {name: value for name, value in self.expected().items() if name != "cases"}
+
     def expected(self) -> dict[str, Any]:
         """Return what must follow, as `summary` gives what does."""
         return {
@@ -329,6 +333,10 @@ CHANGES = [
            0, 0, 16, 0, "tables"),
     Change("cases whose neutral line is drawn", study("band", neutral_line_cases=[1, 2]),
            after="tables"),
+    Change("cases on which a solver was calibrated",
+           study("band", calibration_cases={"fe_tyre": [1]}), after="tables"),
+    Change("number in the code of the impact values",
+           code("surface/sensitivity.py", "GRID_POINTS = 2_", "GRID_POINTS = 3_"), after="tables"),
     Change("another specimen of a rubber", another_specimen, 3, 1, 2, 4, "tables", solves=True),
     Change("file that the sheet does not name", add_file, after="pages"),
     Change("range of a modulus", config(

@@ -167,6 +167,21 @@ def test_nothing_is_left_of_a_process_that_was_killed(tmp_path):
     assert gone(lambda: list(tmp_path.iterdir()) == [])
 
 
+def test_a_long_temporary_folder_leaves_sockets_a_short_name(tmp_path):
+    deep = tmp_path / ("d" * 60)
+    deep.mkdir()
+    code = (
+        "from nptcs.processes.scratch import *\n"
+        "print(scratch_folder(), socket_folder(), socket_folder() == socket_folder())"
+    )
+    process = python(code, TMPDIR=str(deep))
+    scratch_of, sockets, same = process.communicate()[0].decode().split()
+    assert Path(scratch_of).parent == deep
+    assert len(sockets) <= scratch.LONGEST
+    assert same == "True"
+    assert gone(lambda: not Path(sockets).exists() and not Path(scratch_of).exists())
+
+
 def test_a_process_ends_with_its_run_and_so_does_its_command(tmp_path, sleeper):
     run = name_of(sleeper.pid).text()
     process = python(SCRATCH, TMPDIR=str(tmp_path), **{RUN: run})
