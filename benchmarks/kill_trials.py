@@ -252,8 +252,8 @@ def settle(project: Project) -> None:
 
 
 def leftovers(project: Project) -> list[Path]:
-    """Name what is in the temporary folder."""
-    return sorted(project.temp.iterdir())
+    """Name what is in the temporary folder, but for Snakemake's, which the next run removes."""
+    return sorted(project.temp.glob("[!s]*"))
 
 
 def examine(project: Project, before: dict[Path, int], count: Count) -> None:
@@ -303,9 +303,9 @@ def chain(
     if not ended:
         print(project.last_log()[-2000:])
         return False, ""
-    stray = [path for path in (project.folder / "results").rglob(f"{UNFINISHED}*")]
+    stray = [*(project.folder / "results").rglob(f"{UNFINISHED}*"), *project.temp.iterdir()]
     for path in stray:
-        print(f"unfinished file left: {path.name}")
+        print(f"left at the end: {path.name}")
     return not stray, project.table()
 
 

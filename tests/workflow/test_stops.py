@@ -80,7 +80,7 @@ def all_gone(run, family):
     end = time.monotonic() + WITHIN_S
     while time.monotonic() < end:
         left = [one for one in family if one.is_running() and one.status() != "zombie"]
-        if not left and not list(run.temp.iterdir()):
+        if not left and not list(run.temp.glob("[!s]*")):  # Snakemake's own: by the next run
             return True
         time.sleep(0.05)
     return False
