@@ -62,7 +62,7 @@ def stop_jobs_on_signals(arguments: Sequence[str]) -> None:
 def _stopping(before, again: str):  # type: ignore[no-untyped-def]
     def stop(number: int, frame: FrameType | None) -> None:
         print(
-            "\nStopping: the running cases are ended; all cases that were solved are kept.\n"
+            "\nStopping: the running jobs are ended; all cases that were solved are kept.\n"
             f"To go on, type the same command again:\n    {again}",
             file=sys.stderr,
             flush=True,
