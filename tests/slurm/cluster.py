@@ -22,6 +22,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -46,10 +47,10 @@ def run(*command: str, check: bool = True) -> str:
     return done.stdout.strip()
 
 
-def wait_until(what: str, true: object, seconds: float = 60.0) -> None:
+def wait_until(what: str, true: Callable[[], bool], seconds: float = 60.0) -> None:
     """Wait for a condition, and end with a message if it does not come true."""
     end = time.monotonic() + seconds
-    while not true():  # type: ignore[operator]
+    while not true():
         if time.monotonic() > end:
             raise SystemExit(f"waited {seconds:.0f} s in vain until {what}")
         time.sleep(0.5)
@@ -142,9 +143,11 @@ def stop() -> None:
     say("stopped")
 
 
-def processes_of(node: str) -> list[int]:
-    """Find the processes of a node: its daemon, and all that Slurm has started on it."""
-    found = [int(Path(f"/run/slurmd.{node}.pid").read_text())]
+def processes_of(node: str) -> dict[int, bytes]:
+    """Find the processes of a node with their commands: its daemons first, then what they run."""
+    parents: dict[int, int] = {}
+    commands: dict[int, bytes] = {}
+    tasks: list[int] = []
     for folder in Path("/proc").iterdir():
         if not folder.name.isdigit():
             continue
@@ -154,10 +157,14 @@ def processes_of(node: str) -> list[int]:
             parent = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
         except (OSError, IndexError):
             continue
-        of_step = command.startswith(b"slurmstepd") and parent in found
-        if of_step or f"SLURMD_NODENAME={node}".encode() in environment:
-            found.append(int(folder.name))
-    return found
+        number = int(folder.name)
+        parents[number], commands[number] = parent, command
+        if f"SLURMD_NODENAME={node}".encode() in environment:
+            tasks.append(number)
+    steps = {parents[task] for task in tasks}
+    steps = {step for step in steps if commands.get(step, b"").startswith(b"slurmstepd")}
+    daemon = int(Path(f"/run/slurmd.{node}.pid").read_text())
+    return {number: commands.get(number, b"") for number in [daemon, *steps, *tasks]}
 
 
 def kill_node(node: str) -> None:
@@ -199,28 +206,36 @@ def snakemake(folder: Path, log: str, *arguments: str) -> subprocess.Popen[bytes
 class Watch:
     """Follow a run through Slurm: print what changes, kill the victim, start it again."""
 
-    def __init__(self, least_s: float) -> None:
-        self.least_s = least_s
+    def __init__(self, solver: str, least_s: float) -> None:
+        self.solver, self.least_s = solver, least_s
+        self.since = 0.0
         self.known: dict[str, str] = {}
         self.killed = self.restarted = False
 
     def look(self) -> None:
         """Look once at the queue and at the nodes."""
-        for job, node, state, rule, seconds in jobs("%i", "%N", "%T", "%k", "%M"):
+        for job, node, state, rule in jobs("%i", "%N", "%T", "%k"):
             text = f"job {job} {rule}: {state} {node}"
             if self.known.get(job) != text:
                 say(text)
                 self.known[job] = text
-            runs = node == VICTIM and state == "RUNNING"
-            if runs and not self.killed and in_seconds(seconds) >= self.least_s:
-                say(f"job {job} has run on {node} for {seconds}")
-                kill_node(node)
-                self.killed = True
+            if node == VICTIM and state == "RUNNING" and self.solver in rule and not self.killed:
+                self.kill_if_it_solves(job)
         dead = "down" in run("sinfo", "-h", "-n", VICTIM, "-o", "%T", check=False)
         if self.killed and dead and not self.restarted:
             say(f"Slurm has noticed: {run('sinfo', '-h', '-N', '-o', '%N is %T (%E)')}")
             run("slurmd", "-N", VICTIM)
             self.restarted = True
+
+    def kill_if_it_solves(self, job: str) -> None:
+        """Kill the victim when the script of a batch has run on it for some seconds."""
+        if not any(b".solve.py" in command for command in processes_of(VICTIM).values()):
+            return
+        self.since = self.since or time.monotonic()
+        if time.monotonic() - self.since >= self.least_s:
+            say(f"job {job} has been solving cases on {VICTIM} for {self.least_s:.0f} s or more")
+            kill_node(VICTIM)
+            self.killed = True
 
     def follow(self, process: subprocess.Popen[bytes]) -> int:
         """Look every second until Snakemake ends; return its exit code."""
@@ -231,17 +246,7 @@ class Watch:
         return process.returncode
 
 
-def in_seconds(duration: str) -> int:
-    """Read minutes and seconds of squeue.
-
-    >>> in_seconds("1:02")
-    62
-    """
-    minutes, _, seconds = duration.rpartition(":")
-    return 60 * int(minutes or 0) + int(seconds)
-
-
-def study(folder: Path, status: str, config: str, least_s: float) -> int:
+def study(folder: Path, status: str, config: str, solver: str, least_s: float) -> int:
     """Run a study locally and through Slurm, and compare."""
     local, cluster = folder / "local", folder / "cluster"
     given = ("--configfile", config)
@@ -262,7 +267,7 @@ def study(folder: Path, status: str, config: str, least_s: float) -> int:
         *("--config", "campaign={minutes_per_batch: 0.1}"),
         *given,
     )
-    watch = Watch(least_s)
+    watch = Watch(solver, least_s)
     code = watch.follow(process)
     say(f"run through Slurm ends with exit code {code}")
     if status == "sacct":
@@ -285,8 +290,9 @@ def main() -> int:
     studying.add_argument("folder", type=Path)
     studying.add_argument("--status", choices=("squeue", "sacct"), default="squeue")
     studying.add_argument("--config", default="config/small.yaml")
+    studying.add_argument("--kill", default="fe_tyre", help="solver under which the node dies")
     studying.add_argument(
-        "--kill-after", type=float, default=8.0, help="seconds that a batch runs before the kill"
+        "--kill-after", type=float, default=5.0, help="seconds that its batch has solved by then"
     )
     parts.add_parser("stop")
     chosen = parser.parse_args()
@@ -295,7 +301,8 @@ def main() -> int:
     elif chosen.part == "stop":
         stop()
     else:
-        return study(chosen.folder.resolve(), chosen.status, chosen.config, chosen.kill_after)
+        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after)
+        return study(chosen.folder.resolve(), *given)
     return 0
 
 

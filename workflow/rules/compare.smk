@@ -49,6 +49,7 @@ rule compare_published:
         ),
         errors="results/tables/stiffness_errors.csv",
         levels="results/tables/stiffness_by_level.csv",
+        exponents="results/tables/stiffness_exponents.csv",
     log:
         "results/logs/compare_published.log",
     params:

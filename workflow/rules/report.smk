@@ -59,7 +59,7 @@ rule problems:
         cases="results/tables/cases.csv",
         tables=expand("results/2_reduce/{series}_problems.csv", series=SERIES)
         + expand("results/6_surface/{study}_problems.csv", study=SURFACE_STUDIES)
-        + ["results/6_surface/sobol/problems.csv"],
+        + ["results/6_surface/sobol/problems.csv", "results/7_decide/problems.csv"],
     output:
         problems="results/tables/problems.csv",
     log:

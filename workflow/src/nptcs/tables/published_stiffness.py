@@ -101,3 +101,30 @@ class StiffnessByLevel(pa.DataFrameModel):
         strict = True
         coerce = True
         ordered = True
+
+
+class StiffnessExponents(pa.DataFrameModel):
+    """Exponents of the stiffness by each modulus, d ln K / d ln C10, computed and published.
+
+    One row over all levels of the factor, by least squares, and one for each step between two
+    levels, at each combination of the other factors. Of a tyre made of rubbers alone the exponents
+    of all moduli add up to 1.
+    """
+
+    study: Series[str]
+    solver: Series[str]
+    factor: Series[str] = pa.Field(description="A modulus: its name ends in _mpa")
+    held: Series[str] = pa.Field(description="Levels of the other factors")
+    low_mpa: Series[float] = pa.Field(gt=0, description="Lowest level")
+    high_mpa: Series[float] = pa.Field(gt=0, description="Highest level")
+    levels: Series[int] = pa.Field(ge=2, description="Levels that the exponent is over")
+    computed_exponent: Series[float]
+    published_exponent: Series[float]
+    exponent_difference: Series[float] = pa.Field(description="Computed - published")
+
+    class Config:
+        """Exactly these columns, in this order."""
+
+        strict = True
+        coerce = True
+        ordered = True
