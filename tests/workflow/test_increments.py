@@ -58,7 +58,7 @@ def test_a_change_reruns_what_it_decides(planned, change):
         assert found == change.expected(), plan["jobs"]
 
 
-RUN = ("raw file of a rubber", "raw file of a composite")
+RUN = ("specimen of a rubber: include → no", "raw file of a composite, the same numbers")
 """Changes of materials that the test makes; ``benchmarks/increments.py`` makes all of them."""
 
 
