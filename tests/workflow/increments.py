@@ -341,7 +341,8 @@ CHANGES = [
            study("band", calibration_cases={"fe_tyre": [1]}), after="tables"),
     Change("number in the code of the impact values",
            code("surface/sensitivity.py", "GRID_POINTS = 2_", "GRID_POINTS = 3_"), after="tables"),
-    Change("another specimen of a rubber, with the same data", another_specimen, 3, 1, 2, 0, "tables", solves=True),
+    Change("another specimen of a rubber, with the same data", another_specimen,
+           3, 1, 2, 0, "tables", solves=True),
     Change("file that the sheet does not name", add_file, after="pages"),
     Change("range of a modulus", config(
         lambda c: c.update(reduction={"astm_d3518": {"chord_range": [0.002, 0.0061]}})),

@@ -4,14 +4,29 @@ ADDED_CASES = (
 )
 
 DECIDED = (
-    "studies",
-    "solvers",
     "tyre",
     "uncertainty",
     "decisions",
     "tyre_responses",
     "campaign",
 )
+
+
+def without_words(study):
+    """A study without titles, labels and options that cannot change a result."""
+    return {
+        **plain(study),
+        "title": "",
+        "factors": study.case_definition()["factors"],
+        "solver_options": {
+            name: {
+                key: value
+                for key, value in CONFIG.options_of(study.name, name).items()
+                if key not in FACTS.solvers[study.name][name].without_effect
+            }
+            for name in study.solvers
+        },
+    }
 
 
 def decide_job():
@@ -22,9 +37,10 @@ def decide_job():
     ]
     return {
         "settings": {name: settings[name] for name in DECIDED},
+        "studies": [without_words(study) for study in CONFIG.studies],
         "added": ADDED_CASES,
         "added_cases": contents([ADDED_CASES]),
-        "code": code_of("decide", *dict.fromkeys(modules), words=True),
+        "code": code_of("decide", *dict.fromkeys(modules)),
     }
 
 
