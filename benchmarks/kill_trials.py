@@ -45,7 +45,7 @@ from nptcs.solvers.external import run_command
 def solve(inputs):
     c = inputs.values["spoke_c10_mpa"]
     with tempfile.TemporaryDirectory(prefix="stub-") as folder:
-        run_command(["sleep", "0.15"], Path(folder), 60.0)
+        run_command(["sleep", "0.5"], Path(folder), 60.0)
     curve = {"displacement_mm": [0.0, c], "force_n": [0.0, 3.0 * c]}
     return SolverResult(status=Status.OK, vertical_stiffness_n_per_mm=100.0 + c,
                         displacement_mm=inputs.load_n / (100.0 + c), curve=curve)
