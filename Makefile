@@ -7,10 +7,14 @@ VENV := .venv
 BIN := $(VENV)/bin
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: run test test-kernel lint format report clean
+.PHONY: run joint test test-kernel lint format report clean
 
 run: $(VENV)/ready
 	snakemake -j$(JOBS)
+
+# the five factors of plates and rubbers together, on top of the default study
+joint: $(VENV)/ready
+	snakemake -j$(JOBS) --configfile config/joint.yaml
 
 report: $(VENV)/ready
 	snakemake -j$(JOBS) report
@@ -33,14 +37,14 @@ test-kernel: $(VENV)/ready-dev
 lint: $(VENV)/ready-dev
 	ruff check .
 	ruff format --check .
-	snakefmt --check workflow/Snakefile workflow/rules
+	snakefmt --check Snakefile workflow/Snakefile workflow/rules
 	mypy
 	lint-imports
 
 format: $(VENV)/ready-dev
 	ruff check --fix .
 	ruff format .
-	snakefmt workflow/Snakefile workflow/rules
+	snakefmt Snakefile workflow/Snakefile workflow/rules
 
 $(VENV)/ready: pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "nptcs needs Python 3.11 or newer")'

@@ -117,7 +117,7 @@ def main() -> int:
         read_plainly(folder, arguments.files)
         plain = time.process_time() - started
         print(f"{arguments.files} files of {arguments.rows} rows ({size / 1e6:.2f} MB each)")
-        print(f"ingest {ingest:.1f} s of CPU, {1000 * ingest / arguments.files:.0f} ms a file")
+        print(f"ingest {ingest:.1f} s of CPU, {1000 * ingest / arguments.files:.0f} ms per file")
         print(f"pandas.read_csv alone {plain:.1f} s of CPU; ratio {ingest / plain:.1f}")
         print(f"peak memory {peak:.0f} MB")
         for part, share in shares(folder, profiles):

@@ -90,7 +90,7 @@ class Count:
 class Project:
     """A folder in which a small study runs, with a temporary folder of its own."""
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, earlier: Path | None = None) -> None:
         self.folder, self.temp = folder, folder / "temp"
         self.temp.mkdir(parents=True)
         for name in ("config", "raw_data"):
@@ -101,6 +101,10 @@ class Project:
         study = {"name": "killed", "title": "t", "factors": [factor], "solvers": ["stub"]}
         config = {"studies": [study], "solvers": {"stub": {"module": "stub.py"}}}
         (folder / "kill.yaml").write_text(yaml.safe_dump(config))
+        if earlier is not None:  # what a start has found out is known, as after any earlier run
+            known = Path(".snakemake/nptcs/start.json")
+            (folder / known).parent.mkdir(parents=True)
+            shutil.copy(earlier / known, folder / known)
 
     def start(self) -> subprocess.Popen[bytes]:
         """Start the run; always the same command."""
@@ -325,18 +329,20 @@ def main() -> int:
             print(undisturbed.last_log())
             return 1
         wanted = undisturbed.table()
+        bad = 0
         for number, victims in enumerate(chains):
-            project = Project(Path(base) / f"project {number}")
+            project = Project(Path(base) / f"project {number}", undisturbed.folder)
             ended, table = chain(project, victims, counts, when)
             ends += ended
             equal += table == wanted
             if ended and table == wanted:
                 shutil.rmtree(project.folder)
-    return report(counts, ends, equal, len(chains))
+            bad = report(counts, ends, equal, number + 1)
+    return bad
 
 
 def report(counts: dict[str, Count], ends: int, equal: int, chains: int) -> int:
-    """Print the counts as a table; 1 if anything is wrong."""
+    """Print the counts so far as a table; 1 if anything is wrong."""
     print(
         "\n| hit | trials | children gone after at most | half written | lost | solved twice",
         end="",

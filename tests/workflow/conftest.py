@@ -113,7 +113,7 @@ def unsolved(tmp_path) -> Project:
 def copy_project(folder: Path) -> None:
     """Copy what a run needs."""
     folder.mkdir(parents=True)
-    parts = ("config", "profiles", "raw_data", "tests", "workflow")
+    parts = ("Snakefile", "config", "profiles", "raw_data", "tests", "workflow")
     for part in parts:
         source = ROOT / part
         if source.is_dir():

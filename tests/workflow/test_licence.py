@@ -10,7 +10,7 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).parents[2]
-SNAKEFILE = str(ROOT / "workflow" / "Snakefile")
+SNAKEFILE = str(ROOT / "Snakefile")
 SOLVER = '''
 """Holds five tokens for a while, and writes down when."""
 

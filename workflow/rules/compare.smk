@@ -1,5 +1,5 @@
 # Computed results compared with the paper: section 4.3.1, tables 5, 7, 10 and 11, figures 14, 15.
-from nptcs.tables.published_stiffness import PUBLISHED
+from nptcs.tables.solver_names import PUBLISHED
 
 COMPARED_STUDIES = [
     study.name for study in CONFIG.studies if PUBLISHED in study.solvers
@@ -49,6 +49,7 @@ rule compare_published:
         ),
         errors="results/tables/stiffness_errors.csv",
         levels="results/tables/stiffness_by_level.csv",
+        exponents="results/tables/stiffness_exponents.csv",
     log:
         "results/logs/compare_published.log",
     params:

@@ -1,5 +1,5 @@
 # Records of solved tyres → what they do at any load, and the margins of their plates.
-from nptcs.tables.published_stiffness import PUBLISHED
+from nptcs.tables.solver_names import PUBLISHED
 
 COMPOSITES = sorted({s.material for s in SPECIMENS if not s.test.is_rubber})
 

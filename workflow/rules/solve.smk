@@ -5,22 +5,20 @@ from nptcs.campaign.tries import read_tries
 
 
 def ply_card(wildcards):
-    solver, _ = solver_of(wildcards.study, wildcards.solver)
-    if not solver.needs_ply:
+    if not solver_of(wildcards.study, wildcards.solver).needs_ply:
         return []
-    name = ply_of(CONFIG.study(wildcards.study), SPECIMENS, CONFIG.calibration)
-    return [f"results/3_calibrate/{name}.json"]
+    return [f"results/3_calibrate/{FACTS.ply[wildcards.study]}.json"]
 
 
 def solver_tables(wildcards):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return [ancient(path) for path in options.tables().values()]
 
 
 def solve_job(wildcards, output):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
-    _, checked = solver_of(wildcards.study, wildcards.solver)
+    checked = solver_of(wildcards.study, wildcards.solver)
     return {
         "study": study.case_definition(),
         "solver": wildcards.solver,
@@ -45,22 +43,22 @@ def solve_bulk_job(wildcards, output):
 
 
 def solve_cores(wildcards):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return batch_cores(CONFIG.campaign.cores_per_batch, options)
 
 
 def solve_tokens(wildcards, threads):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return batch_tokens(threads, options)
 
 
 def solve_memory_mb(wildcards, threads, attempt):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return batch_memory_mb(threads, options, attempt)
 
 
 def solve_minutes(wildcards, threads, attempt):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     cases = CONFIG.study(wildcards.study).number_of_cases()
     parts = batches_of(wildcards.study, wildcards.solver)
     return batch_minutes(cases, parts, threads, options, attempt)

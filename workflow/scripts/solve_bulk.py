@@ -17,7 +17,7 @@ def solve(job: dict[str, Any], store: str, results: str, design: str, **more) ->
     constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
     given = {**job, "options": options}, read_table(design, Design), next(iter(constants), None)
-    table, again = solve_bulk(*given, store, more["cores"], more["tokens"])
+    table, again = solve_bulk(*given, store, more["cores"], more["tokens"], more["log"])
     if again:
         try_again(results)
     write_bulk(results, table)
@@ -25,6 +25,6 @@ def solve(job: dict[str, Any], store: str, results: str, design: str, **more) ->
 
 if __name__ == "__main__":
     granted = {"cores": snakemake.threads, "tokens": snakemake.resources.licence_tokens}
-    granted["config"] = snakemake.config
+    granted |= {"config": snakemake.config, "log": snakemake.log[0]}
     with clear_errors(snakemake.log[0]):
         solve(**snakemake.params, **granted, **snakemake.input, **snakemake.output)

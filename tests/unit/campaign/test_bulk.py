@@ -51,7 +51,7 @@ def solve(study, solver, options, store, batch=1, batches=1):
         "batch": batch,
         "batches": batches,
     }
-    return job, design, solve_bulk(job, design, None, store, 2, 0)
+    return job, design, solve_bulk(job, design, None, store, 2, 0, store / "log")
 
 
 @pytest.mark.parametrize(
@@ -81,7 +81,9 @@ def solve(study, solver, options, store, batch=1, batches=1):
 def test_a_table_has_the_numbers_of_single_cases(tmp_path, solver, options, factors):
     study = study_of(factors, solver)
     job, design, (table, again) = solve(study, solver, options, tmp_path / "store")
-    records = solve_batch(job, design, None, RecordStore(tmp_path / "records"), 2, 0)
+    records = solve_batch(
+        job, design, None, RecordStore(tmp_path / "records"), 2, 0, tmp_path / "l"
+    )
     single = cases_table(records)
 
     assert not again
@@ -200,7 +202,13 @@ def test_records_and_tables_are_joined(tmp_path):
     other = study_of({"kind": [12.0, 13.0]}, "faulty").model_copy(update={"name": "t"})
     job = {**job, "study": other.case_definition()}
     records = solve_batch(
-        job, build_design(other, {}, TyreGeometry()), None, RecordStore(tmp_path / "r"), 1, 0
+        job,
+        build_design(other, {}, TyreGeometry()),
+        None,
+        RecordStore(tmp_path / "r"),
+        1,
+        0,
+        tmp_path / "l",
     )
     write_records(tmp_path / "batch_1.jsonl", records)
     joined = read_cases([str(tmp_path / "bulk_1.npz"), str(tmp_path / "batch_1.jsonl")])

@@ -123,7 +123,7 @@ def test_short_row_in_the_middle_is_an_error(read):
 
 def test_broken_row_in_the_middle_is_an_error(read):
     rows = [*BODY[:5], "0.x,err or,0.06", *BODY[5:]]
-    with pytest.raises(InputError, match="not one of numbers") as caught:
+    with pytest.raises(InputError, match="does not consist of numbers") as caught:
         read("\n".join([NAMES, *rows]))
     assert caught.value.line == 7
 

@@ -136,7 +136,9 @@ def test_a_note_that_was_cut_off_is_of_a_dead_run(locked):
 
 def test_a_run_that_ends_in_order_leaves_no_note(tmp_path):
     code = f"from nptcs.processes.runs import *; begin_run(Path({str(tmp_path)!r}))"
-    assert python(code).wait() == 0
+    process = python(code)
+    process.communicate()
+    assert process.returncode == 0
     assert list((tmp_path / "runs").glob("*.json")) == []
 
 

@@ -7,10 +7,10 @@ import json
 import os
 import socket
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
 import psutil
 from pydantic import BaseModel, ValidationError
@@ -142,6 +142,34 @@ def read_model(path: str | Path, model: type[Model], by_hand: bool = False) -> M
     except (BrokenSealError, ValidationError) as error:
         reason = " ".join(str(error).splitlines()[:3])
         raise InputError(f"this file is not a sound {kind}: {reason}", REWRITE, path) from None
+
+
+def write_sealed(path: str | Path, content: Mapping[str, Any], kind: str) -> None:
+    """Write plain values as JSON with a checksum, atomically: for whatever is no pydantic model.
+
+    Parameters
+    ----------
+    path : str or Path
+    content : mapping
+        Plain values; numbers must be finite.
+    kind : str
+        A key of `nptcs.seal.FORMATS`, which a new kind of file joins.
+    """
+    write_text(path, sealed_object(content, kind))
+
+
+def read_sealed(path: str | Path, kind: str) -> dict[str, Any]:
+    """Read what `write_sealed` has written.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, was edited or damaged, or is of another kind or version.
+    """
+    try:
+        return open_object(read_stored(path, kind), kind)
+    except BrokenSealError as error:
+        raise InputError(f"this file is not a sound {kind}: {error}", REWRITE, path) from None
 
 
 def read_stored(path: str | Path, kind: str) -> str:

@@ -19,11 +19,13 @@ FORMATS: Mapping[str, int] = {
     "CaseRecord": 1,
     "CaseRecords": 1,
     "Figure": 1,
+    "FittedSurfaces": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
-    "Models": 1,
     "PlyCard": 1,
     "RubberCard": 1,
+    "SpokeSurrogate": 1,
+    "StartFacts": 1,
     "Surfaces": 1,
 }
 """Version of each format: raise it with any change of what the fields mean."""

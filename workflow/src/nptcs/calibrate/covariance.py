@@ -31,7 +31,7 @@ def covariance_of_means(
     Parameters
     ----------
     samples : mapping of str to Series
-        Values by specimen id, one Series a constant.
+        Values by specimen id, one Series per constant.
     units : mapping of str to str
         Unit of each constant.
 

@@ -89,7 +89,7 @@ def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> 
     model : Model
         Neo-Hookean, Mooney–Rivlin, Yeoh or Ogden.
     data : sequence of Observation
-        One a specimen, of one mode or of several.
+        One per specimen, of one mode or of several.
     error_floor : float
         Fraction of the largest stress below which relative errors are not evaluated.
 

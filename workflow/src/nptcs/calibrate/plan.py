@@ -112,7 +112,7 @@ def check_materials(
     for study, needs_ply in studies:
         errors += [
             InputError(
-                f"study {study.name} names rubber {name}, of which no specimen enters a fit",
+                f"study {study.name} names rubber {name}, but no specimen of it enters a fit",
                 f"add or include its specimens, or name one of {', '.join(known) or 'none'}",
                 column=f"studies: {study.name}",
                 value=name,

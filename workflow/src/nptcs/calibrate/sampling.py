@@ -27,7 +27,7 @@ def sample_constants(card: PlyCard | RubberCard, draws: int, seed: int) -> pd.Da
     Returns
     -------
     DataFrame
-        `draws` rows, a column a constant in the order of the card, units of the card.
+        `draws` rows, one column per constant in the order and the units of the card.
 
     Examples
     --------

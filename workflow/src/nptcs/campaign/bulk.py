@@ -10,7 +10,6 @@ from __future__ import annotations
 import hashlib
 import json
 import multiprocessing
-import sys
 import time
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
@@ -24,6 +23,7 @@ import pandas as pd
 
 from nptcs.campaign import bulk_worker
 from nptcs.campaign.bulk_file import read_bulk, write_bulk
+from nptcs.campaign.progress import ProgressWriter
 from nptcs.campaign.record import read_tables
 from nptcs.campaign.runner import (
     SENT_FROM_OUTSIDE,
@@ -34,7 +34,6 @@ from nptcs.campaign.runner import (
     without_main_file,
 )
 from nptcs.campaign.schedule import cases_side_by_side
-from nptcs.campaign.tries import OUTSIDE_THE_CASE
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
@@ -42,6 +41,9 @@ from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash
 from nptcs.solvers.contract import Solver, Status, TableInputs
 from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.tables.status import has_result
+
+OUTSIDE = [status.value for status in Status if status.from_outside]
 
 FIRST = ("study", "case_id", "solver", "status", "message")
 LAST = ("wall_time_s", "solver_version", "key")
@@ -154,12 +156,13 @@ def solve_bulk(
     store: str | Path,
     cores: int,
     tokens: int,
+    log: str | Path,
 ) -> tuple[pd.DataFrame, bool]:
     """Solve every n-th case of a design, starting at the batch's own number.
 
     Parameters
     ----------
-    job, design, ply, cores, tokens
+    job, design, ply, cores, tokens, log
         As in `nptcs.campaign.batch.solve_batch`.
     store : str or Path
         Folder of solved cases. Those that are there are not solved again; new ones are kept part
@@ -180,26 +183,24 @@ def solve_bulk(
     known = _stored(folder)
     missing = np.flatnonzero(~keys.isin(known["key"]).to_numpy())
     task = _Task(table.module, inputs, options.timeout_s, solver.table_cases)
-    solved = [known]
-    for rows, results in _solve(task, missing, cases_side_by_side(cores, tokens, options)):
+    solved, at_a_time = [known], cases_side_by_side(cores, tokens, options)
+    progress = ProgressWriter(log, study.name, solver.name, at_a_time)
+    began = time.monotonic()
+    for rows, results in _solve(task, missing, at_a_time):
         part = results.assign(key=keys.iloc[rows].to_numpy())
-        good = part[part["status"] == Status.OK]
+        good = part[has_result(part["status"])]
         if len(good):
             write_bulk(folder / f"{sha256_of_text(''.join(good['key']))[:32]}.npz", good)
         solved.append(part)
-        _report(study.name, solver.name, len(cases), solved)
+        done = len(cases) - len(missing) + sum(map(len, solved[1:]))
+        bad = sum(int((~has_result(one["status"])).sum()) for one in solved[1:])
+        new = sum(map(len, solved[1:]))
+        progress.part(done, len(cases), bad, time.monotonic() - began, new)
     everything = pd.concat([one for one in solved if len(one)], ignore_index=True)
     results = everything.drop_duplicates("key").set_index("key").reindex(keys).reset_index()
-    outside = results["status"].isin(OUTSIDE_THE_CASE) | (results[bulk_worker.DIED] > 0)
+    outside = results["status"].isin(OUTSIDE) | (results[bulk_worker.DIED] > 0)
     results = results.drop(columns=bulk_worker.DIED)
     return _as_cases(study, solver, inputs, results), bool(outside.any())
-
-
-def _report(study: str, solver: str, cases: int, solved: list[pd.DataFrame]) -> None:
-    """Write one line per finished part to the log."""
-    done = sum(map(len, solved))
-    failed = sum(int((one["status"] != Status.OK).sum()) for one in solved if len(one))
-    print(f"{study}/{solver} {done}/{cases} cases, {failed} failed", file=sys.stderr, flush=True)
 
 
 def _as_cases(
@@ -227,7 +228,7 @@ def _stored(folder: Path) -> pd.DataFrame:
     if not tables:
         return pd.DataFrame({"key": pd.Series(dtype=object)})
     found = pd.concat(tables, ignore_index=True)
-    return found[found["status"] == Status.OK]
+    return found[has_result(found["status"])]
 
 
 def _solve(

@@ -16,6 +16,7 @@ from nptcs.campaign.worker import begin_in, message_of, of_the_machine
 from nptcs.solvers.contract import TYRE_RESPONSES, Solver, Status, TableInputs
 from nptcs.solvers.registry import load, read_options
 from nptcs.tables.cases import realised_column
+from nptcs.tables.status import has_result
 
 DIED = "died"
 """Column: 1 where a case ended for a reason outside it, killed or out of memory."""
@@ -88,11 +89,11 @@ def _checked(solver: Solver, inputs: TableInputs, results: pd.DataFrame) -> pd.D
     table["message"] = table["message"].fillna("").astype(str)
     table[numbers] = table[numbers].astype(float)
     table[DIED] = 0.0
-    ok = (table["status"] == Status.OK).to_numpy()
+    ok = has_result(table["status"]).to_numpy()
     lacking = ok & ~np.isfinite(table[list(TYRE_RESPONSES)].to_numpy()).all(axis=1)
     table.loc[lacking, "message"] = f"solver '{solver.name}' says ok but gives no result"
     table.loc[lacking, "status"] = Status.ERROR.value
-    table.loc[table["status"] != Status.OK, numbers] = math.nan
+    table.loc[~has_result(table["status"]), numbers] = math.nan
     if solver.realise is not None:
         _add_realised(solver, inputs, table)
     return table
@@ -102,7 +103,7 @@ def _add_realised(solver: Solver, inputs: TableInputs, table: pd.DataFrame) -> N
     """Add the values that the solver really used, of the cases that are solved."""
     assert solver.realise is not None
     values = inputs.cases.drop(columns="case_id").astype(float).to_dict("records")
-    for row in np.flatnonzero(table["status"] == Status.OK):
+    for row in np.flatnonzero(has_result(table["status"])):
         given = {str(name): value for name, value in values[row].items()}
         for factor, value in solver.realise(given, inputs.tyre).items():
             column = realised_column(factor)

@@ -13,7 +13,7 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from nptcs.errors import InputError
 from nptcs.files import REWRITE, read_model, read_stored, sha256_of_text, write_model, write_text
 from nptcs.seal import BrokenSealError, open_lines, sealed_lines
-from nptcs.solvers.contract import SolverResult, Status, missing_responses
+from nptcs.solvers.contract import SolverResult, missing_responses
 
 
 class CaseJob(BaseModel):
@@ -117,13 +117,13 @@ class RecordStore:
             record = read_model(self.path(job.key), CaseRecord)
         except (OSError, InputError):
             return None
-        if record.key != job.key or record.result.status != Status.OK:
+        if record.key != job.key or not record.result.status.solved:
             return None
         return record.model_copy(update={"study": job.study, "case_id": job.case_id})
 
     def write(self, record: CaseRecord) -> None:
         """Keep a solved case; a failed one is not kept, so that it can be tried again."""
-        if record.result.status == Status.OK:
+        if record.result.status.solved:
             write_model(self.path(record.key), record)
 
 

@@ -8,13 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from nptcs.campaign.record import CaseRecord
 from nptcs.files import write_text
-from nptcs.solvers.contract import Status
 
-OUTSIDE_THE_CASE = frozenset({Status.TIMEOUT, Status.LICENCE})
-"""Ends that may turn out differently next time, for the same case."""
+if TYPE_CHECKING:
+    from nptcs.campaign.record import CaseRecord
 
 
 def ended_from_outside(record: CaseRecord) -> bool:
@@ -22,7 +21,7 @@ def ended_from_outside(record: CaseRecord) -> bool:
 
     Such a case is tried again by the next run; one that a solver gave up on is not.
     """
-    return record.result.died or record.result.status in OUTSIDE_THE_CASE
+    return record.result.died or record.result.status.from_outside
 
 
 def tries_file(batch: str | Path) -> Path:

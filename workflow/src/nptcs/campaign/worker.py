@@ -43,7 +43,7 @@ def solve(job: CaseJob) -> SolverResult:
                 status=Status.ERROR,
                 message=f"solver '{solver.name}' says ok but gives no {', '.join(missing)}",
             )
-        if solver.realise is not None and result.status == Status.OK:
+        if solver.realise is not None and result.status.solved:
             realised = solver.realise(inputs.values, inputs.tyre)
             result.realised = {**realised, **result.realised}
         return result

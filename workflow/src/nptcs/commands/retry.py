@@ -26,7 +26,7 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.campaign.cases import read_cases
     from nptcs.campaign.tries import try_again
     from nptcs.errors import InputError
-    from nptcs.solvers.contract import Status
+    from nptcs.tables.status import has_result
 
     solved = Path(arguments.results) / "5_solve"
     batches = sorted([*solved.glob("*/*/batch_*.jsonl"), *solved.glob("*/*/bulk_*.npz")])
@@ -42,7 +42,7 @@ def run(arguments: argparse.Namespace) -> int:
     for batch in batches:
         if arguments.studies and batch.parts[-3] not in arguments.studies:
             continue
-        bad = int((read_cases([str(batch)])["status"] != Status.OK).sum())
+        bad = int((~has_result(read_cases([str(batch)])["status"])).sum())
         if bad:
             try_again(batch)
         failed += bad

@@ -27,6 +27,13 @@ class TyreResponseSettings(Strict):
         "with epoxy has about 1550",
     )
 
+    plate_price_per_kg: float | None = Field(
+        None,
+        gt=0,
+        description="Price of the plates by mass, in any currency; without it their cost is not "
+        "assessed",
+    )
+
     @field_validator("loads_n", "displacements_mm")
     @classmethod
     def _positive(cls, values: tuple[float, ...]) -> tuple[float, ...]:

@@ -69,7 +69,7 @@ class Dimensions:
 def read_dimensions(
     name: str, path: Path, profiles: Mapping[str, FormatProfile]
 ) -> list[Dimensions]:
-    """Read a table of dimensions; empty if the file is none.
+    """Read a table of dimensions; empty if the file is not one.
 
     The first row of names that holds a specimen, and a width or a thickness, counts; every row
     below with a specimen and numbers is one specimen. A unit may be in the names; else mm.

@@ -1,4 +1,4 @@
-"""A laboratory's folder: which files it holds, and where a named one lies."""
+"""A laboratory's folder: which files it holds, and where to find a named one."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from pathlib import Path
 from nptcs.errors import InputError
 
 NOTES = ("readme", "readme.md", "readme.txt")
-"""Names, in any case, of files that are notes to the reader and no test data."""
+"""Names, in any case, of files that are notes to the reader, not test data."""
 
 
 def raw_files(folder: Path) -> dict[str, Path]:

@@ -163,7 +163,7 @@ def _declared_unit(quantity: str, profile: FormatProfile) -> str:
 def draft_profile(inspection: Inspection, name: str) -> str:
     """Write a profile for files like this one, to be completed by hand.
 
-    What was detected is declared; what could not be understood stands there as a comment.
+    What was detected is declared; what could not be understood is written as a comment.
     """
     name = re.sub(r"[^a-z0-9]+", "-", name.casefold()).strip("-") or "new-format"
     dialect, opened = inspection.dialect, inspection.opened

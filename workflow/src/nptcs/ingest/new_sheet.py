@@ -42,7 +42,7 @@ _ROWS_OF_A_SUMMARY = 40
 
 @dataclass
 class Proposal:
-    """A proposed sheet, and the files that found no place in it with the reason."""
+    """A proposed sheet, and the files left out of it with the reasons."""
 
     rows: list[dict[str, str]] = field(default_factory=list)
     left: dict[str, str] = field(default_factory=dict)

@@ -32,7 +32,7 @@ def loadings(force: Array, strain: Array) -> list[Loading]:
 
     A new loading begins where strain and force have both lost `REVERSAL` of what they had gained
     and then both gain again. A break (nothing is gained after it), a serrated force (the strain
-    goes on) or a slipping gauge (the force goes on) begins none.
+    goes on) or a slipping gauge (the force goes on) does not begin one.
 
     Parameters
     ----------

@@ -31,7 +31,7 @@ def judge_failure(force: Array, strain: Array) -> Failure:
     """Judge from the last loading whether the specimen failed.
 
     A failure is a fall of the force by `SMALLEST_DROP` that is abrupt, or that comes while the
-    strain goes on growing. It is none where strain and force go back together (unloading), where
+    strain goes on growing. It is not one where strain and force go back together (unloading), where
     the strain is held (relaxation), or where the record ends at its largest force.
 
     Parameters

@@ -7,6 +7,8 @@ sessions and groups they move to. So all of them are found, also when the case i
 from __future__ import annotations
 
 import os
+import time
+from collections.abc import Sequence
 
 import psutil
 
@@ -15,6 +17,9 @@ MARK = "NPTCS_SCRATCH"
 
 WARDEN = "warden.py"
 """Script that cleans up after a process; it ends by itself."""
+
+POLL_S = 0.03
+"""Time between two looks at processes that were asked to end."""
 
 GRACE_S = 1.0
 """Time between the polite and the final signal."""
@@ -25,10 +30,9 @@ def end_marked(folder: str) -> None:
     found = _marked(folder)
     for process in found:
         _send(process, "terminate")
-    _, left = psutil.wait_procs(found, timeout=GRACE_S)
-    for process in {*left, *_marked(folder)}:
+    for process in {*_left(found, GRACE_S), *_marked(folder)}:
         _send(process, "kill")
-    psutil.wait_procs(left, timeout=GRACE_S)
+    _left(found, GRACE_S)
 
 
 def end_children(wait_s: float) -> None:
@@ -36,8 +40,7 @@ def end_children(wait_s: float) -> None:
     children = psutil.Process().children(recursive=True)
     for process in children:
         _send(process, "terminate")
-    _, left = psutil.wait_procs(children, timeout=wait_s)
-    for process in left:
+    for process in _left(children, wait_s):
         if not _is_warden(process):
             _send(process, "kill")
 
@@ -61,6 +64,24 @@ def _has_mark(process: psutil.Process, folder: str) -> bool:
     except (psutil.Error, OSError):
         return False
     return mark == folder or mark.startswith(folder + os.sep)
+
+
+def _left(processes: Sequence[psutil.Process], wait_s: float) -> list[psutil.Process]:
+    """Wait for the end of processes; return those that have not ended by then.
+
+    `psutil.wait_procs` would take from Snakemake the exit codes of its own children.
+    """
+    end = time.monotonic() + wait_s
+    while (left := [one for one in processes if _runs(one)]) and time.monotonic() < end:
+        time.sleep(POLL_S)
+    return left
+
+
+def _runs(process: psutil.Process) -> bool:
+    try:
+        return process.is_running() and process.status() != psutil.STATUS_ZOMBIE
+    except psutil.Error:
+        return False
 
 
 def _send(process: psutil.Process, how: str) -> None:

@@ -96,7 +96,7 @@ def _speed(branch: pd.DataFrame, specimen: Specimen, rules: RubberRules) -> Iter
     if np.isfinite(speed) and not limits[0] <= speed <= limits[1]:
         yield (
             f"the gauge length grows at {speed:.3g} mm/min, "
-            f"{rules.title} (500 mm/min between the grips) lets expect "
+            f"{rules.title} (500 mm/min between the grips) expects "
             f"{limits[0]:g} to {limits[1]:g}"
         )
 

@@ -109,7 +109,7 @@ def _remarks(rules: FlexureRules, bar: BentBar) -> list[str]:
     ratio, limits = bar.span_mm / bar.thickness_mm, rules.span_to_thickness
     if limits is not None and not limits[0] <= ratio <= limits[1]:
         found.append(
-            f"span to thickness {ratio:.3g}, {rules.title} lets expect {limits[0]:g} to "
+            f"span to thickness {ratio:.3g}, {rules.title} expects {limits[0]:g} to "
             f"{limits[1]:g}: shear lowers the modulus of a short span"
         )
     share = bar.loading_span_mm / bar.span_mm

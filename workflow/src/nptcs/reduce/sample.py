@@ -59,7 +59,7 @@ def describe(
     Parameters
     ----------
     values : ndarray, shape (n,)
-        One value a specimen.
+        One value per specimen.
     names : sequence of str
         Specimen ids, for the outlier flag.
     settings : StatisticsSettings

@@ -1,4 +1,4 @@
-"""The statistics table: a row for each group of specimens and property."""
+"""The statistics table: one row per group of specimens and property."""
 
 from __future__ import annotations
 

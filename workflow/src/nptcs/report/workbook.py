@@ -39,8 +39,6 @@ LONGEST_TEXT = 32767
 SCIENTIFIC = "0.0000000000E+00"
 """Format of coefficients, which span many orders of magnitude."""
 ABOUT = ("sheet", "what it says", "rows", "synthetic", "file", "rule", "made from")
-MOST_ROWS = 3000
-"""Rows of the longest table that is a sheet; longer ones, shapes and bulk results, stay in CSV."""
 LEFT_OUT = " (not a sheet of this workbook: too long, see its file)"
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 
@@ -62,7 +60,7 @@ def build_workbook(results: Results) -> bytes:
         Content of the XLSX file.
     """
     listed = list(sheets_of(results).values())
-    sheets = [sheet for sheet in listed if len(sheet.table) <= MOST_ROWS]
+    sheets = [sheet for sheet in listed if sheet.in_workbook]
     workbook = Workbook()
     about = workbook.active
     _write_about(about, results, listed)
@@ -114,7 +112,7 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
             row,
             [
                 entry.sheet,
-                entry.title + LEFT_OUT * (len(sheet.table) > MOST_ROWS),
+                entry.title + LEFT_OUT * (not sheet.in_workbook),
                 len(sheet.table),
                 "yes" if sheet.synthetic else "no",
                 entry.file,
@@ -122,7 +120,7 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
                 entry.source,
             ],
         )
-        if len(sheet.table) <= MOST_ROWS:
+        if sheet.in_workbook:
             about.cell(row, 1).hyperlink = f"#'{entry.sheet[:31]}'!A1"
             about.cell(row, 1).font = Font(name=FONT, color="0B4F7A", underline="single")
     _finish(about, top, freeze=False)

@@ -1,4 +1,4 @@
-"""Responses of solved tyres as tables, one row per response, with a reason where one is missing."""
+"""Responses of solved tyres as tables, one row per response, with a reason for each gap."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from nptcs.campaign.record import CaseRecord
 from nptcs.config.responses import TyreResponseSettings
 from nptcs.responses.curve import CurvePoint, LoadCurve
 from nptcs.responses.strength import PlyStrengths, maximum_stress_factor, tsai_wu_factor
-from nptcs.solvers.contract import Status
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 OK, NOT_ASSESSED, NOT_REACHED = "ok", "not assessed", "not reached"
@@ -24,6 +23,8 @@ AT_LOAD = {
     "largest_spoke_force_n": ("largest_spoke_force", "N", "radial, positive in tension"),
     "smallest_spoke_force_n": ("smallest_spoke_force", "N", "radial, negative in compression"),
 }
+# what needs a contact of enough points
+OF_CONTACT = {"contact_length_mm", "largest_pressure_mpa", "mean_pressure_mpa"}
 # what it reports of the most loaded spokes, solved again
 PLATE = "at the plates' faces, element centres"
 RUBBER = "at the integration points of the most loaded spokes"
@@ -117,7 +118,7 @@ def _solved(records: Sequence[CaseRecord]) -> list[CaseRecord]:
     return [
         record
         for record in records
-        if record.result.status == Status.OK
+        if record.result.status.solved
         and record.load_n is not None
         and record.result.curve is not None
     ]
@@ -132,17 +133,32 @@ def _responses(
 ) -> Iterator[Response]:
     yield from _stiffness(record, settings)
     at = f"{record.load_n:g} N"
-    for source, why in ((AT_LOAD, "the solver does not report it"), (IN_SPOKES, _why_not(record))):
+    for source in (AT_LOAD, IN_SPOKES):
         for key, (name, unit, rule) in source.items():
             if key in record.result.extra:
                 yield Response(name, at, record.result.extra[key], unit, OK, rule)
             else:
-                yield _missing(name, at, unit, why)
+                yield _missing(name, at, unit, _why_not(record, key))
     yield from _margins(record, strengths, at)
-    yield _plate_mass(record, settings)
+    mass = _plate_mass(record, settings)
+    yield mass
+    yield _plate_cost(mass, settings)
 
 
-def _why_not(record: CaseRecord) -> str:
+def _why_not(record: CaseRecord, key: str) -> str:
+    """Say why a response has no value."""
+    if key in IN_SPOKES:
+        return _why_no_stress(record)
+    across = record.result.extra.get("contact_cells")
+    if key in OF_CONTACT and across is not None:
+        return (
+            f"the contact is only {across:.1f} contact points long, too few to resolve it: "
+            "refine the ring's mesh"
+        )
+    return "the solver does not report it"
+
+
+def _why_no_stress(record: CaseRecord) -> str:
     """Say why the inside of the spokes is not known."""
     return record.result.message or "no spoke was solved again at its motion in the tyre"
 
@@ -189,7 +205,7 @@ def _margins(record: CaseRecord, strengths: PlyStrengths, at: str) -> Iterator[R
     stress = record.result.plate_stress
     for name, (rule, factor) in MARGINS.items():
         if stress is None:
-            yield _missing(name, at, "1", _why_not(record))
+            yield _missing(name, at, "1", _why_no_stress(record))
         elif strengths.missing():
             lacking = ", ".join(strengths.missing())
             yield _missing(name, at, "1", f"strengths of the ply that are not tested: {lacking}")
@@ -207,3 +223,14 @@ def _plate_mass(record: CaseRecord, settings: TyreResponseSettings) -> Response:
         return _missing("plate_mass", "", "kg", "the solver does not report the plates' volume")
     note = f"all plates of the tyre, {density:g} kg/m³ as configured"
     return Response("plate_mass", "", volume * density * 1e-9, "kg", OK, note)
+
+
+def _plate_cost(mass: Response, settings: TyreResponseSettings) -> Response:
+    price = settings.plate_price_per_kg
+    if price is None:
+        why = "no plate_price_per_kg in the configuration"
+        return _missing("plate_cost", "", "currency", why)
+    if mass.status != OK:
+        return _missing("plate_cost", "", "currency", mass.note)
+    note = f"all plates of the tyre, {price:g} per kg as configured"
+    return Response("plate_cost", "", mass.value * price, "currency", OK, note)

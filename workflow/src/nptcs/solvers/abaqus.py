@@ -1,4 +1,4 @@
-"""Solver ``abaqus``: the paper's whole tyre, solved by the Abaqus that the user has."""
+"""Solver ``abaqus``: the paper's whole tyre, solved by the user's own Abaqus."""
 
 from __future__ import annotations
 
@@ -196,7 +196,7 @@ SOLVER = Solver(
     version="1",
     solve=solve,
     factors=TYRE_FACTORS,
-    about="the paper's whole tyre, solved by the Abaqus that the user has",
+    about="the paper's whole tyre, solved by the user's own Abaqus",
     required=TYRE_FACTORS,
     options=AbaqusOptions,
     needs_ply=True,

@@ -55,7 +55,7 @@ class SolverOptions(Strict):
 
 @dataclass(frozen=True)
 class CaseInputs:
-    """All that a solver may look at.
+    """Everything that a solver may look at.
 
     Parameters
     ----------
@@ -65,8 +65,8 @@ class CaseInputs:
         Factor values of the case and the study's fixed values, e.g. ``spacing_mm``,
         ``thickness_mm``, ``angle_deg``, ``shear_band_c10_mpa``, ``spoke_c10_mpa``.
     load_n : float
-        Vertical load at which the secant stiffness is taken; not a number for a solver that
-        loads no tyre.
+        Vertical load at which the secant stiffness is taken; NaN for a solver that loads
+        no tyre.
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
@@ -245,6 +245,8 @@ class Solver:
         raise: the campaign then divides the table until it has found the cases at fault.
     table_cases : int
         Most cases that the table function is given at once; the time limit is that of all of them.
+    table_case_s : float, optional
+        Wall time that a case of a table usually takes; without it that of a single case.
     """
 
     name: str
@@ -259,15 +261,16 @@ class Solver:
     realise: Callable[[Mapping[str, float], TyreGeometry], dict[str, float]] | None = None
     solve_table: Callable[[TableInputs], pd.DataFrame] | None = None
     table_cases: int = 5000
+    table_case_s: float | None = None
 
     def missing_responses(self, result: SolverResult) -> list[str]:
-        """Name what a result that says ``ok`` must give and does not."""
+        """Name the responses that a result with status ``ok`` must have and lacks."""
         return missing_responses(result, self.loads_tyre)
 
 
 def missing_responses(result: SolverResult, loads_tyre: bool) -> list[str]:
-    """Name what a result that says ``ok`` must give, by a solver of tyres or of single spokes."""
-    if result.status != Status.OK:
+    """Name the responses that an ``ok`` result of a tyre or a single spoke lacks."""
+    if not result.status.solved:
         return []
     given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
     promised = TYRE_RESPONSES if loads_tyre else SPOKE_RESPONSES

@@ -262,4 +262,5 @@ SOLVER = Solver(
     required=frozenset({"shear_band_c10_mpa", "spoke_c10_mpa"}),
     options=LcaOptions,
     solve_table=solve_table,
+    table_case_s=1e-4,
 )

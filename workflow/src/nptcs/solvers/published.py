@@ -46,7 +46,7 @@ class PublishedOptions(SolverOptions):
 
 
 def solve(inputs: CaseInputs) -> SolverResult:
-    """Look the case up in the archive; a case that is not there is an error, never a guess."""
+    """Look up the case in the archive; a case that is not there is an error, never a guess."""
     options: PublishedOptions = inputs.options
     if fault := options.load_fault(inputs.load_n):
         return SolverResult(status=Status.ERROR, message=fault)
@@ -110,4 +110,5 @@ SOLVER = Solver(
     about="the published finite element results, looked up case by case",
     options=PublishedOptions,
     solve_table=solve_table,
+    table_case_s=1e-4,
 )

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
 
+from nptcs.arrays import Array
 from nptcs.config.fe import FeModel
 from nptcs.config.ring import RingModel
 from nptcs.errors import InputError
-from nptcs.fe.case import spoke_design
+from nptcs.fe.case import plate_volume_mm3, spoke_design
 from nptcs.fe.energy_cache import shared_table
-from nptcs.fe.spoke.equilibrium import SpokeError
+from nptcs.fe.output.loaded_spokes import loaded_spokes
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
+from nptcs.fe.tyre.responses import spoke_forces
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
@@ -38,6 +43,12 @@ class RingSolverOptions(SolverOptions, RingModel):
 
     case_s: float = Field(15.0, gt=0, description=CASE_S)
     case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
+    plate_stress: Literal["all", "off"] = Field(
+        "off",
+        description="all: the spokes that are loaded most are solved again at their motion in the "
+        "tyre, as by `fe_tyre`, for the stress of plates and rubber, which takes a hundred times "
+        "as long as the ring; off: those responses are not assessed",
+    )
     spoke_cache: Path | None = Field(
         None,
         description="Folder in which cases share the tables of equal spokes, also with `fe_tyre`; "
@@ -78,18 +89,36 @@ def solve(inputs: CaseInputs) -> SolverResult:
     except RingError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
+    plates, rubber, note = _inside(options, design, table, tyre.spoke_motion(last.u))
     return SolverResult(
         status=Status.OK,
+        message=note,
         vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
         displacement_mm=last.rise_mm,
         extra={
             "table_force_residual_n": table.force_residual_n,
+            "plate_volume_mm3": plate_volume_mm3(design, inputs.tyre.spoke_count),
             **responses(tyre, last),
+            **spoke_forces(table, tyre.spoke_motion(last.u)),
+            **rubber,
             "iterations": float(sum(state.iterations for state in states)),
         },
         curve=_curve(states),
+        plate_stress=plates,
         neutral_line=_neutral_line(tyre, last),
     )
+
+
+def _inside(
+    options: RingSolverOptions, design: SpokeDesign, table: SpokeEnergyTable, motion: Array
+) -> tuple[dict[str, list[float]] | None, dict[str, float], str]:
+    """Stress of the plates, responses of the spokes' rubber, and why there are none."""
+    if options.plate_stress == "off":
+        return None, {}, ""
+    try:
+        return *loaded_spokes(SpokeModel(design), table, motion), ""
+    except SpokeError as error:
+        return None, {}, f"stress of plates and spokes' rubber not assessed: {error}"
 
 
 def _curve(states: list[RingState]) -> dict[str, list[float]]:
@@ -106,7 +135,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="1",
+    version="2",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,

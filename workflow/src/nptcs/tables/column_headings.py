@@ -42,12 +42,41 @@ LEVELS = {
     "level": Heading("level", "unit of the factor"),
     "compared": Heading("cases compared"),
 }
+EXPONENTS = {
+    "held": Heading("other factors at"),
+    "levels": Heading("levels"),
+    "computed_exponent": Heading("computed"),
+    "published_exponent": Heading("published"),
+    "exponent_difference": Heading("computed − published"),
+}
 QUALITY = {
     "press": Heading("PRESS", "(N/mm)²"),
     "residual_sd": Heading("residual SD", "N/mm"),
     "largest_residual": Heading("largest residual", "N/mm"),
 }
 RESPONSES = {"value": Heading("value", "unit of the row")}
+RESPONSE_SURFACES = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "smallest": "smallest",
+        "largest": "largest",
+        "largest_residual": "largest residual",
+        "left_out_largest": "left out, largest error",
+        "left_out_rms": "left out, rms error",
+    }.items()
+} | {
+    "left_out_largest_percent": Heading("left out, largest error", "%"),
+    "left_out_rms_percent": Heading("left out, rms error", "%"),
+    "coverage_percent": Heading("in the 95 % interval", "%"),
+}
+RESPONSE_IMPACT = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "impact": "impact, mean |slope| × range",
+        "signed_impact": "mean slope × range",
+        "effect": "effect, √ST × SD",
+    }.items()
+} | {name: Heading(name, "unit of the factor") for name in ("lowest", "highest")}
 COMPARISON = {
     "largest_residual": Heading("largest residual", "N/mm"),
     "leave_one_out_largest": Heading("leave-one-out, largest", "N/mm"),
@@ -84,6 +113,30 @@ SOBOL = {
     "total_confidence": Heading("± total"),
     "value": Heading("value", "unit of the factor"),
     "effect_n_per_mm": Heading("effect", "N/mm"),
+}
+UNCERTAINTY = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "nominal": "nominal",
+        "mean": "mean",
+        "sd": "SD",
+        "low": "interval from",
+        "high": "interval to",
+        "effect_sd": "SD by this source",
+    }.items()
+}
+DECISION = {
+    "with_probability": Heading("probability asked for"),
+    "search_cpu_s": Heading("fit and search, CPU", "s"),
+    "mean": Heading("mean", "unit of the row"),
+    "sd": Heading("SD", "unit of the row"),
+    "low": Heading("interval from", "unit of the row"),
+    "high": Heading("interval to", "unit of the row"),
+    "smallest_accepted": Heading("smallest accepted", "unit of the row"),
+    "largest_accepted": Heading("largest accepted", "unit of the row"),
+    "predicted": Heading("predicted", "unit of the row"),
+    "solved": Heading("solved", "unit of the row"),
+    "difference": Heading("difference", "unit of the row"),
 }
 
 

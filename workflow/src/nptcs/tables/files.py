@@ -2,19 +2,23 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-STATUSES = (
-    "used",
-    "left out",
-    "repeated",
-    "not understood",
-    "not named",
-    "note",
-    "missing",
-    "sheet",
-)
+
+class FileStatus(StrEnum):
+    """What became of a file."""
+
+    USED = "used"
+    LEFT_OUT = "left out"
+    REPEATED = "repeated"
+    NOT_UNDERSTOOD = "not understood"
+    NOT_NAMED = "not named"
+    NOTE = "note"
+    MISSING = "missing"
+    SHEET = "sheet"
 
 
 class Files(pa.DataFrameModel):
@@ -28,7 +32,7 @@ class Files(pa.DataFrameModel):
     """
 
     file: Series[str] = pa.Field(unique=True)
-    status: Series[str] = pa.Field(isin=STATUSES)
+    status: Series[str] = pa.Field(isin=list(FileStatus))
     specimens: Series[str]
     format: Series[str]
     reason: Series[str]

@@ -121,7 +121,7 @@ class FlexureRules(ChordRules):
     """Rules of a bending test at three or four points."""
 
     span_to_thickness: Interval | None = Field(
-        None, description="Span over thickness that the standard lets expect; null: any"
+        None, description="Span over thickness that the standard expects; null: any"
     )
     loading_spans: tuple[float, ...] = Field(
         (0.0,), description="Loading span over span that the standard has; 0: three points"

@@ -216,7 +216,7 @@ def _require_growing_time(table: RawFile, specimen: str) -> None:
         first = int(np.argmax(bad)) + 1
         raise InputError(
             f"time does not grow from reading {first} to {first + 1}",
-            "delete the reading, or export one test a file",
+            "delete the reading, or export one test per file",
             table.path,
             column=table.columns["time"],
             specimen=specimen,

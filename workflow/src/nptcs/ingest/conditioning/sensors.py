@@ -65,7 +65,7 @@ def empty_after_removal(
 ) -> None:
     """Empty the strains from where a sensor was taken off, slipped, moved back or stood still.
 
-    Crosshead travel cannot be taken off nor stand still, but a transducer of travel can slip.
+    Crosshead travel can neither be taken off nor stand still, but a transducer of travel can slip.
     """
     if not settings.enabled:
         signals.skipped("extensometer")
@@ -113,7 +113,7 @@ def _say(signals: Signals, loss: Loss, channel: str, at: float) -> None:
 
 
 def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) -> Loss | None:
-    """First reading whose strain leaps while the force does neither fall nor leap.
+    """First reading whose strain leaps while the force neither falls nor leaps.
 
     Parameters
     ----------

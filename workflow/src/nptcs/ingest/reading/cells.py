@@ -196,7 +196,7 @@ class TextSource:
         return cell.casefold() in MISSING or cell in self.missing
 
     def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
-        """Columns of a table as numbers; a cell that is none raises with its place."""
+        """Columns of a table as numbers; a cell that is not a number is refused with its place."""
         rows, kinds = found_table.rows_of_data, self.kinds
         if rows[-1] - rows[0] == len(rows) - 1 and "odd data" not in kinds[rows[0] : rows[-1] + 1]:
             lines = self.lines[rows[0] : rows[-1] + 1]

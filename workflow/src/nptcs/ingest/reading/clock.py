@@ -74,7 +74,7 @@ def clocks_to_seconds(lines: Sequence[str]) -> PlainLines:
 
 
 def _is_row(line: str) -> bool:
-    """Tell whether a line holds a clock and else nothing but numbers."""
+    """Tell whether a line holds a clock and otherwise nothing but numbers."""
     rest, clocks = _STAMP.subn("", line)
     letters = [letter for letter in rest.casefold().replace("nan", "") if letter.isalpha()]
     return bool(clocks) and all(letter == "e" for letter in letters)

@@ -65,7 +65,7 @@ def map_columns(
 def _lacking(mapped: dict[str, Column], columns: Sequence[Column], own: bool) -> set[str]:
     """Quantities of which none of their kind is mapped yet; a time must state its unit.
 
-    A travel stands for a strain only against the names of another profile than the `own` one.
+    A travel counts as a strain only against the names of a profile other than its `own`.
     """
     kinds = (LOADS, STRAINS if own else (*STRAINS, "displacement"))
     lacking = {name for kind in kinds if not set(kind) & set(mapped) for name in kind}

@@ -78,7 +78,7 @@ def _strict(raw: bytes, encoding: str, path: Path, note: str) -> Decoded:
 
 
 def _wide(raw: bytes, path: Path) -> Decoded:
-    """Two bytes a character without a mark, or no text at all."""
+    """Two bytes per character without a mark, or not text at all."""
     for encoding, zeros in (("utf-16-le", raw[1::2]), ("utf-16-be", raw[0::2])):
         if len(raw) % 2 == 0 and zeros.count(0) > 0.8 * len(zeros):
             return _strict(raw, encoding, path, "every second byte is zero")

@@ -29,7 +29,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
     path : Path
         For messages.
     unnamed : str
-        Where surplus columns without a name stand (`FormatProfile.unnamed_columns`).
+        Where surplus columns without a name are (`FormatProfile.unnamed_columns`).
     """
     found_tables = [
         found_table
@@ -50,7 +50,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
 def _refuse_broken(source: CellSource, found_table: FoundTable, path: Path) -> None:
     for row in found_table.broken:
         raise InputError(
-            "row inside a table is not one of numbers",
+            "row inside a table does not consist of numbers",
             "correct or delete the row",
             path,
             row + 1,
@@ -67,7 +67,8 @@ def _settle_unnamed(source: CellSource, found_table: FoundTable, unnamed: str, p
     for row in found_table.rows_of_data:
         if any(source.cells(row)[first:]):
             raise InputError(
-                f"{found_table.width} columns, but {first} names: it is open which has none",
+                f"{found_table.width} columns, but {first} names: it is not clear which column "
+                "has no name",
                 "state unnamed_columns (first or last) in a profile",
                 path,
                 row + 1,

@@ -76,7 +76,7 @@ class FormatProfile(Strict):
     )
     part: str = Field("", description="Workbook sheet or table number, if always the same")
     unnamed_columns: Literal["", "first", "last"] = Field(
-        "", description="Where the surplus columns stand if there are fewer names than columns"
+        "", description="Where the surplus columns are if there are fewer names than columns"
     )
     missing: tuple[str, ...] = Field((), description="Further words for 'no value'")
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")

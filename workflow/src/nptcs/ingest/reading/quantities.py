@@ -23,7 +23,7 @@ NEEDS = {
     "strain": (STRAINS,),
     "force and strain": (LOADS, (*STRAINS, "displacement")),
 }
-"""Role → sets of quantities of which one each must be there."""
+"""Role → sets of quantities; a table needs one of each set."""
 
 
 @dataclass
@@ -126,7 +126,7 @@ def choose_test(
 
 
 def _refuse_continuation(chosen: Test, tests: Sequence[Test], path: Path) -> None:
-    """Stop if a table like the chosen one follows under something that is no header."""
+    """Stop if a table like the chosen one follows under something that is not a header."""
     found_table = chosen.found_table
     for test in tests:
         other = test.found_table

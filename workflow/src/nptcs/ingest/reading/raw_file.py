@@ -144,7 +144,7 @@ def _reading(table: RawFile) -> tuple[tuple[str, bytes], ...]:
 def sources_of(
     opened: OpenedFile, profile: FormatProfile
 ) -> tuple[list[CellSource], Dialect | None]:
-    """Rows of cells of a file: one source for a text, one a sheet for a workbook."""
+    """Rows of cells of a file: one source for a text, one per sheet for a workbook."""
     if opened.kind != profile.kind and profile.signature:
         raise InputError(
             f"is a {opened.kind}, profile '{profile.name}' is for a {profile.kind}",
@@ -226,7 +226,7 @@ def _read(
 def _values(
     test: Test, profile: FormatProfile, path: Path, role: str
 ) -> tuple[dict[str, Array], dict[str, str], list[str]]:
-    """Read the mapped columns and bring them to base units; rows without any load are left."""
+    """Read the mapped columns and bring them to base units, without rows empty in all of them."""
     quantities = test.quantities
     line = (
         test.found_table.names_row

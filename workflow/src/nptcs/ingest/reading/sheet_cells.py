@@ -62,7 +62,7 @@ class SheetSource:
         return None
 
     def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
-        """Columns of a table as numbers; a cell that is none raises with its place."""
+        """Columns of a table as numbers; a cell that is not a number is refused with its place."""
         values = [
             [self._number(found_table, row, position) for position in positions]
             for row in found_table.rows_of_data

@@ -54,7 +54,7 @@ def describe_columns(
     above : sequence of (int, list of str)
         The filled rows above it with their numbers, nearest first; three are enough.
     unnamed : str
-        ``first`` or ``last``: where columns without a name stand; empty: not declared.
+        ``first`` or ``last``: where columns without a name are; empty: not declared.
     """
     rows = list(above)
     units: list[str] = []
@@ -91,7 +91,7 @@ def _is_names_row(cells: list[str]) -> bool:
 
 
 def _shift(found_table: FoundTable, names: list[str], unnamed: str) -> int:
-    """How many columns stand unnamed before the first name."""
+    """Count the columns without a name before the first name."""
     while names and not names[-1].strip():
         names.pop()
     surplus = found_table.width - len(names)

@@ -11,7 +11,7 @@ from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined, with_error
-from nptcs.tables.files import Files
+from nptcs.tables.files import Files, FileStatus
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaValidation
 from nptcs.tables.published_stiffness import StiffnessErrors
@@ -49,7 +49,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
     for name, reason in results.left_out().items():
         remarks.append(f"Specimen {name} is left out by the sheet: {reason}")
     files = results.table(Files)
-    stray = files[files["status"] == "not named"]
+    stray = files[files["status"] == FileStatus.NOT_NAMED]
     if len(stray):
         remarks.append(
             "No row of the sheet names these files of the folder: " + joined(stray["file"])
