@@ -97,7 +97,7 @@ def start(accounting: bool) -> None:
         wait_until("munge answers", lambda: answers("munge", "-n"))
     if accounting:
         start_accounting()
-    run("slurmctld")
+    run("slurmctld", "-c")  # nothing is known of earlier jobs
     wait_until("slurmctld answers", lambda: answers("scontrol", "ping"))
     for node in NODES:
         run("slurmd", "-N", node)
@@ -209,12 +209,15 @@ class Watch:
     def __init__(self, solver: str, least_s: float) -> None:
         self.solver, self.least_s = solver, least_s
         self.since = 0.0
+        self.before = {job for [job] in jobs("%i")}
         self.known: dict[str, str] = {}
         self.killed = self.restarted = False
 
     def look(self) -> None:
         """Look once at the queue and at the nodes."""
         for job, node, state, rule in jobs("%i", "%N", "%T", "%k"):
+            if job in self.before:
+                continue
             text = f"job {job} {rule}: {state} {node}"
             if self.known.get(job) != text:
                 say(text)
