@@ -249,7 +249,9 @@ class Watch:
         return process.returncode
 
 
-def study(folder: Path, status: str, config: str, solver: str, least_s: float) -> int:
+def study(
+    folder: Path, status: str, config: str, solver: str, least_s: float, only_cases: bool
+) -> int:
     """Run a study locally and through Slurm, and compare."""
     local, cluster = folder / "local", folder / "cluster"
     given = ("--configfile", config)
@@ -260,7 +262,8 @@ def study(folder: Path, status: str, config: str, solver: str, least_s: float) -
         say(f"local run ends with exit code {code}")
         if code:
             return code
-    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns("results", ".snakemake"))
+    left_out = ("5_solve",) if only_cases else ("results", ".snakemake")
+    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns(*left_out))
     say(f"run through Slurm begins, status by {status}")
     process = snakemake(
         cluster,
@@ -297,6 +300,11 @@ def main() -> int:
     studying.add_argument(
         "--kill-after", type=float, default=5.0, help="seconds that its batch has solved by then"
     )
+    studying.add_argument(
+        "--only-cases",
+        action="store_true",
+        help="take what comes before the cases from the local run",
+    )
     parts.add_parser("stop")
     chosen = parser.parse_args()
     if chosen.part == "start":
@@ -304,7 +312,7 @@ def main() -> int:
     elif chosen.part == "stop":
         stop()
     else:
-        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after)
+        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after, chosen.only_cases)
         return study(chosen.folder.resolve(), *given)
     return 0
 
