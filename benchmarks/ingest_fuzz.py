@@ -37,19 +37,10 @@ ROOT = Path(__file__).resolve().parents[1]
 ROWS = 60
 """Readings that are kept of each file, so that mutations meet each other."""
 MISSING = {
-    "",
-    "nan",
-    "n/a",
-    "#n/a",
-    "na",
-    "-",
-    "--",
-    "---",
-    "*",
-    "****",
-    "1.#qnan",
-    "-1.#ind",
-    "null",
+    *("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#inf", "-1.#inf"),
+    *("inf", "-inf", "+inf", "null", "none", "n/a", "na", "n.a.", "k.a.", "n. def.", "n.def."),
+    *("#n/a", "#nv", "#div/0!", "#value!", "#wert!", "#ref!", "#bezug!", "#name?", "#num!"),
+    *("-", "--", "---", "–", "—", "*", "****", "/"),
 }
 TOKENS = (
     b"", b"nan", b"abc", b"1,234", b"1.234", b"--", b"1e5", b"-1000000", b"1e999", b'"', b"0x10",

@@ -12,7 +12,7 @@ from nptcs.files import sha256_of_file
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.repeats import repeated_specimens
 from nptcs.tables.curves import IngestRecord
-from nptcs.tables.files import Files
+from nptcs.tables.files import Files, FileStatus
 from nptcs.tables.specimens import Specimen, files_named, read_sheet
 
 
@@ -66,7 +66,7 @@ def _status(
     specimens: dict[str, Specimen],
     outcomes: dict[str, IngestRecord],
     again: dict[str, str],
-) -> tuple[str, str]:
+) -> tuple[FileStatus, str]:
     if path is not None and path.samefile(sheet):
         return "sheet", ""
     if path is None:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Literal, get_args
+
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-STATUSES = (
+FileStatus = Literal[
     "used",
     "left out",
     "repeated",
@@ -14,7 +16,8 @@ STATUSES = (
     "note",
     "missing",
     "sheet",
-)
+]
+STATUSES: tuple[FileStatus, ...] = get_args(FileStatus)
 
 
 class Files(pa.DataFrameModel):

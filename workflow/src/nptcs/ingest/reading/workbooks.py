@@ -74,7 +74,7 @@ def read_workbook(
 def _xlsx(path: Path, raw: bytes, limits: FileLimits) -> list[tuple[str, list[Row]]]:
     from openpyxl import load_workbook
 
-    unpacked, formulas = _unpacked_size(path, raw, limits)
+    formulas = _holds_formulas(path, raw, limits)
     values = load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
     texts = load_workbook(io.BytesIO(raw), read_only=True) if formulas else None
     try:
@@ -94,8 +94,8 @@ def _xlsx(path: Path, raw: bytes, limits: FileLimits) -> list[tuple[str, list[Ro
             texts.close()
 
 
-def _unpacked_size(path: Path, raw: bytes, limits: FileLimits) -> tuple[int, bool]:
-    """Size of all parts unpacked, and whether a sheet holds formulas; nothing is unpacked yet."""
+def _holds_formulas(path: Path, raw: bytes, limits: FileLimits) -> bool:
+    """Tell whether a sheet holds formulas, if all parts together are within the limits."""
     with zipfile.ZipFile(io.BytesIO(raw)) as archive:
         parts = archive.infolist()
         size = sum(part.file_size for part in parts)
@@ -107,7 +107,7 @@ def _unpacked_size(path: Path, raw: bytes, limits: FileLimits) -> tuple[int, boo
                 path,
             )
         sheets = [part for part in parts if part.filename.startswith("xl/worksheets/")]
-        return size, any(_holds_formula(archive, part) for part in sheets)
+        return any(_holds_formula(archive, part) for part in sheets)
 
 
 def _holds_formula(archive: zipfile.ZipFile, part: zipfile.ZipInfo) -> bool:
