@@ -7,10 +7,14 @@ VENV := .venv
 BIN := $(VENV)/bin
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: run test test-kernel lint format report clean
+.PHONY: run joint test test-kernel lint format report clean
 
 run: $(VENV)/ready
 	snakemake -j$(JOBS)
+
+# the five factors of plates and rubbers together, on top of the default study
+joint: $(VENV)/ready
+	snakemake -j$(JOBS) --configfile config/joint.yaml
 
 report: $(VENV)/ready
 	snakemake -j$(JOBS) report
@@ -18,8 +22,8 @@ report: $(VENV)/ready
 test: $(VENV)/ready-dev
 	python -m pytest -n $(JOBS)
 
-# the numeric tests once more with the plainest kernels of OpenBLAS and NumPy, two threads, another
-# seed: what holds only to the last bit of one processor fails here
+# the numerical tests once more with the plainest kernels of OpenBLAS and NumPy, two threads and another
+# seed: a test that holds only to the last bit of one processor fails here
 ifeq ($(shell uname -m),x86_64)
 PLAIN := OPENBLAS_CORETYPE=Prescott NPY_DISABLE_CPU_FEATURES="X86_V3 X86_V4 AVX512_ICL AVX512_SPR"
 else
@@ -33,14 +37,14 @@ test-kernel: $(VENV)/ready-dev
 lint: $(VENV)/ready-dev
 	ruff check .
 	ruff format --check .
-	snakefmt --check Snakefile workflow/rules
+	snakefmt --check Snakefile workflow/Snakefile workflow/rules
 	mypy
 	lint-imports
 
 format: $(VENV)/ready-dev
 	ruff check --fix .
 	ruff format .
-	snakefmt Snakefile workflow/rules
+	snakefmt Snakefile workflow/Snakefile workflow/rules
 
 $(VENV)/ready: pyproject.toml constraints.txt
 	$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11) and "nptcs needs Python 3.11 or newer")'

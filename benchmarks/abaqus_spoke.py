@@ -54,7 +54,7 @@ def load(name: str) -> ModuleType:
 
 
 def spoke_values(spacing: float, thickness: float, angle: float, c10: float) -> dict[str, float]:
-    """Values of a case."""
+    """Return the values of a case."""
     return {
         "spacing_mm": spacing,
         "thickness_mm": thickness,
@@ -65,14 +65,14 @@ def spoke_values(spacing: float, thickness: float, angle: float, c10: float) -> 
 
 
 def deck_stiffness(mesh: AbaqusMesh, values: dict[str, float]) -> float:
-    """Of the spoke of a deck, N/mm."""
+    """Return the radial stiffness of a deck's spoke, N/mm."""
     reader, solver = load("abaqus_deck"), load("abaqus_spoke")
     text = tyre_deck(AbaqusModel(mesh=mesh), TyreGeometry(), PUBLISHED_PLY, values, 5000.0, "spoke")
     return float(solver.radial_stiffness(reader.read_deck(text), reader))
 
 
 def own_stiffness(coupling: PlateCoupling, values: dict[str, float]) -> float:
-    """Of `fe_spoke`, N/mm."""
+    """Return the radial stiffness by `fe_spoke`, N/mm."""
     model = FeModel(plate_coupling=coupling)
     design = spoke_design(model, TyreGeometry(), PUBLISHED_PLY, values)
     return float(SpokeModel(design).rest().tangent[0, 0])
@@ -94,7 +94,7 @@ def stiffness() -> None:
 
 
 def angle_steps() -> None:
-    """Print 0.53 times the change of the spoke's logarithm: what a tyre's would be."""
+    """Print 0.53 times the change of the spoke's log stiffness, an estimate of the tyre's."""
     fine = AbaqusMesh(spoke_axial=86, plate=(11, 4), **SMALL_BAND)
     solvers: dict[str, Callable[[dict[str, float]], float]] = {
         "deck, bricks as wide as a plate": partial(deck_stiffness, MESHES["default"]),
@@ -114,7 +114,7 @@ def angle_steps() -> None:
 
 
 def percent(stiffness_n_per_mm: list[float], power: float) -> str:
-    """Write the steps of the logarithm, in per cent."""
+    """Format the steps of the log stiffness, in per cent."""
     steps = 100.0 * power * np.diff(np.log(stiffness_n_per_mm))
     pairs = zip(ANGLES[:-1], ANGLES[1:], steps, strict=True)
     return ", ".join(f"{low:g} to {high:g} deg {step:+.2f} %" for low, high, step in pairs)

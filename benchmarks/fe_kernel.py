@@ -46,7 +46,7 @@ def milliseconds(call: Callable[[], object]) -> float:
 
 @threadpool_limits.wrap(limits=1)
 def own_kernel(mesh: str) -> None:
-    """Assembly of the package, and its factorisation against others of the same matrix."""
+    """Time our assembly, and our factorisation against others of the same matrix."""
     fiducial = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0, "spoke_c10_mpa": 1.0}
     model = SpokeModel(
         spoke_design(
@@ -87,7 +87,7 @@ def factorisations(dofs: list[Index], tangents: list[Array], row: int, size: int
 
 
 def pardiso(matrix: sparse.csc_array, rhs: Array) -> None:
-    """MKL's Pardiso: its supported interface, and its numbers alone by a private call."""
+    """MKL's Pardiso: its public interface, and the numerical phase alone by a private call."""
     if importlib.util.find_spec("pypardiso") is None:
         print("pypardiso is not installed: pip install pypardiso to compare")
         return
@@ -106,7 +106,7 @@ def pardiso(matrix: sparse.csc_array, rhs: Array) -> None:
 
 
 def copied(chain: BlockMatrix) -> BlockMatrix:
-    """Copy of a matrix, which the factorisation overwrites; the others copy theirs themselves."""
+    """Copy a matrix, which our factorisation overwrites; the others make their own copies."""
     return BlockMatrix(chain.diagonal.copy(), chain.below.copy(), chain.size)
 
 

@@ -1,10 +1,10 @@
-"""Errors of the meshes and of the energy table: the campaign's against finer ones.
+"""Errors of the meshes and of the energy table: the default ones against finer ones.
 
     python benchmarks/fe_mesh.py
 
-Prints the spoke's stiffness (section 4.3.1) on a row of meshes with the difference from the finest,
+Prints the spoke's stiffness (section 4.3.1) on several meshes with the difference from the finest,
 for designs that span tables 5 and 7; then the tyre's stiffness with finer tables and finer rings.
-The finest spoke mesh takes minutes; `--designs 1` is table 7's softest alone.
+The finest spoke mesh takes minutes; `--designs 1` runs only table 7's softest design.
 """
 
 from __future__ import annotations

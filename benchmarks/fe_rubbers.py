@@ -2,8 +2,8 @@
 
     python benchmarks/fe_rubbers.py
 
-Prints the tyre's stiffness for each pair of rubbers and its change from the assumed pair, for the
-whole tyre and for the trends (each design over the fiducial one).
+Prints the tyre's stiffness for each pair of rubbers and its change from the assumed pair, both as a
+value and as a ratio to the fiducial design (the trend).
 """
 
 from __future__ import annotations

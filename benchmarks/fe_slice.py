@@ -7,7 +7,8 @@
 Both models share the ring (plane strain, wires, contact, load control) and the spokes' elements.
 The direct one's spokes conform to the band along their whole foot; the reduced one's feet are
 rigid, and their energy is a fitted polynomial: the difference is the error of these two together,
-`--rigid-foot` leaves only the polynomial's. Prints load, rise, stiffness, unknowns, time, memory.
+and `--rigid-foot` leaves only the polynomial's. Prints load, rise, stiffness, unknowns, time and
+memory.
 """
 
 from __future__ import annotations

@@ -1,4 +1,4 @@
-"""Spoke tables of the two published studies, one after the other, with the help of those before.
+"""Spoke tables of the two published studies, each computed with the help of the earlier ones.
 
     python benchmarks/fe_spoke_order.py FOLDER [--order natural|spread] [--first N]
 
@@ -37,7 +37,7 @@ def spokes() -> list[tuple[float, ...]]:
 
 
 def spread(points: Array) -> list[int]:
-    """Order in which each point is the one farthest from all before it."""
+    """Return the order in which each point is the farthest from all earlier ones."""
     scaled = (points - points.min(axis=0)) / np.ptp(points, axis=0)
     order = [int(np.abs(scaled - scaled.mean(axis=0)).sum(axis=1).argmin())]
     while len(order) < len(points):

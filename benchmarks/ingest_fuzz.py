@@ -1,4 +1,4 @@
-"""Fuzz of the readers: mutated files are read right or refused, never wrong in silence.
+"""Fuzzing of the readers: mutated files are read correctly or refused, never silently misread.
 
     python benchmarks/ingest_fuzz.py [--inputs 12000] [--seed 1] [--labdata ../shared/labdata]
 
@@ -35,7 +35,7 @@ from nptcs.tables.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]
 ROWS = 60
-"""Readings that are kept of each file, so that mutations meet each other."""
+"""Readings kept of each file; few, so that mutations interact."""
 MISSING = {
     *("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#inf", "-1.#inf"),
     *("inf", "-inf", "+inf", "null", "none", "n/a", "na", "n.a.", "k.a.", "n. def.", "n.def."),
@@ -224,7 +224,7 @@ def unit_is_stated(table: RawFile, quantity: str, position: int, lines: list[str
 
 
 def same_name(text: str, reported: str) -> bool:
-    """Equal but for what is in brackets, quotes, blanks, or behind an underscore."""
+    """Equal except for bracketed parts, quotes, blanks, or what follows an underscore."""
 
     def bare(name: str) -> str:
         name = re.sub(r"\[[^\]]*\]|\([^)]*\)|（[^）]*）|<[^>]*>", "", name)
@@ -239,7 +239,7 @@ def same_name(text: str, reported: str) -> bool:
 def strict_rows(
     lines: list[str], table: RawFile, positions: Mapping[str, int]
 ) -> list[list[float]] | str:
-    """Every reading of the needed columns, or the row that is not numbers."""
+    """Every reading of the needed columns, or a message about a row that is not a reading."""
     decimal = re.escape(table.decimal)
     number = re.compile(rf"[+-]?(\d+({decimal}\d*)?|{decimal}\d+)([eE][+-]?\d+)?", re.ASCII)
     grouped = None

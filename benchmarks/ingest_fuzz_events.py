@@ -1,10 +1,10 @@
-"""Fuzz of the conditioning: tests with events, and an oracle that knows the truth.
+"""Fuzzing of the conditioning: tests with events, and an oracle that knows the truth.
 
     python benchmarks/ingest_fuzz_events.py [--inputs 3000] [--seed 1]
 
 Each input is an invented test of a linear specimen, of which modulus, strength and strain at every
 instant are known: one file or machine and camera, with random rates, units, noise and clocks.
-Up to three events happen to it: break or none, cycles, an extensometer that is taken off, stands
+Up to three events happen to it: a break or none, cycles, an extensometer that is taken off, stands
 still or slides back, a strain record that ends early, a load cell with the wrong sign, a part in
 compression before the pull, slack, a unit that is wrong by a thousand, the same data in another
 file. A test may be refused. A failure is an exception other than InputError, or a curve whose
@@ -174,7 +174,7 @@ def _csv(path: Path, columns: Mapping[str, Array]) -> None:
 
 
 def judge(truth: Truth, done: Ingested) -> str:
-    """Say what of a curve is not the truth; empty if nothing is."""
+    """Say where a curve differs from the truth; empty where it agrees."""
     if "wrong unit" in truth.events:
         return "a unit that is wrong by a thousand was not noticed"
     curve = done.curve

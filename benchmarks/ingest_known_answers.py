@@ -1,4 +1,4 @@
-"""Real laboratory files with known answers: ours, known, difference.
+"""Real laboratory files with known answers: our value, the known value, the difference.
 
     python benchmarks/ingest_known_answers.py ../shared/labdata
 
@@ -61,12 +61,12 @@ class Answer:
 
     @property
     def difference_percent(self) -> float:
-        """Ours over known, less one."""
+        """Difference of our value from the known one, in percent."""
         return 100 * (self.ours / self.known - 1)
 
     @property
     def agrees(self) -> bool:
-        """Within the tolerance."""
+        """Whether the two agree within the tolerance."""
         return abs(self.ours / self.known - 1) <= self.tolerance
 
 

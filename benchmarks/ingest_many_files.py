@@ -3,8 +3,8 @@
     python benchmarks/ingest_many_files.py [--files 1000] [--rows 10000]
 
 All figures come from one process in one run. As a measure of the machine, the same files are read
-by ``pandas.read_csv`` alone with all that detection finds out told beforehand: the ratio is what
-detection, checks, conditioning and the record cost.
+by ``pandas.read_csv`` alone, given in advance what detection finds out; the ratio is the cost of
+detection, checks, conditioning and the record.
 """
 
 from __future__ import annotations
@@ -39,7 +39,7 @@ PARTS = (
 
 
 def write_files(folder: Path, rows: int) -> None:
-    """Write different testXpert files, of which links make up the number."""
+    """Write a few different testXpert files and fill up the number with links to them."""
     for number in range(DIFFERENT):
         random = np.random.default_rng(number)
         strain = np.linspace(0, 1.2, rows)
@@ -73,7 +73,7 @@ def ingest_one(folder: Path, number: int, profiles: Mapping[str, FormatProfile])
 
 
 def read_plainly(folder: Path, number: int) -> None:
-    """Read the same file with everything told beforehand."""
+    """Read the same file with the format given in advance."""
     path = folder / f"{number % DIFFERENT}.tra"
     pd.read_csv(path, sep="\t", decimal=",", skiprows=[1], encoding="latin-1")
 

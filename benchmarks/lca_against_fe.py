@@ -1,10 +1,10 @@
-"""The load-bearing model with straight and with curved spokes, against our finite elements.
+"""The load-bearing model with linear and with nonlinear spokes, against our finite elements.
 
     python benchmarks/lca_against_fe.py [--spoke-c10 1 3 5] [--loads 1500 3000 4000 5000 6000]
 
-For each spoke rubber one spoke is pulled and pressed by finite elements (`fe_spoke`'s model) and
-the whole tyre is loaded by them (`fe_tyre`). The ring then stands on the same spoke twice: as the
-paper does it, by two straight lines fitted as in section 4.3.1, and by the spoke's own curve.
+For each spoke rubber, finite elements pull and press one spoke (the model of `fe_spoke`) and load
+the whole tyre (`fe_tyre`). The ring is then solved twice with the same spoke: with two straight
+lines fitted as in section 4.3.1, as in the paper, and with the spoke's own curve.
 Prints the tyre's displacement and the errors of both. T-C = 5 MPa, plates at the fiducial values,
 table 2's ply.
 """

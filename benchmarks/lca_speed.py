@@ -51,7 +51,7 @@ def solve_part(part: tuple[dict[str, np.ndarray], np.ndarray]) -> tuple[np.ndarr
 
 
 def solve_all(pool: ProcessPoolExecutor, designs: dict, load: np.ndarray, parts: int):
-    """Share the table among processes."""
+    """Divide the table among processes."""
     slices = np.array_split(np.arange(len(load)), parts)
     jobs = [({name: column[s] for name, column in designs.items()}, load[s]) for s in slices]
     solved = list(pool.map(solve_part, jobs))

@@ -1,4 +1,4 @@
-"""Robustness of the load-bearing model over the range that it is to hold in.
+"""Robustness of the load-bearing model over the range for which it is meant.
 
     OPENBLAS_NUM_THREADS=1 python benchmarks/lca_sweep.py
 

@@ -1,13 +1,13 @@
-"""How often the stated 95 % intervals hold the truth of the synthetic example data.
+"""How often the stated 95 % intervals contain the truth of the synthetic example data.
 
 ``python benchmarks/reduce_coverage.py [SEEDS] [CHORD_METHOD]`` makes the example data of as many
 seeds, runs ingest, reduction and calibration on each, and prints for each constant the mean
 deviation from the truth, the scatter over seeds next to the stated standard error, and the share
-of 95 % intervals (Student's t) that hold the truth. 40 seeds take some three minutes.
+of 95 % intervals (Student's t) that contain the truth. 40 seeds take about three minutes.
 
 ``python benchmarks/reduce_coverage.py origin [DRAWS]`` simulates single curves of a neo-Hookean
 rubber and of a laminate, of four kinds: through (0, 0), digitised with noise, with a toe, and
-recorded from a preload. It prints how often value ± 1.96 standard errors holds the truth, with
+recorded from a preload. It prints how often value ± 1.96 standard errors contains the truth, with
 the correction of the strain origin as it is, and how often that correction was applied.
 """
 

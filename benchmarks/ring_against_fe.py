@@ -3,7 +3,8 @@
     python benchmarks/ring_against_fe.py [--spokes results/5_solve/spokes] [--cases 26]
         [--along 2] [--across 1] [--picture ring_against_fe.png]
 
-Eight designs that span tables 5 and 7, then every third (or other) of their 78 cases at ten loads.
+Eight designs that span tables 5 and 7, then `--cases` of their 78 cases (26: every third), at ten
+loads.
 Prints the difference of the displacement in per cent at each load, of the neutral line (in per cent
 of the largest displacement), the peak pressures, the contact lengths √(12 Var p), and the CPU time
 of both. The finite elements are refined along the circumference, where their contact needs it:

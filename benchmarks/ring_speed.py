@@ -1,11 +1,11 @@
-"""Time and failures of the ring: a curve of twelve points, and many random designs.
+"""Time and failures of the ring solver: a curve of twelve points, and many random designs.
 
     python benchmarks/ring_speed.py [--designs 10000] [--workers 1] [--spoke-tables 3]
 
 Prints the CPU time of a curve with each kernel, the best of ten; then solves random designs (band
 C10 2 to 10 MPa, tread C10 2 to 10, load 500 to 6000 N, factor of the spokes' energy 0.8 to 1.25,
-friction 0 to 0.8) on spokes of section 4.3.1 and says how they ended. `beyond_table` is the spoke's
-own limit; `diverged` would be a failure.
+friction 0 to 0.8) on spokes of section 4.3.1 and counts how they ended. `beyond_table` is a limit
+of the spoke; `diverged` would be a failure.
 """
 
 from __future__ import annotations

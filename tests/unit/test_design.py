@@ -75,7 +75,7 @@ def test_a_rubber_without_a_card_and_equal_levels_are_named():
         max_size=4,
     )
 )
-def test_every_combination_stands_once(levels):
+def test_every_combination_appears_once(levels):
     factors = [
         {"name": f"f{i}", "label": "f", "unit": "mm", "levels": values}
         for i, values in enumerate(levels)

@@ -20,7 +20,9 @@ from nptcs.doe.points import box_behnken, central_composite, space_filling
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
 from nptcs.surface.models import Cases, fit_model
-from nptcs.surface.stored import dump_models
+from nptcs.surface.registry import FittedSurface, SurfaceRegistry
+from nptcs.surface.stored import dump_registry
+from nptcs.surface.study import RESPONSE
 from nptcs.terms import parse
 
 ROOT = Path(__file__).parents[2]
@@ -134,9 +136,9 @@ def test_what_a_design_refuses():
         {"name": "c", "label": "c", "unit": "MPa", "levels": [{"rubber": "r"}, {"rubber": "q"}]}
     ]
     for design, factors, match in (
-        ({"kind": "latin_hypercube", "cases": 5}, rubber, "no rubbers between"),
+        ({"kind": "latin_hypercube", "cases": 5}, rubber, "no rubber between"),
         ({"kind": "sobol", "cases": 4, "whole_plates": True}, FACTORS[1:], "not a factor"),
-        ({"kind": "d_optimal", "cases": 4, "terms": TERMS}, FACTORS, "takes at least 5"),
+        ({"kind": "d_optimal", "cases": 4, "terms": TERMS}, FACTORS, "needs at least 5"),
         (
             {"kind": "d_optimal", "cases": 9, "terms": [*TERMS, "angle_deg^3"]},
             FACTORS,
@@ -192,7 +194,8 @@ def test_augment_prints_cases_for_the_study(tmp_path, capsys):
     x = table[["spacing_mm", "thickness_mm", "angle_deg"]].to_numpy()
     cases = Cases(x, x[:, 0] * 2 + x[:, 1] ** 2, tuple(table)[2:5], TERMS[:4])
     surface = fit_model(PolynomialModel(kind="polynomial"), cases)
-    (tmp_path / "s.json").write_text(dump_models({"lca": {"polynomial": surface}}))
+    fitted = FittedSurface("s", "lca", "polynomial", RESPONSE, surface)
+    (tmp_path / "s.json").write_text(dump_registry(SurfaceRegistry("s", (fitted,))))
     command = ["augment", "s", "--models", str(tmp_path), "--cases", "2", "--solver"]
 
     assert main([*command, "lca"]) == 0

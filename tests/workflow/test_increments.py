@@ -6,7 +6,7 @@ import pytest
 import yaml
 
 LATE = {"account", "report", "verdict", "problems", "statistics"}
-"""Rules that print; what is measured or solved does not rest on them."""
+"""Rules that print; nothing that is measured or solved depends on them."""
 OLD = 946684800  # a date in the year 2000, as archives and `cp -p` restore it
 
 

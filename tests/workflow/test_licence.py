@@ -10,6 +10,7 @@ import pytest
 import yaml
 
 ROOT = Path(__file__).parents[2]
+SNAKEFILE = str(ROOT / "Snakefile")
 SOLVER = '''
 """Holds five tokens for a while, and writes down when."""
 
@@ -76,7 +77,7 @@ def run(folder, cores_per_batch, batches, limit):
     (folder / "licence.yaml").write_text(yaml.safe_dump(config))
     targets = [f"results/5_solve/held/holder/batch_{i + 1}.jsonl" for i in range(batches)]
     command = [
-        *(sys.executable, "-m", "snakemake", "-s", str(ROOT / "Snakefile"), "-d", str(folder)),
+        *(sys.executable, "-m", "snakemake", "-s", SNAKEFILE, "-d", str(folder)),
         *("-j4", "--resources", f"licence_tokens={limit}", "--workflow-profile", "none"),
         *("--configfile", "licence.yaml", "--scheduler", "greedy", "--", *targets),
     ]

@@ -59,8 +59,8 @@ def test_tables_have_the_documented_columns_and_plausible_numbers(finished):
     assert card["rubbers"]["rubber_75A"]["constants"]["c10_mpa"]["value"] > 1
 
 
-def test_computed_results_stand_beside_the_paper_s(finished):
-    """Coarse meshes: the right order of size, every table filled."""
+def test_computed_results_are_next_to_the_paper_s(finished):
+    """Coarse meshes: the right order of magnitude, every table filled."""
     rows = finished.rows("stiffness_against_published.csv")
     by_fe = [row for row in rows if row["solver"] == "fe_tyre"]
     assert [row["published_stiffness_n_per_mm"] for row in by_fe] == ["536.71", "591.18"]
@@ -98,7 +98,7 @@ def test_computed_results_stand_beside_the_paper_s(finished):
     )
 
 
-def test_a_case_that_fails_is_a_row_beside_the_published_one(project):
+def test_a_case_that_fails_is_a_row_next_to_the_published_one(project):
     small = yaml.safe_load(project.path("config/small.yaml").read_text())
     small["solvers"]["fe_tyre"] |= {"load_steps": 6, "timeout_s": 0.2}
     small["solvers"]["fe_spoke"]["spoke_mesh"] |= {"gap_columns": 2}
@@ -125,7 +125,7 @@ def test_a_case_that_fails_is_a_row_beside_the_published_one(project):
 
 
 def test_what_is_made_of_results_solves_nothing(project):
-    """A new calibration case or neutral line is a matter of tables alone."""
+    """A new calibration case or neutral line concerns tables alone."""
     small = yaml.safe_load(project.path("config/small.yaml").read_text())
     band = next(study for study in small["studies"] if study["name"] == "band")
     band |= {"calibration_cases": {"fe_tyre": [1]}, "neutral_line_cases": [1, 2]}
@@ -337,7 +337,7 @@ def test_a_misspelt_key_stops_everything_before_it_starts(project):
     assert "campagin: unknown key; did you mean 'campaign'?" in run.stderr + run.stdout
 
 
-def test_a_surface_that_the_design_cannot_carry_is_refused_before_anything_is_solved(project):
+def test_terms_that_the_design_cannot_estimate_are_refused_before_anything_is_solved(project):
     project.edit("config/small.yaml", "spoke_c10_mpa^2]", "shear_band_c10_mpa^2]")
     run = project.snakemake()
     assert run.returncode != 0

@@ -68,7 +68,11 @@ rule material_card:
         rubber_models=expand("results/3_calibrate/{rubber}_models.csv", rubber=RUBBERS),
         rubber_ranges=expand("results/3_calibrate/{rubber}_ranges.csv", rubber=RUBBERS),
     output:
-        card="results/material_card.json",
+        card=report(
+            "results/material_card.json",
+            caption="../report/material_card.rst",
+            category="Materials",
+        ),
         models="results/tables/hyperelastic_models.csv",
         ranges="results/tables/c10_against_range.csv",
     log:

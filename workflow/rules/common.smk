@@ -1,4 +1,6 @@
 # The configuration and the specimen sheet, checked; what the rules ask of them.
+import shlex
+import sys
 import time
 from functools import cache
 from pathlib import Path
@@ -7,6 +9,7 @@ from snakemake.exceptions import WorkflowError
 
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
 from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
+from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
@@ -21,8 +24,16 @@ from nptcs.solvers.registry import (
 )
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.specimens import read_sheet
+from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()
+
+one_thread_per_process()  # of the linear algebra in all jobs; cases already share the cores
+# Snakemake writes the interpreter of scripts and submitted jobs into shell commands as it is, and a
+# blank in its path (a virtual environment in "OneDrive - Lab") would end the command there: its
+# issue 2645, open in 9.27
+if Path(sys.executable).exists():
+    sys.executable = shlex.quote(sys.executable)
 
 try:
     CONFIG = read_config(config)
@@ -64,19 +75,25 @@ wildcard_constraints:
 def plain(section):
     """A configuration section or a row of the sheet as plain values.
 
-    Snakemake notices each change of them. Remarks decide nothing: only the report has them.
+    Snakemake notices each change of them. Remarks decide nothing; only the report shows them.
     """
     return section.model_dump(mode="json", exclude={"remarks"})
 
 
-def code_of(script, *modules, words=False):
-    """Hash of a rule's script, of all that it imports from the package, and of further modules.
+# found from this file: the workflow may be the top Snakefile, or a module of another
+SCRIPTS = (
+    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
+)
 
-    Snakemake goes by the script's time stamp, which a checkout renews, and not by its imports.
-    Rules whose output prints messages and descriptions ask for their `words` too.
+
+def code_of(script, *modules, words=False):
+    """Hash of a rule's script, of everything that it imports from the package, and of further modules.
+
+    Snakemake looks at the script's time stamp, which a checkout renews, and not at its imports.
+    Rules whose output shows messages and descriptions ask for `words` too.
     """
     return code_hash(
-        str(Path(workflow.basedir) / f"workflow/scripts/{script}.py"),
+        str(SCRIPTS / f"{script}.py"),
         *modules,
         words=words,
     )
@@ -128,10 +145,18 @@ def tyre_solvers(study_name):
     ]
 
 
+def batches_of(study_name, solver_name):
+    """Number of jobs into which the cases of a study are divided for a solver."""
+    _, options = solver_of(study_name, solver_name)
+    return batch_count(
+        CONFIG.study(study_name).number_of_cases(), CONFIG.campaign, options
+    )
+
+
 def batches(study_name, solver_name=None):
     study = CONFIG.study(study_name)
     return [
         f"results/5_solve/{study_name}/{solver}/batch_{batch}.jsonl"
         for solver in ([solver_name] if solver_name else study.solvers)
-        for batch in range(1, CONFIG.campaign.batches + 1)
+        for batch in range(1, batches_of(study_name, solver) + 1)
     ]

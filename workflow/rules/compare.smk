@@ -42,7 +42,11 @@ rule compare_published:
         cases="results/tables/cases.csv",
         designs=expand("results/4_design/{study}.csv", study=COMPARED_STUDIES),
     output:
-        table="results/tables/stiffness_against_published.csv",
+        table=report(
+            "results/tables/stiffness_against_published.csv",
+            caption="../report/compared.rst",
+            category="Cases",
+        ),
         errors="results/tables/stiffness_errors.csv",
         levels="results/tables/stiffness_by_level.csv",
     log:

@@ -15,7 +15,7 @@ def files_of_specimen(wildcards):
     return [ancient(path) for path in found]
 
 
-# the profiles decide how files are read: what they say, not their comments or their dates
+# the profiles decide how files are read: by what they say, not by their comments or dates
 try:
     PROFILES = {
         name: sha256_of_text(profile.model_dump_json())

@@ -31,7 +31,11 @@ rule statistics:
         records=records(SPECIMENS),
     output:
         specimens="results/tables/specimens.csv",
-        statistics="results/tables/statistics.csv",
+        statistics=report(
+            "results/tables/statistics.csv",
+            caption="../report/statistics.rst",
+            category="Materials",
+        ),
     log:
         "results/logs/statistics.log",
     params:

@@ -3,7 +3,7 @@ from importlib.resources import files as package_files
 
 
 def solver_facts():
-    """What the report says of each solver: what it is, and what it is given.
+    """What the report says about each solver: what it is, and what it is given.
 
     A solver's choices between models are listed once for each study that makes them differently.
     """
@@ -42,6 +42,17 @@ def configured_inputs():
     return list(dict.fromkeys(filter(None, paths)))
 
 
+rule configuration:
+    output:
+        configuration="results/configuration.yaml",
+    log:
+        "results/logs/configuration.log",
+    params:
+        job={"config": plain(CONFIG), "code": code_of("configuration")},
+    script:
+        "../scripts/configuration.py"
+
+
 rule problems:
     input:
         records=records(SPECIMENS),
@@ -74,8 +85,16 @@ rule report:
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         inputs=[ancient(path) for path in configured_inputs()],
     output:
-        page="results/report.html",
-        workbook="results/workbook.xlsx",
+        page=report(
+            "results/report.html",
+            caption="../report/page.rst",
+            category="Report",
+        ),
+        workbook=report(
+            "results/workbook.xlsx",
+            caption="../report/workbook.rst",
+            category="Report",
+        ),
     log:
         "results/logs/report.log",
     params:
@@ -116,7 +135,7 @@ rule verdict:
         "../scripts/verdict.py"
 
 
-# After a failed run a report that was not built by it must not look current.
+# After a failed run, a report that it did not build must not look current.
 onerror:
     import nptcs.report.stale
 

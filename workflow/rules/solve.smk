@@ -1,5 +1,6 @@
 # Design tables → one record per case. A failed case is a record too; records are kept by content.
 
+from nptcs.campaign.queue import batch_memory_mb, batch_minutes, licence_request
 from nptcs.campaign.tries import read_tries
 
 
@@ -29,7 +30,7 @@ def solve_job(wildcards):
         "tables": contents(checked.tables().values()),
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
-        "batches": CONFIG.campaign.batches,
+        "batches": batches_of(wildcards.study, wildcards.solver),
         "tries": read_tries(
             "results/5_solve/{study}/{solver}/batch_{batch}.jsonl".format(**wildcards)
         ),
@@ -47,6 +48,24 @@ def solve_tokens(wildcards, threads):
     return batch_tokens(threads, options)
 
 
+def solve_memory_mb(wildcards, threads, attempt):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    return batch_memory_mb(threads, options, attempt)
+
+
+def solve_minutes(wildcards, threads, attempt):
+    _, options = solver_of(wildcards.study, wildcards.solver)
+    cases = CONFIG.study(wildcards.study).number_of_cases()
+    parts = batches_of(wildcards.study, wildcards.solver)
+    return batch_minutes(cases, parts, threads, options, attempt)
+
+
+def solve_licence(wildcards, threads):
+    return licence_request(
+        solve_tokens(wildcards, threads), CONFIG.campaign.queue_licence
+    )
+
+
 rule solve:
     input:
         design="results/4_design/{study}.csv",
@@ -59,6 +78,9 @@ rule solve:
     threads: solve_cores
     resources:
         licence_tokens=solve_tokens,
+        mem_mb=solve_memory_mb,
+        runtime=solve_minutes,
+        slurm_extra=solve_licence,
     params:
         job=solve_job,
         store="results/5_solve/records",
@@ -70,7 +92,11 @@ rule cases:
     input:
         records=[path for study in STUDIES for path in batches(study)],
     output:
-        cases="results/tables/cases.csv",
+        cases=report(
+            "results/tables/cases.csv",
+            caption="../report/cases.rst",
+            category="Cases",
+        ),
     log:
         "results/logs/cases.log",
     params:

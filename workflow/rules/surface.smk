@@ -9,6 +9,8 @@ FITTED = (
     "terms",
     "least_cases",
     "surfaces",
+    "load_n",
+    "responses",
 )
 
 
@@ -21,9 +23,28 @@ def surface_job(wildcards):
             "title": "",
             "factors": study.case_definition()["factors"],
         },
+        "responses": response_job() if study.responses else None,
         "published": contents(published_coefficients(wildcards)),
         "code": code_of("surface"),
     }
+
+
+def response_job():
+    """How responses of solved tyres are taken, beyond the stiffness at the study's load."""
+    composites = sorted({s.material for s in SPECIMENS if not s.test.is_rubber})
+    return {
+        "settings": plain(CONFIG.tyre_responses),
+        "ply": composites[0] if len(composites) == 1 else None,
+    }
+
+
+def strength_statistics(wildcards):
+    """The tested strengths, where the study has further responses."""
+    return (
+        ["results/tables/statistics.csv"]
+        if CONFIG.study(wildcards.study).responses
+        else []
+    )
 
 
 def published_coefficients(wildcards):
@@ -44,6 +65,7 @@ rule surface:
         ply=surface_ply,
         records=lambda wildcards: batches(wildcards.study),
         published=published_coefficients,
+        statistics=strength_statistics,
     output:
         table="results/tables/{study}_surface.csv",
         surfaces="results/6_surface/{study}.json",
@@ -51,6 +73,7 @@ rule surface:
         quality="results/6_surface/{study}_quality.csv",
         comparison="results/6_surface/{study}_comparison.csv",
         by_factor="results/6_surface/{study}_by_factor.csv",
+        responses="results/6_surface/{study}_responses.csv",
         problems="results/6_surface/{study}_problems.csv",
     log:
         "results/logs/surface/{study}.log",
@@ -76,12 +99,20 @@ rule sensitivity:
         by_factor_parts=expand(
             "results/6_surface/{study}_by_factor.csv", study=SURFACE_STUDIES
         ),
+        response_surfaces_parts=expand(
+            "results/6_surface/{study}_responses.csv", study=SURFACE_STUDIES
+        ),
         published=[ancient(path) for path in PUBLISHED_IMPACT],
     output:
-        impact="results/tables/impact.csv",
+        impact=report(
+            "results/tables/impact.csv",
+            caption="../report/impact.rst",
+            category="Sensitivity",
+        ),
         quality="results/tables/surface_quality.csv",
         comparison="results/tables/surface_comparison.csv",
         by_factor="results/tables/surface_by_factor.csv",
+        response_surfaces="results/tables/response_surfaces.csv",
     log:
         "results/logs/sensitivity.log",
     params:
@@ -119,6 +150,7 @@ rule sobol:
     output:
         indices="results/tables/sobol_indices.csv",
         effects="results/tables/main_effects.csv",
+        impacts="results/tables/response_impact.csv",
         problems="results/6_surface/sobol/problems.csv",
     log:
         "results/logs/sobol.log",

@@ -7,7 +7,8 @@ from nptcs.compare.surface_tables import study_tables
 from nptcs.config.study import Study
 from nptcs.console import clear_errors
 from nptcs.files import read_model, write_text
-from nptcs.surface.stored import dump, dump_models
+from nptcs.responses.study import study_responses
+from nptcs.surface.stored import dump, dump_registry
 from nptcs.surface.study import fit_study
 from nptcs.tables.io import read_tables, write_table
 from nptcs.tables.material_card import PlyCard
@@ -16,13 +17,14 @@ from nptcs.tables.published_inputs import PublishedCoefficients
 
 def fit(job: dict[str, Any], records: list[str], **files: Any) -> None:
     study = Study.model_validate(job["study"])
-    plies = [read_model(card, PlyCard).values() for card in files["ply"]]
-    done = fit_study(read_cases(records), study, *plies)
+    ply = next((read_model(card, PlyCard).values() for card in files["ply"]), None)
+    values = study_responses(study, records, files["statistics"], job["responses"])
+    done = fit_study(read_cases(records), study, ply, values)
     published = read_tables(files["published"], PublishedCoefficients)
     for name, (table, contract) in study_tables(study, done, published).items():
         write_table(files[name], table, contract)
     write_text(files["surfaces"], dump(done.polynomials))
-    write_text(files["models"], dump_models(done.models))
+    write_text(files["models"], dump_registry(done.registry()))
 
 
 if __name__ == "__main__":

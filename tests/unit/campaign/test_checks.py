@@ -1,4 +1,4 @@
-"""What is wrong with a study is said before it is solved; what a run would solve is counted."""
+"""What is wrong with a study is reported before it is solved; what a run would solve is counted."""
 
 import pytest
 
@@ -66,7 +66,7 @@ FACTORS = [
             {"terms": ["1", *(f"spacing_mm^{n}" for n in range(1, 12))]},
             {},
             "studies.plate.terms",
-            "9 cases cannot carry 12 terms",
+            "9 cases are too few for 12 terms",
         ),
         ({"load_n": 4000.0}, {}, "studies.plate.load_n", "at 5000 N, not at 4000 N"),
         ({"factors": FACTORS}, {}, "studies.plate.factors", "8,000,000 cases"),
@@ -128,7 +128,7 @@ def specimen(name="T0-1", material="cfrp"):
     ("specimens", "words"),
     [
         ([specimen("T" + "0a1b2c" * 50)], "301 characters"),
-        ([specimen("T-" + "0" * 30)], "follows itself"),
+        ([specimen("T-" + "0" * 30)], "repeated more than"),
         ([specimen(), specimen("T0-2", "CFRP")], "capital letters"),
     ],
     ids=["long", "periodic", "capitals"],

@@ -1,4 +1,4 @@
-"""Stored values are not believed after damage or an edit: solved again, or a clear error.
+"""Stored values that were damaged or edited are not believed: solved again, or a clear error.
 
 Most rows of the tables below were once accepted without a word; some ended in a traceback.
 """

@@ -1,4 +1,4 @@
-"""What decides a study's cases: a change of anything else must solve nothing anew."""
+"""What decides a study's cases: a change of anything else must not solve any case again."""
 
 import pytest
 
@@ -32,7 +32,7 @@ def test_only_what_a_solver_sees_decides_the_cases(change, decides):
     assert (before != after) is decides
 
 
-def test_the_definition_is_a_study_again_and_leaves_out_keys_that_exist():
+def test_the_definition_is_itself_a_study_and_leaves_out_only_keys_that_exist():
     study = Study(**STUDY, terms=["1", "c"])
     again = Study(**study.case_definition())
     assert again.case_definition() == study.case_definition()

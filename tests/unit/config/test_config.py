@@ -1,4 +1,4 @@
-"""A faulty configuration is refused in words that say where and what to do."""
+"""A faulty configuration is refused with a message that says where the fault is and what to do."""
 
 import copy
 from pathlib import Path
@@ -31,8 +31,8 @@ def changed(path, value):
         (["studies", 0, "levels"], [1], "studies.0.levels: unknown key"),
         (["studies", 0, "factors", 0, "level"], [1], "did you mean 'levels'?"),
         (["studies", 0, "factors", 0, "levels"], [10], "studies.0.factors.0.levels"),
-        (["studies", 0, "factors", 0, "levels"], [10, 10], "levels must grow and differ"),
-        (["studies", 0, "factors", 0, "levels"], [15, 10], "levels must grow and differ"),
+        (["studies", 0, "factors", 0, "levels"], [10, 10], "levels must increase"),
+        (["studies", 0, "factors", 0, "levels"], [15, 10], "levels must increase"),
         (["studies", 0, "factors", 0, "levels"], [10, "x"], "studies.0.factors.0.levels.1"),
         (["studies", 0, "factors", 0, "levels"], [1.0, float("nan")], "finite number"),
         (["studies", 0, "load_n"], -5, "studies.0.load_n"),
@@ -62,7 +62,7 @@ def test_each_fault_is_named_with_its_key(path, value, message):
     assert "config.yaml" in str(refusal.value)
 
 
-def test_all_faults_stand_in_one_message():
+def test_all_faults_are_in_one_message():
     config = changed(["studies", 0, "load_n"], -5)
     config["reprot"] = {}
     with pytest.raises(InputError) as refusal:
@@ -121,7 +121,7 @@ def test_single_spokes_have_no_surface():
     assert "fe_spoke" in str(refusal.value)
 
 
-def test_table_10_beside_tyres_is_refused():
+def test_table_10_for_a_study_of_tyres_is_refused():
     config = copy.deepcopy(DEFAULT)
     config["studies"][SPOKE] |= {"solvers": ["lca"], "fixed": {"shear_band_c10_mpa": 5}}
     config = read_config(config)
@@ -139,7 +139,7 @@ def test_table_10_beside_tyres_is_refused():
     ],
     ids=["without published", "of published", "of a spoke"],
 )
-def test_calibration_cases_that_nothing_compares_are_refused(name, change):
+def test_calibration_cases_that_are_never_compared_are_refused(name, change):
     config = copy.deepcopy(DEFAULT)
     next(study for study in config["studies"] if study["name"] == name).update(change)
     config = read_config(config)

@@ -25,7 +25,7 @@ PROGRAMS = {
 
 
 def follow(page: Path, tree: Path) -> None:
-    """Do in `tree`, a copy of the project, what `page` says."""
+    """Carry out in `tree`, a copy of the project, what `page` says."""
     printed = None
     blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
     assert blocks, f"{page} has no fenced blocks"
@@ -48,13 +48,13 @@ def write(path: Path, content: str) -> None:
 
 
 def edit(path: Path, diff: str) -> None:
-    """Apply the hunks of a diff, which lines ``@@`` part; each must fit one place."""
+    """Apply the hunks of a diff, separated by ``@@`` lines; each must fit exactly one place."""
     text = path.read_text(encoding="utf-8")
     for hunk in re.split(r"^@@.*\n", diff, flags=re.MULTILINE):
         lines = [line or " " for line in hunk.splitlines()]
         old = "".join(f"{line[1:]}\n" for line in lines if line[0] in " -")
         new = "".join(f"{line[1:]}\n" for line in lines if line[0] in " +")
-        assert old, f"a hunk of {path} has no line to find its place by:\n{hunk}"
+        assert old, f"a hunk of {path} has no line that shows where it belongs:\n{hunk}"
         assert text.count(old) == 1, f"{text.count(old)} places in {path} read:\n{old}"
         text = text.replace(old, new)
     path.write_text(text, encoding="utf-8")

@@ -27,7 +27,6 @@ def tree(tmp_path):
     leave = shutil.ignore_patterns("__pycache__", "*.egg-info")
     for name in ("config", "docs", "profiles", "raw_data", "workflow"):
         shutil.copytree(ROOT / name, tmp_path / name, ignore=leave)
-    shutil.copy(ROOT / "Snakefile", tmp_path)
     return tmp_path
 
 

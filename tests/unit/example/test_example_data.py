@@ -1,4 +1,4 @@
-"""The committed example data: what the seed gives, read back to the truth behind it."""
+"""The committed example data: what the seed gives, and the truth recovered from it."""
 
 from __future__ import annotations
 

@@ -117,7 +117,7 @@ def analysed(study, cases, solver="published"):
     surface = done.polynomials[solver]
     file = ROOT / study.published_coefficients
     published = by_powers(read_table(file, PublishedCoefficients), names)
-    quality = quality_table(study.name, done)
+    quality = quality_table(done)
     rules = ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed")
     impacts = impact_table(
         {study.name: {solver: surface}}, {study.name: cases[names]}, quality, rules, 0.8

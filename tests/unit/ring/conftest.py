@@ -1,7 +1,10 @@
 """An invented spoke whose energy is a formula, so that no finite element spoke is computed."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
+from scipy.stats import qmc
 
 from nptcs.config.fe import EnergyTableOptions
 from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit
@@ -48,3 +51,26 @@ def table():
 def even_table():
     """The same without a preferred side."""
     return invented_table(lean=0.0)
+
+
+@pytest.fixture(scope="session")
+def law():
+    """Invented spokes of other designs: rubber, and plates that stiffen one shape of the energy."""
+
+    def of(design, table):
+        plates, thickness, angle, c10 = design
+        share = plates * thickness**1.5 * (2.0 + np.cos(np.radians(2 * angle))) / 40.0
+        side = np.where(table.exponents[:, 1] + table.exponents[:, 2] > 0, share, 0.3 * share)
+        return replace(table, coefficients=table.coefficients * (c10 + c10**0.4 * side))
+
+    return of
+
+
+@pytest.fixture(scope="session")
+def designs():
+    """64 designs, spread over 11 to 22 plates, T, A and C10."""
+    points = qmc.Sobol(4, seed=2).random(64)
+    low, high = np.array([11, 1.2, 0, 1.0]), np.array([22, 2.4, 90, 5.0])
+    found = low + points * (high - low)
+    found[:, 0] = np.round(found[:, 0])
+    return found

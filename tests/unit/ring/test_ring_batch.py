@@ -5,7 +5,6 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 import pytest
-from scipy.stats import qmc
 
 from nptcs.config.ring import RingOptions
 from nptcs.config.tyre import TyreGeometry
@@ -96,29 +95,12 @@ def test_missing_columns_are_refused(named):
         solved([{"spoke": "invented", "shear_band_c10_mpa": 5.0}], named)
 
 
-def law(design, table):
-    """An invented spoke: rubber, and plates that stiffen one shape of the energy."""
-    plates, thickness, angle, c10 = design
-    share = plates * thickness**1.5 * (2.0 + np.cos(np.radians(2 * angle))) / 40.0
-    side = np.where(table.exponents[:, 1] + table.exponents[:, 2] > 0, share, 0.3 * share)
-    return replace(table, coefficients=table.coefficients * (c10 + c10**0.4 * side))
-
-
 @pytest.fixture(scope="module")
-def designs():
-    points = qmc.Sobol(4, seed=2).random(64)
-    low, high = np.array([11, 1.2, 0, 1.0]), np.array([22, 2.4, 90, 5.0])
-    found = low + points * (high - low)
-    found[:, 0] = np.round(found[:, 0])
-    return found
-
-
-@pytest.fixture(scope="module")
-def surrogate(designs, table):
+def surrogate(designs, table, law):
     return SpokeSurrogate(designs, [law(design, table) for design in designs], PUBLISHED_PLY)
 
 
-def test_a_left_out_spoke_is_predicted(surrogate, table):
+def test_a_left_out_spoke_is_predicted(surrogate, table, law):
     design = [16.0, 1.7, 40.0, 2.2]
     predicted, true = surrogate.predict(design).table, law(design, table)
     tyres = [ring_tyre(TYRE, spoke, 5.0, OPTIONS, kernel="numpy") for spoke in (predicted, true)]
@@ -126,7 +108,7 @@ def test_a_left_out_spoke_is_predicted(surrogate, table):
     assert rises[0] == pytest.approx(rises[1], rel=0.003)
 
 
-def test_a_known_spoke_comes_back_with_a_small_error(surrogate, designs, table):
+def test_a_known_spoke_comes_back_with_a_small_error(surrogate, designs, table, law):
     inside = surrogate.predict(designs[0])
     true = law(designs[0], table)
     scale = np.abs(true.coefficients).max()
@@ -181,7 +163,7 @@ def test_its_uncertainty_reaches_the_displacement(surrogate):
     assert error == pytest.approx(expected, rel=0.02, abs=1e-8)
 
 
-def test_it_names_the_spoke_that_would_help_most(surrogate, designs, table):
+def test_it_names_the_spoke_that_would_help_most(surrogate, designs, table, law):
     """With a corner of the box left empty, it asks for a spoke near that corner."""
     sparse = designs[~((designs[:, 2] > 55) & (designs[:, 3] > 2.5))]
     own = SpokeSurrogate(
@@ -194,7 +176,7 @@ def test_it_names_the_spoke_that_would_help_most(surrogate, designs, table):
     assert 0 < part < 1
 
 
-def test_too_few_or_unlike_tables_are_refused(designs, table):
+def test_too_few_or_unlike_tables_are_refused(designs, table, law):
     tables = [law(design, table) for design in designs]
     with pytest.raises(InputError, match="too few"):
         SpokeSurrogate(designs[:12], tables[:12], PUBLISHED_PLY)

@@ -76,7 +76,7 @@ def test_two_spacings_are_one_point_for_fe_tyre_and_two_for_published():
 
 def test_a_surface_in_the_realised_pitch_finds_the_true_coefficients():
     done = fit_study(table(), STUDY)
-    quality = quality_table("plate", done).set_index("solver")
+    quality = quality_table(done).set_index("solver")
 
     for surface in done.polynomials.values():
         np.testing.assert_allclose(surface.coefficients_natural, [400, -10, 0.1, 8], rtol=1e-8)
@@ -92,7 +92,7 @@ def test_impact_says_in_what_values_it_is_and_what_failed():
     impact = impact_table(
         {"plate": done.polynomials},
         {"plate": design},
-        quality_table("plate", done),
+        quality_table(done),
         ["domain_mean_signed"],
         0.8,
     )

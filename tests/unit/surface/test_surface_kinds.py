@@ -13,9 +13,10 @@ from nptcs.surface.comparison import directions, leave_one_level_out, leave_one_
 from nptcs.surface.diagnostics import influence
 from nptcs.surface.gaussian_process import fit_process
 from nptcs.surface.models import Cases, fit_model
+from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import predict
-from nptcs.surface.stored import dump_models, load_models
-from nptcs.surface.study import StudySurfaces
+from nptcs.surface.stored import dump_registry, load_registry
+from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
 from nptcs.surface.tables import comparison_tables
 from nptcs.tables.io import check
 from nptcs.tables.material_card import PUBLISHED_PLY
@@ -89,7 +90,8 @@ def test_leave_one_out_by_refits_equals_the_closed_form(fitted):
 @pytest.mark.parametrize("model", MODELS, ids=name_of)
 def test_a_stored_surface_of_any_kind_is_the_same(fitted, model):
     surface = fitted[name_of(model)]
-    again = load_models(dump_models({"s": {"m": surface}}))["s"]["m"]
+    fitted = FittedSurface("study", "s", "m", RESPONSE, surface)
+    again = load_registry(dump_registry(SurfaceRegistry("study", (fitted,)))).surfaces[0].surface
     x = surface.x[::5] * 0.99 + 0.01 * surface.x.mean(axis=0)
     np.testing.assert_allclose(again.predict(x), surface.predict(x), rtol=1e-12)
     for side, stored in zip(surface.interval(x), again.interval(x), strict=True):
@@ -193,10 +195,8 @@ def test_what_cannot_be_assessed_is_not_a_number():
         PolynomialModel(kind="polynomial"), Cases(x[:4], x[:4, 0] ** 3, ("x",), ["1", "x", "x^2"])
     )
     assert np.isnan(leave_one_out(few).error).all()
-    done = StudySurfaces(
-        {"s": {"polynomial": few}}, {"s": SOLVED}, {("s", "polynomial"): 0.0}, None
-    )
-    comparison, _ = comparison_tables("study", done)
+    done = StudySurfaces("study", (Fit("s", "polynomial", RESPONSE, few),), {"s": SOLVED}, None)
+    comparison, _ = comparison_tables(done)
     row = check(comparison, SurfaceComparison, "comparison").iloc[0]
     assert np.isnan(row["coverage_percent"])
     assert row["leave_one_out_not_fitted"] == 4

@@ -10,10 +10,12 @@ from collections.abc import Sequence
 
 from nptcs import __version__, commands
 from nptcs.errors import InputError
+from nptcs.threads import one_thread_per_process
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; bad input is one clear line and exit code 2."""
+    one_thread_per_process()
     chosen = build_parser().parse_args(arguments)
     try:
         code: int = chosen.run(chosen)

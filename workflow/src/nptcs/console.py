@@ -1,4 +1,4 @@
-"""What a script or a command says when the input is at fault."""
+"""What a script says when its input is at fault."""
 
 from __future__ import annotations
 

@@ -1,8 +1,8 @@
-"""Design tables: full factorial, numbered as tables 5 and 7 of the paper are, and others."""
+"""Design tables: full factorial, numbered like tables 5 and 7 of the paper, and other kinds."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from itertools import product
 from typing import assert_never
 
@@ -16,11 +16,13 @@ from nptcs.config.design import (
     DOptimal,
     FullFactorial,
     SpaceFilling,
+    SplitPlot,
 )
 from nptcs.config.study import Level, MeasuredRubber, Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.d_optimal import d_optimal
 from nptcs.doe.points import box_behnken, central_composite, space_filling
+from nptcs.doe.split_plot import split_plot
 from nptcs.doe.whole_plates import whole_plates
 from nptcs.errors import InputError
 from nptcs.terms import parse
@@ -41,19 +43,19 @@ def build_design(
     rubber_c10_mpa : mapping of str to float
         C10 of each tested rubber that a level or a fixed value names.
     tyre : TyreGeometry
-        Its width decides which spacings have a whole number of plates.
+        Its width decides which spacings give a whole number of plates.
 
     Returns
     -------
     DataFrame
-        ``case_id`` (``plate_017``), ``case`` (from 1), a column for each factor, then one for
+        ``case_id`` (``plate_017``), ``case`` (from 1), one column for each factor, then one for
         each fixed value.
 
     Raises
     ------
     InputError
-        When a level names a rubber that has no card, two levels of a factor coincide, tested
-        rubbers would have to be spread, or a design is not made for so many factors or cases.
+        When a level names a rubber that has no card, two levels of a factor coincide, the design
+        needs values between tested rubbers, or it does not suit the number of factors or cases.
     """
     levels = _levels(study, rubber_c10_mpa)
     design = study.design
@@ -68,6 +70,8 @@ def build_design(
             points = _between(study, levels, coded)
         case BoxBehnken():
             points = _between(study, levels, box_behnken(len(levels), design.centre_cases))
+        case SplitPlot():
+            points = _between(study, levels, _on_plots(list(levels), design), design.log_spaced)
         case DOptimal():
             points = _chosen(levels, design, tyre)
         case _:
@@ -86,7 +90,7 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
 
     The last factor of the configuration changes fastest, so that spacing × thickness × angle
     gives the numbering of table 5 and T-C × S-C that of table 7. Parameters, result and errors
-    as `build_design`.
+    are those of `build_design`.
 
     Examples
     --------
@@ -132,18 +136,39 @@ def _combinations(levels: Mapping[str, list[float]]) -> Array:
     return np.array(list(product(*levels.values())), dtype=float)
 
 
-def _between(study: Study, levels: Mapping[str, list[float]], coded: Array) -> Array:
+def _on_plots(factors: list[str], design: SplitPlot) -> Array:
+    """Coded points of a split-plot design, columns in the order of the factors."""
+    hard = [name for name in factors if name in design.hard_to_change]
+    easy = [name for name in factors if name not in design.hard_to_change]
+    coded = split_plot(
+        len(hard), len(easy), design.whole_plots, design.cases_per_plot, design.corners, design.seed
+    )
+    order = [*hard, *easy]
+    return coded[:, [order.index(name) for name in factors]]
+
+
+def _between(
+    study: Study,
+    levels: Mapping[str, list[float]],
+    coded: Array,
+    log_spaced: Sequence[str] = (),
+) -> Array:
     """Map coded points to the box between the lowest and the highest level of each factor."""
     for factor in study.factors:
         if any(isinstance(level, MeasuredRubber) for level in factor.levels):
             raise InputError(
-                "there are no rubbers between tested ones",
+                "this kind of design needs values between the levels, and there is no rubber "
+                "between tested ones",
                 column=f"studies.{study.name}.factors.{factor.name}",
                 value=study.design.kind,
                 remedy="use full_factorial or d_optimal, or give numbers as levels",
             )
     low, high = (np.array([side(values) for values in levels.values()]) for side in (min, max))
     points = (low + high) / 2 + coded * (high - low) / 2
+    for name in log_spaced:
+        axis = list(levels).index(name)
+        part = (coded[:, axis] + 1) / 2
+        points[:, axis] = low[axis] * (high[axis] / low[axis]) ** part
     rounded = [[float(f"{value:.{DIGITS}g}") for value in point] for point in points]
     return np.clip(np.array(rounded), low, high)
 

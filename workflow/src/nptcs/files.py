@@ -1,4 +1,4 @@
-"""Files written whole or not at all, and files known by their content."""
+"""Files written completely or not at all, and files identified by their content."""
 
 from __future__ import annotations
 
@@ -21,9 +21,9 @@ Model = TypeVar("Model", bound=BaseModel)
 
 @contextmanager
 def atomic_path(path: str | Path) -> Iterator[Path]:
-    """Give a temporary name next to `path`; rename it to `path` when the block ends well.
+    """Give a temporary name next to `path`; rename it to `path` when the block succeeds.
 
-    A reader sees the old file or the new one, never half of it, also after ``kill -9``.
+    A reader sees the old file or the new one, never half a file, even after ``kill -9``.
 
     Parameters
     ----------
@@ -56,7 +56,7 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         yield temporary
         with temporary.open("rb+") as stream:
             os.fsync(stream.fileno())
-        # mkstemp makes files private; results are as readable as any other file
+        # mkstemp makes files private; results are to be as readable as any other file
         umask = os.umask(0)
         os.umask(umask)
         temporary.chmod(0o666 & ~umask)
@@ -71,7 +71,7 @@ def write_text(path: str | Path, text: str) -> None:
         temporary.write_text(text, encoding="utf-8", newline="\n")
 
 
-REWRITE = "delete this file and run snakemake again; it is then written anew"
+REWRITE = "delete this file and run snakemake again; the run writes a new one"
 """Remedy for a file of ours that is damaged: Snakemake does not look into a file that is there."""
 
 
@@ -115,7 +115,7 @@ def read_stored(path: str | Path, kind: str) -> str:
         For a file that is missing or is not UTF-8.
     """
     if not Path(path).is_file():
-        remedy = "run snakemake again; it writes this file anew"
+        remedy = "run snakemake again; the run writes this file"
         raise InputError(f"this {kind} does not exist", remedy, file=path)
     try:
         return Path(path).read_text(encoding="utf-8")

@@ -9,20 +9,24 @@ import numpy as np
 from nptcs.arrays import Array
 
 
-def reduced_stiffness(ply: Mapping[str, float]) -> Array:
-    """Plane-stress stiffness Q (3, 3) of a ply in its fibre axes, MPa."""
-    e1, e2, nu12, g12 = ply["e1_mpa"], ply["e2_mpa"], ply["nu12"], ply["g12_mpa"]
-    scale = 1.0 / (1.0 - nu12**2 * e2 / e1)
-    return np.array(
-        [
-            [scale * e1, scale * nu12 * e2, 0.0],
-            [scale * nu12 * e2, scale * e2, 0.0],
-            [0.0, 0.0, g12],
-        ]
+def reduced_stiffness(ply: Mapping[str, float | Array]) -> Array:
+    """Plane-stress stiffness Q of a ply in its fibre axes, MPa.
+
+    Shape (3, 3); (m, 3, 3) where a constant has m values.
+    """
+    e1, e2, nu12, g12 = np.broadcast_arrays(
+        *(np.asarray(ply[name], dtype=float) for name in ("e1_mpa", "e2_mpa", "nu12", "g12_mpa"))
     )
+    scale = 1.0 / (1.0 - nu12**2 * e2 / e1)
+    stiffness = np.zeros((*e1.shape, 3, 3))
+    stiffness[..., 0, 0] = scale * e1
+    stiffness[..., 0, 1] = stiffness[..., 1, 0] = scale * nu12 * e2
+    stiffness[..., 1, 1] = scale * e2
+    stiffness[..., 2, 2] = g12
+    return stiffness
 
 
-def rotated_stiffness(ply: Mapping[str, float], angle_deg: float | Array) -> Array:
+def rotated_stiffness(ply: Mapping[str, float | Array], angle_deg: float | Array) -> Array:
     """Plane-stress stiffness Q̄ with the fibres at an angle from the plate's axis, MPa.
 
     Shape (3, 3) for one angle, (m, 3, 3) for m angles.
@@ -51,7 +55,9 @@ def transverse_shear(ply: Mapping[str, float], angle_deg: float) -> Array:
     return turn.T @ np.diag([ply["g13_mpa"], ply["g23_mpa"]]) @ turn
 
 
-def abd(ply: Mapping[str, float], angle_deg: float | Array, thickness_mm: float | Array) -> Array:
+def abd(
+    ply: Mapping[str, float | Array], angle_deg: float | Array, thickness_mm: float | Array
+) -> Array:
     """Laminate stiffness [[A, B], [B, D]] of [+A/-A]; the ply +A lies at z < 0.
 
     Shape (6, 6) for one plate, (m, 6, 6) for m angles and thicknesses. A in N/mm, B in N, D in

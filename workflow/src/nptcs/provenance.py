@@ -3,8 +3,8 @@
 The hash covers a script or module and all modules of this package that it imports, directly or
 not, also inside functions. It is taken of the compiled code without docstrings and line numbers,
 so that a changed comment, docstring or line break reruns nothing. Words that only a reader sees
-(messages of errors, descriptions of settings, the version of the package) do not count either, but
-for a page that prints them.
+(messages of errors, descriptions of settings, the version of the package) do not count either,
+except for pages that print them.
 """
 
 from __future__ import annotations
@@ -27,18 +27,18 @@ WORDS_OF_CALL: Mapping[str, frozenset[str]] = {
     "Solver": frozenset({"about"}),
     "SolverResult": frozenset({"message"}),
 }
-"""Keywords of a call that hold words for a reader, by the name of what is called."""
+"""Keyword arguments that hold words for a reader, by the name of what is called."""
 
 
 def code_hash(*modules: str, words: bool = False) -> str:
-    """Hash the code of modules and of all that they import from this package.
+    """Hash the code of modules and of everything that they import from this package.
 
     Parameters
     ----------
     *modules : str
         Dotted names of this package's modules, or paths of Python files.
     words : bool
-        Whether messages and descriptions count: for what prints them.
+        Whether messages and descriptions count: for code whose output shows them.
 
     Returns
     -------
@@ -52,7 +52,7 @@ def code_hash(*modules: str, words: bool = False) -> str:
 
 
 def imported_modules(*modules: str) -> set[str]:
-    """Name the modules of this package that `modules` depend on, themselves included."""
+    """Return the modules of this package that `modules` depend on, including themselves."""
     return {
         ".".join((PACKAGE, *file.relative_to(_ROOT).with_suffix("").parts)).removesuffix(
             ".__init__"
@@ -135,7 +135,7 @@ def code_digest(source: str, words: bool = False) -> str:
 
 
 class _WithoutWords(ast.NodeTransformer):
-    """Take from code the words that only a reader sees."""
+    """Remove the words that only a reader sees."""
 
     def visit_FunctionDef(self, node: ast.FunctionDef) -> ast.AST:
         return self.generic_visit(_without_docstring(node))
@@ -207,7 +207,7 @@ def _imports(tree: ast.Module) -> Iterator[str]:
 
 
 def _parts(constant: object) -> object:
-    """Take from compiled code all that decides what it does, in a form that prints the same."""
+    """Reduce compiled code to what decides what it does, in a form that always prints the same."""
     if isinstance(constant, CodeType):
         names = constant.co_names, constant.co_varnames, constant.co_freevars, constant.co_cellvars
         counts = constant.co_argcount, constant.co_posonlyargcount, constant.co_kwonlyargcount

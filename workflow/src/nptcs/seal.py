@@ -1,7 +1,7 @@
-"""Text that shows whether it is whole: it carries a checksum and its format's version.
+"""Text that can be checked for damage: it carries a checksum and the version of its format.
 
 A JSON object carries its seal under the key `SEAL`; a file with one JSON object per line carries it
-in its last line. A checksum protects against damage and careless edits, not against forgery.
+in its last line. The checksum protects against damage and careless edits, not against forgery.
 """
 
 from __future__ import annotations
@@ -17,18 +17,19 @@ SEAL = "_seal"
 FORMATS: Mapping[str, int] = {
     "CaseRecord": 1,
     "CaseRecords": 1,
+    "FittedSurfaces": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
-    "Models": 1,
     "PlyCard": 1,
     "RubberCard": 1,
+    "SpokeSurrogate": 1,
     "Surfaces": 1,
 }
 """Version of each format: raise it with any change of what the fields mean."""
 
 
 class BrokenSealError(ValueError):
-    """A text that is not what was written: damaged, edited, or of another format or version."""
+    """Not the text that was written: damaged, edited, or of another format or version."""
 
 
 def sealed_object(content: Mapping[str, Any], kind: str) -> str:
@@ -81,7 +82,7 @@ def open_object(text: str, kind: str, by_hand: bool = False) -> dict[str, Any]:
     Raises
     ------
     BrokenSealError
-        If it is no JSON object, has no seal, or the seal does not match.
+        If it is not a JSON object, has no seal, or the seal does not match.
     """
     content = _object(text)
     if by_hand and SEAL not in content:
@@ -95,7 +96,7 @@ def open_object(text: str, kind: str, by_hand: bool = False) -> dict[str, Any]:
 
 
 def sealed_lines(rows: Sequence[str], kind: str) -> str:
-    """Join JSON texts, one per line, and close them with a line that holds the seal.
+    """Join JSON texts, one per line, followed by a line that holds the seal.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""YAML of people: read without the aliases by which a small file can grow without bound."""
+"""YAML files of users, read without the aliases that let a small file grow without bound."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ LARGEST_BYTES = 1_000_000
 def read_yaml(path: str | Path) -> object:
     """Read a YAML file.
 
-    An alias inside an anchored collection is refused: ten lines of them make a billion items.
+    An alias inside an anchored collection is refused: ten lines of these make a billion items.
 
     Raises
     ------
@@ -36,7 +36,9 @@ def read_yaml(path: str | Path) -> object:
     except (yaml.YAMLError, RecursionError) as error:
         mark = getattr(error, "problem_mark", None)
         line = None if mark is None else mark.line + 1
-        raise InputError("is not YAML", "quote texts with special marks", path, line) from error
+        raise InputError(
+            "is not YAML", "put text with special characters in quotes", path, line
+        ) from error
 
 
 def _refuse_nested_aliases(text: str, path: Path) -> None:

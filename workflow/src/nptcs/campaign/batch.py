@@ -39,7 +39,7 @@ def solve_batch(
     store : RecordStore
         Cases that were solved before are taken from it, those solved now are kept in it.
     cores, tokens : int
-        What the batch was granted; they decide how many cases run at a time.
+        Cores and licence tokens that the batch was given; they decide how many cases run at a time.
 
     Returns
     -------
@@ -57,8 +57,8 @@ def solve_batch(
 def report_progress(record: CaseRecord, reused: bool, done: int, total: int) -> None:
     """Write one line per finished case to the log."""
     how = "known" if reused else f"{record.wall_time_s:.2f} s"
-    status, message = record.result.status.value, record.result.message
-    why = "" if status == "ok" else f": {message}"
+    status, message = record.result.status, record.result.message
+    why = "" if status.solved else f": {message}"
     print(
         f"{record.study}/{record.solver} {done}/{total} {record.case_id} {status} ({how}){why}",
         file=sys.stderr,

@@ -22,9 +22,9 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
     -------
     DataFrame
         ``study, case_id, solver, status, message``, the factors and fixed values of all studies,
-        ``load_n``, ``realised_FACTOR`` for each factor of which a solver reports the value that it
-        really used (empty: the given one), the responses, what else solvers report, and where each
-        row came from.
+        ``load_n``, ``realised_FACTOR`` for each factor for which a solver reports the value that it
+        actually used (empty: the given one), the responses, whatever else solvers report, and where
+        each row came from.
     """
     values = list(dict.fromkeys(name for record in records for name in record.values))
     extra = list(dict.fromkeys(name for record in records for name in record.result.extra))

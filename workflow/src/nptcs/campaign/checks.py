@@ -30,7 +30,7 @@ def study_faults(config: Config) -> list[InputError]:
     list of InputError
         Each with the key at fault and a remedy: faults of `check_study`, more cases than
         ``campaign.most_cases``, more batches than cases, terms that the levels cannot tell apart,
-        a load that a solver cannot answer.
+        a load at which a solver has no result.
     """
     return [fault for study in config.studies for fault in _faults(study, config)]
 
@@ -60,8 +60,8 @@ def _faults(study: Study, config: Config) -> Iterator[InputError]:
     if cases > config.campaign.most_cases:
         yield InputError(
             f"study {study.name} has {cases:,} cases by {len(study.solvers)} solvers; a run solves "
-            f"at most {config.campaign.most_cases:,} of a study without being asked to",
-            "take fewer levels, or raise the key campaign.most_cases",
+            f"at most {config.campaign.most_cases:,} of a study unless told otherwise",
+            "use fewer levels, or raise the key campaign.most_cases",
             column=f"studies.{study.name}.factors",
         )
         return
@@ -100,8 +100,8 @@ def _check_terms(study: Study, options: Mapping[str, Any], tyre: TyreGeometry) -
     key = f"studies.{study.name}.terms"
     if len(x) <= len(polynomial):
         raise InputError(
-            f"{len(x)} cases cannot carry {len(polynomial)} terms",
-            "add levels or take fewer terms",
+            f"{len(x)} cases are too few for {len(polynomial)} terms",
+            "add levels, or use fewer terms",
             column=key,
         )
     middle, half = (x.max(axis=0) + x.min(axis=0)) / 2, (x.max(axis=0) - x.min(axis=0)) / 2
@@ -123,7 +123,7 @@ def _numbered(factor: Factor) -> Factor:
 def _check_loads(
     study: Study, options: Mapping[str, Mapping[str, Any]], tyre: TyreGeometry
 ) -> None:
-    """Refuse a load that one of the solvers cannot answer in any case."""
+    """Refuse a load at which one of the solvers can solve no case."""
     for solver, checked in solvers_of(study, options):
         reason = checked.load_fault(study.load_n) if solver.loads_tyre else ""
         if reason:
@@ -136,7 +136,7 @@ def _check_loads(
 
 
 def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputError]:
-    """Find names that cannot be file names of the run, or that two things would share."""
+    """Find names that cannot be used as file names, or that two things would share."""
     names = {
         "specimen": sorted({specimen.specimen for specimen in specimens}),
         "material": sorted({specimen.material for specimen in specimens}),
@@ -149,15 +149,15 @@ def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputErro
 
 
 def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:
-    """Find names that differ by capital letters alone: specimens so named are refused as rows."""
+    """Find names that differ only in capital letters; specimens so named are refused row by row."""
     folded = [name.casefold() for name in names]
     same = [name for name in names if folded.count(name.casefold()) > 1]
     if not same:
         return []
     return [
         InputError(
-            "these names differ by capital letters alone; on Windows and macOS their files are one",
-            "write them alike, or choose names that differ",
+            "these names differ only in capital letters, which Windows and macOS ignore",
+            "spell them the same way, or choose different names",
             column=kind,
             value=", ".join(same),
         )
@@ -167,7 +167,7 @@ def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:
 def _unfit(kind: str, name: str) -> InputError:
     return InputError(
         f"this name is too long for a file ({len(name)} characters, at most {LONGEST_NAME}), or a "
-        f"piece of it follows itself more than {MOST_REPEATS} times",
+        f"piece of it is repeated more than {MOST_REPEATS} times in a row",
         "shorten it",
         column=kind,
         value=name if len(name) < 40 else f"{name[:39]}…",
@@ -175,14 +175,14 @@ def _unfit(kind: str, name: str) -> InputError:
 
 
 LONGEST_NAME = 100
-"""Characters of a name; file systems take 255 of a file name, which holds more than the name."""
+"""Characters of a name; file systems allow 255 in a file name, which holds more than this name."""
 
 MOST_REPEATS = 15
-"""Times that a piece of a name may follow itself; Snakemake refuses 20 as endless."""
+"""Times that a piece of a name may be repeated in a row; Snakemake refuses 20 as endless."""
 
 
 def repeats(name: str) -> bool:
-    """Tell whether a piece of a name follows itself more often than `MOST_REPEATS`.
+    """Tell whether a piece of a name is repeated in a row more often than `MOST_REPEATS`.
 
     Examples
     --------

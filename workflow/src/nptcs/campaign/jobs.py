@@ -22,7 +22,7 @@ def make_jobs(
     design: pd.DataFrame,
     ply: Mapping[str, float] | None,
 ) -> list[CaseJob]:
-    """Join the cases of a study with all that a solver may look at.
+    """Join the cases of a study with everything that a solver may look at.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a run would solve: cases, those that are known, and what earlier cases took."""
+"""What a run would solve: how many cases, how many of them are known, and what they will cost."""
 
 from __future__ import annotations
 
@@ -20,12 +20,12 @@ from nptcs.files import read_model
 from nptcs.tables.material_card import MaterialCard
 
 SAMPLE = 300
-"""Stored records that are looked at for what a case takes."""
+"""Newest stored records from which the cost of a case is estimated."""
 
 
 @dataclass(frozen=True)
 class Costs:
-    """What solved cases of one solver took, in the middle of those that are stored."""
+    """Median cost of the stored cases of one solver."""
 
     seconds: float
     memory_mb: float | None
@@ -33,7 +33,7 @@ class Costs:
 
 
 def costs_by_solver(store: RecordStore) -> dict[str, Costs]:
-    """Return what a case takes by solver, from the newest records of a store."""
+    """Return the cost of a case by solver, from the newest records of a store."""
     files = sorted(store.folder.glob("??/*.json"), key=lambda file: -file.stat().st_mtime)
     found: dict[str, list[tuple[CaseRecord, float]]] = {}
     for file in islice(files, SAMPLE):
@@ -79,7 +79,7 @@ def known_cases(
 
 
 def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
-    """Say in words what a run would solve, one line per study and solver, and the disk space.
+    """Describe what a run would solve: one line per study and solver, and the disk space.
 
     Parameters
     ----------

@@ -13,14 +13,14 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from nptcs.errors import InputError
 from nptcs.files import REWRITE, read_model, read_stored, sha256_of_text, write_model, write_text
 from nptcs.seal import BrokenSealError, open_lines, sealed_lines
-from nptcs.solvers.contract import SolverResult, Status, missing_responses
+from nptcs.solvers.contract import SolverResult, missing_responses
 
 
 class CaseJob(BaseModel):
     """One case as it is handed to a solver's process.
 
-    All that decides the result is in here, and nothing else is but the case's name and the time
-    limit; `key` is made of it.
+    It holds everything that decides the result, and besides that only the case's name and its time
+    limit. `key` is made from it.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -41,7 +41,7 @@ class CaseJob(BaseModel):
 
     @property
     def key(self) -> str:
-        """The content address: the same key, the same result."""
+        """The content address: cases with the same key have the same result."""
         content = self.model_dump(exclude={"study", "case_id", "module", "without_effect"})
         for name in self.without_effect:
             content["options"].pop(name, None)
@@ -117,13 +117,13 @@ class RecordStore:
             record = read_model(self.path(job.key), CaseRecord)
         except (OSError, InputError):
             return None
-        if record.key != job.key or record.result.status != Status.OK:
+        if record.key != job.key or not record.result.status.solved:
             return None
         return record.model_copy(update={"study": job.study, "case_id": job.case_id})
 
     def write(self, record: CaseRecord) -> None:
-        """Keep a solved case; one that failed is not kept, so that it is tried again."""
-        if record.result.status == Status.OK:
+        """Keep a solved case; a failed one is not kept, so that it can be tried again."""
+        if record.result.status.solved:
             write_model(self.path(record.key), record)
 
 

@@ -18,13 +18,13 @@ from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
 from nptcs.solvers.contract import SolverResult, Status
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-"""Set to 1 for every case: cases run side by side, and threads that wait for a core cost time."""
+"""Set to 1 for every case: cases run side by side, and threads waiting for a core cost time."""
 
 KILL_AFTER_S = 2.0
 """Grace between the polite and the final signal to a case that is out of time."""
 
 SENT_FROM_OUTSIDE = frozenset({signal.SIGKILL, signal.SIGTERM, signal.SIGINT, signal.SIGHUP})
-"""Signals that no case sends to itself: a user, the queue or the kernel (out of memory) did."""
+"""Signals that come from outside a case: a user, the queue, or the kernel when memory runs out."""
 
 Progress = Callable[[CaseRecord, bool, int, int], None]
 """Called with the record, whether it was reused, how many are done, how many there are."""
@@ -123,7 +123,7 @@ def _start(job: CaseJob) -> _Running:
 
 
 def _ended(running: dict[int, _Running]) -> list[int]:
-    """Wait until a case has sent its result, died or run out of time; name all that have."""
+    """Wait until a case has sent its result, died or run out of time; return all such cases."""
     now = time.monotonic()
     left = min(case.started + case.job.timeout_s - now for case in running.values())
     ready = wait([case.channel for case in running.values()], timeout=max(0.0, left))
@@ -156,7 +156,7 @@ def _collect(case: _Running) -> Outcome:
 
 
 def _cause_of_death(exit_code: int | None) -> str:
-    """Say in words how a process ended that sent no result."""
+    """Describe how a process ended that sent no result."""
     if exit_code is not None and exit_code < 0:
         return f"the solver's process was killed by signal {signal.Signals(-exit_code).name}"
     return f"the solver's process ended without a result (exit code {exit_code})"
@@ -176,7 +176,7 @@ def _stop(process: BaseProcess) -> None:
 
 @contextmanager
 def _one_thread() -> Iterator[None]:
-    """Let the fork server, which the first case starts, hand one thread to numerical libraries."""
+    """Limit numerical libraries to one thread in the fork server, which the first case starts."""
     before = {name: os.environ.get(name) for name in THREAD_LIMITS}
     os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
     try:
@@ -194,7 +194,7 @@ def _without_main_file() -> Iterator[None]:
     """Keep a new process from running the caller's main script a second time.
 
     multiprocessing imports the parent's ``__main__`` in each child when it has a file. Here that
-    may be a Snakemake script, and the worker needs nothing of it.
+    may be a Snakemake script, and the worker needs nothing from it.
     """
     main = sys.modules["__main__"]
     file = main.__dict__.pop("__file__", None)

@@ -1,4 +1,4 @@
-"""How many cases of a batch run side by side, and what they take together."""
+"""How many cases of a batch run side by side, and what they need together."""
 
 from __future__ import annotations
 

@@ -11,18 +11,14 @@ from pathlib import Path
 
 from nptcs.campaign.record import CaseRecord
 from nptcs.files import write_text
-from nptcs.solvers.contract import Status
-
-OUTSIDE_THE_CASE = frozenset({Status.TIMEOUT, Status.LICENCE})
-"""Ends that may be another one next time, with the same case."""
 
 
 def ended_from_outside(record: CaseRecord) -> bool:
-    """Tell whether a case was killed, ran out of memory or time, or got no licence.
+    """Tell whether a case was killed, ran out of memory or time, or did not get a licence.
 
     Such a case is tried again by the next run; one that a solver gave up on is not.
     """
-    return record.result.died or record.result.status in OUTSIDE_THE_CASE
+    return record.result.died or record.result.status.from_outside
 
 
 def tries_file(batch: str | Path) -> Path:
@@ -31,7 +27,7 @@ def tries_file(batch: str | Path) -> Path:
 
 
 def read_tries(batch: str | Path) -> int:
-    """Return how often a batch was to be tried again; 0 without a readable file."""
+    """Return how often a batch has been marked to be tried again; 0 without a readable file."""
     try:
         return int(tries_file(batch).read_text(encoding="utf-8"))
     except (OSError, ValueError):
@@ -44,6 +40,6 @@ def try_again(batch: str | Path) -> None:
 
 
 def note_ends(batch: str | Path, records: Sequence[CaseRecord]) -> None:
-    """Let the next run try again what ended for a reason outside the cases of a batch."""
+    """Let the next run try the cases of a batch again that ended for a reason outside them."""
     if any(map(ended_from_outside, records)):
         try_again(batch)

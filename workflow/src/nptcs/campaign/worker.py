@@ -40,7 +40,7 @@ def solve(job: CaseJob) -> SolverResult:
                 status=Status.ERROR,
                 message=f"solver '{solver.name}' says ok but gives no {', '.join(missing)}",
             )
-        if solver.realise is not None and result.status == Status.OK:
+        if solver.realise is not None and result.status.solved:
             realised = solver.realise(inputs.values, inputs.tyre)
             result.realised = {**realised, **result.realised}
         return result
@@ -77,7 +77,7 @@ def _leave(number: int, frame: FrameType | None) -> None:
 
 
 def _leave_with_parent() -> None:
-    """End this process when the campaign that started it is gone, however it went."""
+    """End this process when the campaign that started it is gone, however that ended."""
     parent = parent_process()
     if parent is not None:
         parent.join()

@@ -1,4 +1,4 @@
-"""``nptcs augment``: propose further cases of a study where a surface is least sure."""
+"""``nptcs augment``: propose further cases of a study where a surface is least certain."""
 
 from __future__ import annotations
 
@@ -11,12 +11,13 @@ def register(subparsers: Any) -> None:
     """Declare the arguments."""
     parser = subparsers.add_parser(
         "augment",
-        help="propose further cases where a surface is least sure",
-        description="Prints cases for `further_cases` of the study, each where the prediction "
-        "interval is widest after those before it. The study must have been run.",
+        help="propose further cases where a surface is least certain",
+        description="Prints cases for the key `further_cases` of the study, each where the "
+        "prediction interval is widest once the cases before it are added. The study must have "
+        "been run.",
     )
     parser.add_argument("study", help="name of the study")
-    parser.add_argument("--solver", required=True, help="solver whose surface is looked at")
+    parser.add_argument("--solver", required=True, help="solver whose surface is used")
     parser.add_argument("--surface", default="polynomial", help="its name; default: %(default)s")
     parser.add_argument("--cases", type=int, default=5, help="how many; default: %(default)s")
     parser.add_argument("--config", default="config/config.yaml", help="default: %(default)s")
@@ -27,7 +28,9 @@ def register(subparsers: Any) -> None:
         help="folder of the fitted surfaces; default: %(default)s",
     )
     parser.add_argument(
-        "--whole-plates", action="store_true", help="only spacings with a whole number of plates"
+        "--whole-plates",
+        action="store_true",
+        help="only spacings at which a spoke has a whole number of plates",
     )
     parser.set_defaults(run=run)
 

@@ -24,7 +24,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print what is planned, or every fault; exit code 2 for the studies, 1 for the sheet."""
+    """Print what is planned, or every fault; exit code 2 for faults of studies, 1 for the sheet."""
     from nptcs.calibrate.plan import check_materials
     from nptcs.campaign.checks import name_faults, study_faults
     from nptcs.campaign.plan import plan_lines

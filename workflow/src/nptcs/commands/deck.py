@@ -82,7 +82,7 @@ def _calculix(inputs: CaseInputs) -> str:
 
 
 def _inputs(arguments: argparse.Namespace) -> CaseInputs:
-    """Collect what a solver is given for the case."""
+    """Collect what the solver is given for the case."""
     from nptcs.solvers.contract import CaseInputs
     from nptcs.solvers.registry import MODULES, load, read_options
 

@@ -66,7 +66,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--ring",
         choices=get_args(RingKind),
         default="converged",
-        help="ring of the tyres; the section makes up for it and belongs to it (default: "
+        help="ring of the tyres; the fitted section is valid only with this ring (default: "
         "%(default)s)",
     )
     parser.add_argument(

@@ -30,7 +30,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--section",
         choices=("sandwich", "printed"),
         default="sandwich",
-        help="section of the shear band: the physical one, or the one that the paper prints",
+        help="section of the shear band: the physical one, or the one printed in the paper",
     )
     parser.add_argument(
         "--plot", metavar="FIGURE", help="draw the deformed ring of one row (.svg, .png or .pdf)"

@@ -1,4 +1,4 @@
-"""``nptcs retry``: let the next run solve failed cases again, whatever they failed of."""
+"""``nptcs retry``: let the next run solve failed cases again, whatever made them fail."""
 
 from __future__ import annotations
 
@@ -11,8 +11,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = subparsers.add_parser(
         "retry",
         help="let the next run solve failed cases again",
-        description="Cases that were killed, ran out of memory or time or got no licence are "
-        "tried again by every run. This command adds those on which a solver gave up.",
+        description="Cases that were killed, ran out of memory or time, or did not get a licence "
+        "are tried again by every run. This command adds those on which a solver gave up.",
     )
     parser.add_argument("studies", nargs="*", metavar="STUDY", help="default: all studies")
     parser.add_argument(
@@ -22,18 +22,17 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Mark the batches that hold failed cases, and say how many there are."""
+    """Mark the batches that hold failed cases, and print how many such cases there are."""
     from nptcs.campaign.record import read_records
     from nptcs.campaign.tries import try_again
     from nptcs.errors import InputError
-    from nptcs.solvers.contract import Status
 
     solved = Path(arguments.results) / "5_solve"
     batches = sorted(solved.glob("*/*/batch_*.jsonl"))
     present = {batch.parts[-3] for batch in batches}
     if unknown := sorted(set(arguments.studies) - present):
         raise InputError(
-            "no batch of this study was solved",
+            "no cases of this study have been solved",
             f"name one of {', '.join(sorted(present)) or 'none'}",
             file=solved,
             value=", ".join(unknown),
@@ -42,7 +41,7 @@ def run(arguments: argparse.Namespace) -> int:
     for batch in batches:
         if arguments.studies and batch.parts[-3] not in arguments.studies:
             continue
-        bad = [r for r in read_records([str(batch)]) if r.result.status != Status.OK]
+        bad = [r for r in read_records([str(batch)]) if not r.result.status.solved]
         if bad:
             try_again(batch)
         failed += len(bad)

@@ -1,4 +1,4 @@
-"""Published coefficients of a response surface by the powers of their terms: tables 6 and 8."""
+"""Published coefficients of a response surface by the powers of their terms (tables 6 and 8)."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """The load-bearing model compared with table 11, the loads of figure 15 and table 7's FE values.
 
-Published numbers come in as tables. Of figure 15's FE results the paper prints no numbers but the
-largest error of its model at each load, so away from table 11's load ours can be compared with that
+Published numbers come in as tables. For figure 15's FE results the paper prints only the largest
+error of its model at each load, so away from table 11's load our results can be compared with that
 error only.
 """
 

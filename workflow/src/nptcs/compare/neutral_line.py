@@ -18,7 +18,7 @@ def case_ids(designs: Sequence[pd.DataFrame], numbers: Sequence[Collection[int]]
     designs : sequence of DataFrame
         `nptcs.tables.cases.Design` of each study.
     numbers : sequence of a collection of int
-        Numbers of the cases in the same order of studies.
+        Numbers of the cases, in the same order of studies.
     """
     return {
         str(case_id)

@@ -22,7 +22,7 @@ from nptcs.tables.published_stiffness import (
 
 @dataclass(frozen=True)
 class Comparison:
-    """What the comparison must know of a study.
+    """What the comparison must know about a study.
 
     Parameters
     ----------
@@ -81,7 +81,7 @@ def _one_solver(cases: pd.DataFrame, comparison: Comparison, solver: str) -> pd.
 
 
 def stiffness_errors(table: pd.DataFrame) -> pd.DataFrame:
-    """Sum the differences of `StiffnessAgainstPublished` up, as `StiffnessErrors`."""
+    """Summarise the differences of `StiffnessAgainstPublished`, as `StiffnessErrors`."""
     rows = []
     groups = table.groupby(["study", "solver", "used_for_calibration"], sort=False)
     for (study, solver, calibrated), cases in groups:

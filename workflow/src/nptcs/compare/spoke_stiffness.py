@@ -22,7 +22,7 @@ def spoke_curves(records: Sequence[CaseRecord]) -> pd.DataFrame:
             }
         )
         for record in records
-        if record.result.status == "ok"
+        if record.result.status.solved
     ]
     columns = list(SpokeCurves.to_schema().columns)
     return pd.concat(tables)[columns] if tables else pd.DataFrame(columns=columns)
@@ -62,7 +62,7 @@ def _line(record: CaseRecord, published: pd.DataFrame | None) -> dict[str, objec
         "status": record.result.status.value,
     }
     table_10 = _published_row(published, record.values["spoke_c10_mpa"])
-    reported = record.result.extra if record.result.status == "ok" else {}
+    reported = record.result.extra if record.result.status.solved else {}
     for direction in DIRECTIONS:
         stiffness = f"{direction}_stiffness_n_per_mm"
         row[f"published_{stiffness}"] = table_10.get(stiffness, np.nan)

@@ -7,9 +7,11 @@ import pandera.pandas as pa
 
 from nptcs.compare.coefficients import by_powers
 from nptcs.config.study import Study
+from nptcs.surface.response_tables import response_surfaces
 from nptcs.surface.study import StudySurfaces
 from nptcs.surface.tables import comparison_tables, quality_table, surface_table
 from nptcs.tables.problems import Problems
+from nptcs.tables.response_surfaces import ResponseSurfaces
 from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
 
 Checked = tuple[pd.DataFrame, type[pa.DataFrameModel]]
@@ -29,14 +31,15 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
     Returns
     -------
     dict
-        ``table``, ``quality``, ``comparison``, ``by_factor`` and ``problems``.
+        ``table``, ``quality``, ``comparison``, ``by_factor``, ``responses`` and ``problems``.
     """
     factors = [factor.name for factor in study.factors]
-    comparison, by_factor = comparison_tables(study.name, done)
+    comparison, by_factor = comparison_tables(done)
     return {
         "table": (surface_table(done.polynomials, by_powers(published, factors)), SurfaceTable),
-        "quality": (quality_table(study.name, done), SurfaceQuality),
+        "quality": (quality_table(done), SurfaceQuality),
         "comparison": (comparison, SurfaceComparison),
         "by_factor": (by_factor, SurfaceByFactor),
+        "responses": (response_surfaces(done), ResponseSurfaces),
         "problems": (done.problems, Problems),
     }

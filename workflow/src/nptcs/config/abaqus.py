@@ -39,7 +39,7 @@ class AbaqusMesh(Strict):
 
 
 class AbaqusModel(Strict):
-    """Everything in the Abaqus model that is the same for all cases."""
+    """Options of the Abaqus model that are the same for all cases."""
 
     geometry: LayerlessGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     mesh: AbaqusMesh = Field(default_factory=AbaqusMesh, description="Mesh of the whole tyre")

@@ -20,24 +20,26 @@ class SpaceFilling(Strict):
     """Cases spread over the box between the lowest and highest level of each factor."""
 
     kind: Literal["latin_hypercube", "sobol"] = Field(
-        description="latin_hypercube: each factor's range is covered evenly, points far apart; "
+        description="latin_hypercube: covers each factor's range evenly with points far apart; "
         "sobol: a scrambled Sobol sequence, best with a power of two"
     )
     cases: int = Field(ge=2, description="Number of cases")
-    seed: int = Field(1, ge=0, description="Of the random numbers: the same seed, the same cases")
+    seed: int = Field(
+        1, ge=0, description="Seed of the random numbers: the same seed gives the same cases"
+    )
     whole_plates: bool = Field(
         False, description="Move each spacing to the nearest one with a whole number of plates"
     )
 
 
 class CentralComposite(Strict):
-    """Corners, axial cases and centre: second-order polynomials in few cases."""
+    """Corners, axial cases and centre: few cases that determine a second-order polynomial."""
 
     kind: Literal["central_composite"]
     axial: Literal["face", "inscribed"] = Field(
         "face",
         description="face: axial cases in the middle of the box's faces, corners in its corners; "
-        "inscribed: axial cases there, corners drawn in until the design is rotatable",
+        "inscribed: axial cases there too, and corners moved inwards until the design is rotatable",
     )
     centre_cases: int = Field(
         1, ge=1, description="Cases at the centre; more than one only for results with noise"
@@ -48,7 +50,7 @@ class CentralComposite(Strict):
 
 
 class BoxBehnken(Strict):
-    """Middles of the box's edges, and the centre: no case in a corner. Three to five factors."""
+    """Middles of the box's edges, and the centre; no case in a corner. Three to five factors."""
 
     kind: Literal["box_behnken"]
     centre_cases: int = Field(
@@ -60,25 +62,58 @@ class BoxBehnken(Strict):
 
 
 class DOptimal(Strict):
-    """The cases among all combinations of the levels that determine the study's terms best."""
+    """Those of all combinations of the levels that determine the given terms best."""
 
     kind: Literal["d_optimal"]
-    cases: int = Field(ge=2, description="Number of cases, more than the study has terms")
+    cases: int = Field(ge=2, description="Number of cases, at least the number of `terms`")
     terms: tuple[str, ...] = Field(
-        min_length=1, description="Terms that the cases must determine, as in `terms` of the study"
+        min_length=1,
+        description="Terms that the cases must determine, written as in `terms` of the study",
     )
-    starts: int = Field(20, ge=1, description="Random starts of the exchange")
+    starts: int = Field(20, ge=1, description="Number of random starts of the exchange")
+    seed: int = Field(
+        1, ge=0, description="Seed of the random numbers: the same seed gives the same cases"
+    )
+    whole_plates: bool = Field(
+        False,
+        description="Move the spacing of each candidate to the nearest one "
+        "with a whole number of plates",
+    )
+
+
+class SplitPlot(Strict):
+    """Several cases on each of many values of the factors that are costly to change.
+
+    For the solver `ring`: a spoke costs seconds, a ring on it milliseconds.
+    """
+
+    kind: Literal["split_plot"]
+    hard_to_change: tuple[str, ...] = Field(
+        min_length=1,
+        description="Factors that are costly to change, e.g. spacing, thickness, angle and rubber "
+        "of the spokes; the others vary on each whole plot",
+    )
+    whole_plots: int = Field(
+        ge=2, description="How many values of the factors that are costly to change"
+    )
+    cases_per_plot: int = Field(ge=2, description="Cases on each of them")
+    corners: bool = Field(
+        True, description="Corners of the box of the costly factors are among the whole plots"
+    )
+    log_spaced: tuple[str, ...] = Field(
+        (), description="Factors that are spread evenly in their logarithm, such as moduli"
+    )
     seed: int = Field(1, ge=0, description="Of the random numbers: the same seed, the same cases")
     whole_plates: bool = Field(
-        False, description="Candidates have the nearest spacing with a whole number of plates"
+        False, description="Move each spacing to the nearest one with a whole number of plates"
     )
 
 
 Design = Annotated[
-    FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal,
+    FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal | SplitPlot,
     Field(discriminator="kind"),
 ]
-AnyDesign = FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal
+AnyDesign = FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal | SplitPlot
 
 
 def number_of_cases(design: AnyDesign, levels: list[int]) -> int:
@@ -89,6 +124,8 @@ def number_of_cases(design: AnyDesign, levels: list[int]) -> int:
             return prod(levels)
         case SpaceFilling() | DOptimal():
             return design.cases
+        case SplitPlot():
+            return design.whole_plots * design.cases_per_plot
         case CentralComposite():
             return int(2**factors) + 2 * factors + design.centre_cases
         case BoxBehnken():

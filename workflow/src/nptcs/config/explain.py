@@ -1,4 +1,4 @@
-"""Faults in a configuration, in words that a user can act on."""
+"""Faults in a configuration, described so that a user can act on them."""
 
 from __future__ import annotations
 

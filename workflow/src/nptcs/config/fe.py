@@ -199,7 +199,7 @@ class TyreMesh(Strict):
         gt=0,
         le=0.2,
         description="Depth of the rows of elements that the wires bend in; it takes its part from "
-        "the rubber between the wires, which shears the less, so it must stay thin",
+        "the rubber between the wires, which then shears less, so it must stay thin",
     )
     first_spoke_deg: float = Field(
         0.0, description="Angle of a spoke's feet from the middle of the contact"
@@ -269,7 +269,7 @@ SECTIONS: Mapping[RingKind, SpokeGeometry] = {
 
 
 class FeSpokeModel(Strict):
-    """What a single spoke depends on and does not vary from case to case."""
+    """What a single spoke depends on that does not vary from case to case."""
 
     ring: RingKind = Field(
         "converged",
@@ -280,7 +280,8 @@ class FeSpokeModel(Strict):
     )
     geometry: SpokeGeometry = Field(
         default_factory=SpokeGeometry,
-        description="The spoke; what is not given is that of the section calibrated with `ring`",
+        description="The spoke; a dimension that is not given is that of the section calibrated "
+        "with `ring`",
     )
     spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
     plate_coupling: PlateCoupling = Field(
@@ -326,11 +327,11 @@ class FeSpokeModel(Strict):
 AXIAL_BULK_TO_SHEAR = 10.0
 """κ/2C10 with which a ring in plane strain is as soft as one 215 mm wide with free edges: a slice
 of bricks, whose wires are stiff along the circumference only, is 0.4 to 0.9 % softer on ground with
-the friction of 0.3 than a ring held along its axis (docs/methods/fe.md)."""
+the friction of 0.3 than a ring held along its axis (docs/methods/fe-theory.md)."""
 
 
 class FeModel(FeSpokeModel):
-    """Everything of the finite element route that does not vary from case to case."""
+    """All parts of the finite element route that do not vary from case to case."""
 
     axial: AxialFreedom = Field(
         "free_edges",

@@ -1,4 +1,4 @@
-"""What is reported of every solved tyre, beyond the stiffness at the load of its case."""
+"""What is reported for every solved tyre, beyond the stiffness at the load of its case."""
 
 from __future__ import annotations
 
@@ -25,6 +25,13 @@ class TyreResponseSettings(Strict):
         gt=0,
         description="Density of the plates; without it their mass is not assessed. Carbon fibre "
         "with epoxy has about 1550",
+    )
+
+    plate_price_per_kg: float | None = Field(
+        None,
+        gt=0,
+        description="Price of the plates by mass, in any currency; without it their cost is not "
+        "assessed",
     )
 
     @field_validator("loads_n", "displacements_mm")

@@ -33,7 +33,7 @@ class RingMesh(Strict):
 
 
 class RingOptions(Strict):
-    """What the ring is besides the tyre's dimensions, its rubbers and its spokes."""
+    """Options of the ring beyond the tyre's dimensions, its rubbers and its spokes."""
 
     mesh: RingMesh = Field(default_factory=RingMesh, description="Elements of the ring")
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
@@ -61,7 +61,7 @@ class RingOptions(Strict):
 
 
 class RingModel(FeSpokeModel, RingOptions):
-    """Everything of the ring and of the finite element spokes under it that no case varies."""
+    """Options of the ring and of its finite element spokes that are the same for all cases."""
 
     ring: Literal["converged"] = Field(
         "converged", description="Section of the spoke: the one calibrated with the converged ring"

@@ -1,4 +1,4 @@
-"""The whole configuration, and its errors in words that a user can act on."""
+"""The whole configuration, and its errors described so that a user can act on them."""
 
 from __future__ import annotations
 
@@ -45,6 +45,18 @@ class Campaign(Strict):
         le=1000,
         description="Jobs into which each solver's cases of a study are divided (for clusters)",
     )
+    minutes_per_batch: float | None = Field(
+        None,
+        gt=0,
+        description="Divide the cases into jobs that usually take about this long, by the `case_s` "
+        "of their solver, instead of into `batches` jobs",
+    )
+    queue_licence: str = Field(
+        "",
+        pattern=r"^[A-Za-z0-9_@.-]*$",
+        description="Name under which Slurm counts the licence tokens of a solver (`Licenses=` in "
+        "slurm.conf); empty: only `--resources licence_tokens=N` of Snakemake limits them",
+    )
     cores_per_batch: int = Field(
         2,
         ge=1,
@@ -90,6 +102,11 @@ class Config(Strict):
     studies: tuple[Study, ...] = Field(
         min_length=1, description="Studies, independent of each other"
     )
+    further_studies: tuple[Study, ...] = Field(
+        (),
+        description="Studies after those of `studies`, so that a second file can add some: "
+        "`snakemake --configfile config/joint.yaml`",
+    )
     solvers: dict[str, dict[str, Any]] = Field(
         default_factory=dict, description="Options of each solver, by its name"
     )
@@ -98,6 +115,14 @@ class Config(Strict):
     tyre_responses: TyreResponseSettings = TyreResponseSettings()
     lca_validation: LcaValidation = LcaValidation()
     report: ReportSettings = ReportSettings()
+
+    @model_validator(mode="before")
+    @classmethod
+    def _join_studies(cls, values: Any) -> Any:
+        if not isinstance(values, Mapping) or not values.get("further_studies"):
+            return values
+        further = list(values["further_studies"])
+        return {**values, "studies": [*values.get("studies", ()), *further], "further_studies": ()}
 
     @model_validator(mode="after")
     def _study_names_differ(self) -> Self:

@@ -12,11 +12,11 @@ AveragingRule = Literal["domain_mean_absolute", "design_mean_absolute", "domain_
 
 
 class UniformFactor(Strict):
-    """A factor that takes every value of a range equally often."""
+    """A factor whose values are equally likely over a range."""
 
     kind: Literal["uniform"]
-    low: float = Field(description="Unit of the factor")
-    high: float
+    low: float = Field(description="Lower bound, in the unit of the factor")
+    high: float = Field(description="Upper bound, in the unit of the factor")
 
     @model_validator(mode="after")
     def _in_order(self) -> Self:
@@ -29,8 +29,8 @@ class NormalFactor(Strict):
     """A factor that scatters normally, as a manufactured dimension or a tested rubber does."""
 
     kind: Literal["normal"]
-    mean: float = Field(description="Unit of the factor")
-    sd: float = Field(gt=0, description="Standard deviation, unit of the factor")
+    mean: float = Field(description="Mean, in the unit of the factor")
+    sd: float = Field(gt=0, description="Standard deviation, in the unit of the factor")
 
 
 Distribution = Annotated[UniformFactor | NormalFactor, Field(discriminator="kind")]
@@ -40,10 +40,16 @@ class Sobol(Strict):
     """How Sobol indices are estimated."""
 
     points: int = Field(
-        2048, ge=64, description="Base points, a power of two; n factors take points × (2n + 2)"
+        2048,
+        ge=64,
+        description="Base points, a power of two; n factors need points × (2n + 2) evaluations",
     )
-    confidence: float = Field(0.95, gt=0, lt=1, description="Of the intervals (bootstrap)")
-    seed: int = Field(1, ge=0, description="Of the scrambled Sobol sequence and the bootstrap")
+    confidence: float = Field(
+        0.95, gt=0, lt=1, description="Confidence level of the bootstrap intervals"
+    )
+    seed: int = Field(
+        1, ge=0, description="Seed of the scrambled Sobol sequence and of the bootstrap"
+    )
 
     @field_validator("points")
     @classmethod
@@ -54,7 +60,7 @@ class Sobol(Strict):
 
 
 class Sensitivity(Strict):
-    """How gradients of the response surfaces are averaged, and how variance is shared out."""
+    """How gradients of the response surfaces are averaged, and how variance is apportioned."""
 
     rules: tuple[AveragingRule, ...] = Field(
         ("domain_mean_absolute", "design_mean_absolute", "domain_mean_signed"),
@@ -67,9 +73,9 @@ class Sensitivity(Strict):
     sobol: Sobol = Sobol()
     distributions: dict[str, Distribution] = Field(
         default_factory=dict,
-        description="By factor, how it is distributed; cut to the range of the cases. Indices are "
-        "then given twice: for uniform factors, and for these distributions. Without an entry a "
-        "factor stays uniform over its range",
+        description="Distribution of each factor that is named, cut to the range of the cases. "
+        "Indices are then given twice: for uniform factors, and for these distributions, where a "
+        "factor that is not named stays uniform over its range",
     )
     near_tie_ratio: float = Field(
         0.8,

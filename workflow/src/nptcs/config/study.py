@@ -1,4 +1,4 @@
-"""A study: factors with their levels, the solvers that run it, the surface that is fitted."""
+"""A study: factors with their levels, the solvers that run it, the surfaces fitted to it."""
 
 from __future__ import annotations
 
@@ -8,7 +8,8 @@ from typing import Annotated, Any, ClassVar, Self
 from pydantic import Field, field_validator, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.design import Design, DOptimal, FullFactorial, number_of_cases
+from nptcs.config.design import Design, DOptimal, FullFactorial, SplitPlot, number_of_cases
+from nptcs.config.response import ResponseChoice
 from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
 from nptcs.terms import parse
 
@@ -16,7 +17,7 @@ Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
 
 class MeasuredRubber(Strict):
-    """A level that stands for the C10 of a rubber that the laboratory has tested."""
+    """A level given as a rubber that the laboratory has tested: it stands for that rubber's C10."""
 
     rubber: str = Field(description="Material name in the specimen sheet, e.g. rubber_75A")
 
@@ -32,7 +33,7 @@ class Factor(Strict):
     unit: str = Field(description="Unit in figures, e.g. 'mm'")
     levels: tuple[Level, ...] = Field(
         min_length=2,
-        description="Two levels or more, in growing order; numbers or {rubber: NAME}",
+        description="Two or more levels in increasing order: numbers, or {rubber: NAME}",
     )
 
     @field_validator("levels")
@@ -40,7 +41,7 @@ class Factor(Strict):
     def _grow(cls, levels: tuple[Level, ...]) -> tuple[Level, ...]:
         numbers = [level for level in levels if not isinstance(level, MeasuredRubber)]
         if any(right <= left for left, right in pairwise(numbers)):
-            raise ValueError(f"levels must grow and differ, got {numbers}")
+            raise ValueError(f"levels must increase, got {numbers}")
         rubbers = [level.rubber for level in levels if isinstance(level, MeasuredRubber)]
         if len(set(rubbers)) < len(rubbers):
             raise ValueError(f"a rubber is named twice: {rubbers}")
@@ -57,13 +58,13 @@ class Study(Strict):
     )
     design: Design = Field(
         FullFactorial(),
-        description="How the cases are chosen; kinds other than full_factorial and d_optimal take "
-        "the lowest and the highest level of each factor as the box",
+        description="How the cases are chosen; kinds other than full_factorial and d_optimal use "
+        "only the lowest and the highest level of each factor",
     )
     further_cases: tuple[dict[Name, float], ...] = Field(
         (),
-        description="Cases after those of the design, a value for each factor; `nptcs augment` "
-        "proposes some",
+        description="Cases in addition to those of the design, each with a value for every factor; "
+        "`nptcs augment` proposes some",
     )
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
@@ -71,14 +72,17 @@ class Study(Strict):
     load_n: float = Field(
         5000.0,
         gt=0,
-        description="Vertical load of the secant stiffness; without effect on single spokes",
+        description="Vertical load at which the secant stiffness is taken; no effect on single "
+        "spokes",
     )
     ply: str | None = Field(
         None,
-        description="Composite of the specimen sheet whose card the solvers take; null: the only "
-        "one that the sheet gives",
+        description="Composite of the specimen sheet whose card the solvers use; null: the only "
+        "composite in the sheet",
     )
-    solvers: tuple[Name, ...] = Field(min_length=1, description="Solvers that run this study")
+    solvers: tuple[Name, ...] = Field(
+        min_length=1, description="Solvers that solve the cases of this study"
+    )
     solver_options: dict[Name, dict[str, Any]] = Field(
         default_factory=dict, description="Options of a solver for this study only"
     )
@@ -90,13 +94,19 @@ class Study(Strict):
     least_cases: int | None = Field(
         None,
         ge=2,
-        description="Solved cases of a solver below which no surface is fitted; none: one more "
-        "than `terms` has",
+        description="Fewest solved cases of a solver to which a surface is fitted; null: one more "
+        "than the number of `terms`",
     )
     surfaces: tuple[SurfaceModel, ...] = Field(
         (),
         description="Surfaces that are fitted and compared with the polynomial of `terms`: other "
         "polynomials, the lamination form, Gaussian processes",
+    )
+    responses: tuple[ResponseChoice, ...] = Field(
+        (),
+        description="Responses to which the same surfaces are fitted, besides the secant stiffness "
+        "at `load_n`: e.g. plate_mass, {name: secant_stiffness, load_n: 3000}. A case that does "
+        "not have one is left out of its surfaces and counted",
     )
     published_coefficients: str | None = Field(
         None,
@@ -105,12 +115,12 @@ class Study(Strict):
     published_spoke_stiffness: str | None = Field(
         None,
         description="CSV with the paper's table 10, shown next to the single spokes of this study; "
-        "the plates are then fixed and spoke_c10_mpa is the only factor",
+        "the plates are then fixed, and spoke_c10_mpa is the only factor",
     )
     calibration_cases: dict[Name, tuple[int, ...]] = Field(
         default_factory=dict,
         description="By solver, the numbers of the cases on whose published stiffness it was "
-        "calibrated; the errors of all others are summed up apart from theirs",
+        "calibrated; the errors of all other cases are summarised separately",
     )
     neutral_line_cases: tuple[int, ...] = Field(
         (),
@@ -123,19 +133,21 @@ class Study(Strict):
             "terms",
             "least_cases",
             "surfaces",
+            "responses",
             "published_coefficients",
             "published_spoke_stiffness",
             "calibration_cases",
             "neutral_line_cases",
         }
     )
-    """Keys that say what is made of the results; they decide no case."""
+    """Keys that say what is done with the results; they affect no case."""
 
     def case_definition(self) -> dict[str, Any]:
         """Return what decides the cases of the study and how they are solved, as plain values.
 
-        A change of any other key, or of a heading or label, solves nothing anew. Options of
-        solvers are not part of it: each solver has its own. What is returned is a study again.
+        A change of any other key, or of a heading or label, causes no case to be solved again.
+        Options of solvers are not part of it: each solver has its own. The values returned are
+        those of a valid study.
         """
         kept = self.model_dump(mode="json", exclude={*self.AFTERWARDS, "solver_options"})
         factors = [{**factor, "label": "", "unit": ""} for factor in kept["factors"]]
@@ -170,6 +182,27 @@ class Study(Strict):
         return self
 
     @model_validator(mode="after")
+    def _plots_are_of_its_factors(self) -> Self:
+        if not isinstance(self.design, SplitPlot):
+            return self
+        names = {factor.name for factor in self.factors}
+        hard, spaced = set(self.design.hard_to_change), set(self.design.log_spaced)
+        if stray := sorted((hard | spaced) - names):
+            raise ValueError(f"study {self.name}: design names {stray}, which are not its factors")
+        if hard == names:
+            raise ValueError(
+                f"study {self.name}: all factors are hard_to_change; leave at least one to vary on "
+                "each whole plot, or use latin_hypercube"
+            )
+        for factor in self.factors:
+            low = min((each for each in factor.levels if isinstance(each, float)), default=1.0)
+            if factor.name in spaced and low <= 0.0:
+                raise ValueError(
+                    f"study {self.name}: log_spaced needs levels of {factor.name} above zero"
+                )
+        return self
+
+    @model_validator(mode="after")
     def _terms_can_be_read(self) -> Self:
         factors = [factor.name for factor in self.factors]
         if isinstance(self.design, DOptimal):
@@ -191,6 +224,18 @@ class Study(Strict):
         if self.surfaces and not self.terms:
             raise ValueError(
                 f"study {self.name}: surfaces are compared with the polynomial of `terms`, which "
+                "are missing"
+            )
+        return self
+
+    @model_validator(mode="after")
+    def _responses_differ(self) -> Self:
+        given = [(choice.name, choice.at(self.load_n)) for choice in self.responses]
+        if len(set(given)) < len(given):
+            raise ValueError(f"study {self.name}: a response is named twice: {given}")
+        if self.responses and not self.terms:
+            raise ValueError(
+                f"study {self.name}: surfaces are fitted to its responses only with `terms`, which "
                 "are missing"
             )
         return self
@@ -227,7 +272,7 @@ class Study(Strict):
         return len(self.terms) + 1 if self.least_cases is None else self.least_cases
 
     def needs_ply(self) -> bool:
-        """Tell whether one of its surfaces is made of the ply's constants."""
+        """Tell whether one of its surfaces uses the constants of the ply."""
         return any(needs_ply(model) for model in self.surfaces)
 
     def rubbers(self) -> tuple[str, ...]:

@@ -19,7 +19,8 @@ class PolynomialModel(Strict):
     kind: Literal["polynomial"]
     link: Link = Field(
         "identity",
-        description="What is a polynomial: the response K (identity), log K, or 1/K (reciprocal)",
+        description="What the polynomial is fitted to: the response K (identity), log K, or 1/K "
+        "(reciprocal)",
     )
     terms: tuple[str, ...] = Field((), description="Terms; empty: those of the study")
     choose: Choice = Field(
@@ -38,8 +39,8 @@ class LaminationModel(Strict):
     kind: Literal["lamination"]
     coefficients: LaminationCoefficients = Field(
         7,
-        description="8: all; 7 and 6: one or two of the exponent m and the rubber's additions to "
-        "A66 and D11 are left out, those with the smallest sum of squares",
+        description="8: all; 7 or 6: one or two of the exponent m and the rubber's additions to "
+        "A66 and D11 are left out, whichever gives the smallest sum of squares",
     )
 
 
@@ -47,20 +48,33 @@ Mean = Annotated[PolynomialModel | LaminationModel, Field(discriminator="kind")]
 
 
 class GaussianProcessModel(Strict):
-    """A Gaussian process (Matérn 5/2, a length scale for each factor) on a mean."""
+    """A Gaussian process (Matérn 5/2, one length scale for each factor) on a mean."""
 
     kind: Literal["gaussian_process"]
     mean: Mean | None = Field(
-        None, description="Surface whose residuals it follows; none: the mean of the cases"
+        None,
+        description="Surface whose residuals the process models; null: the mean response of the "
+        "cases",
     )
 
 
-SurfaceModel = Annotated[
-    PolynomialModel | LaminationModel | GaussianProcessModel, Field(discriminator="kind")
-]
+class SpokeProcessModel(Strict):
+    """For studies in which each spoke is solved with several rings (design `split_plot`)."""
+
+    kind: Literal["spoke_process"]
+    degree: int = Field(
+        3,
+        ge=1,
+        le=6,
+        description="Degree of the polynomial in the logarithms of the ring's factors on one spoke",
+    )
 
 
-def name_of(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> str:
+AnySurface = PolynomialModel | LaminationModel | GaussianProcessModel | SpokeProcessModel
+SurfaceModel = Annotated[AnySurface, Field(discriminator="kind")]
+
+
+def name_of(model: AnySurface) -> str:
     """Return the name of a surface in tables, e.g. ``gaussian process on lamination 7``."""
     match model:
         case PolynomialModel():
@@ -73,12 +87,14 @@ def name_of(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> 
             return f"lamination {model.coefficients}"
         case GaussianProcessModel():
             return f"gaussian process on {name_of(model.mean) if model.mean else 'the mean'}"
+        case SpokeProcessModel():
+            return "spoke process"
         case _:
             assert_never(model)
 
 
-def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -> bool:
-    """Tell whether a surface is made of the ply's constants."""
+def needs_ply(model: AnySurface) -> bool:
+    """Tell whether a surface uses the constants of the ply."""
     match model:
         case PolynomialModel():
             return False
@@ -86,14 +102,16 @@ def needs_ply(model: PolynomialModel | LaminationModel | GaussianProcessModel) -
             return True
         case GaussianProcessModel():
             return model.mean is not None and needs_ply(model.mean)
+        case SpokeProcessModel():
+            return True
         case _:
             assert_never(model)
 
 
 def own_terms(
-    model: PolynomialModel | LaminationModel | GaussianProcessModel,
+    model: AnySurface,
 ) -> tuple[tuple[str, ...], bool]:
-    """Return the terms that a surface names itself, and whether it goes through the origin."""
+    """Return the terms that a surface itself lists, and whether it goes through the origin."""
     match model:
         case PolynomialModel():
             return model.terms, model.through_origin
@@ -101,5 +119,20 @@ def own_terms(
             return (), False
         case GaussianProcessModel():
             return own_terms(model.mean) if model.mean is not None else ((), False)
+        case SpokeProcessModel():
+            return (), False
+        case _:
+            assert_never(model)
+
+
+def describes_stiffness_alone(model: AnySurface) -> bool:
+    """Tell whether a surface is the form of a stiffness, which no other response follows."""
+    match model:
+        case PolynomialModel() | SpokeProcessModel():
+            return False
+        case LaminationModel():
+            return True
+        case GaussianProcessModel():
+            return model.mean is not None and describes_stiffness_alone(model.mean)
         case _:
             assert_never(model)

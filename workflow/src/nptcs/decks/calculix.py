@@ -51,14 +51,14 @@ class BrickMesh:
     ----------
     positions : dict of int to array (3,)
     sets : dict of str to array (elements, 20)
-        ``RUBBER`` and ``LOWER_1``, ``LOWER_2``, ``UPPER_1``, ``UPPER_2``: leg and ply.
+        ``RUBBER``, and ``LOWER_1``, ``LOWER_2``, ``UPPER_1``, ``UPPER_2`` by leg and ply.
     bottom, top : arrays
         Node numbers on the rim and the band.
     pairs : array (pairs, 2)
         Node on the far axial plane and the node that it must follow.
     between : dict of int to tuple (node, node, float)
-        Nodes between the plies inside a plate's width: its edges at the same height, and how far
-        the node lies from the first to the second.
+        For each node between the plies and inside a plate's width: the two nodes on the plate's
+        edges at the same height, and the node's place from the first (0) to the second (1).
     """
 
     positions: dict[int, Array]

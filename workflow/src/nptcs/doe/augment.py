@@ -25,7 +25,7 @@ DIGITS = 6
 def candidates_in_box(surface: ResponseSurface, tyre: TyreGeometry | None = None) -> Array:
     """Spread candidates over the box of a surface's cases, corners included, shape (m, n).
 
-    With a tyre, spacings are those of a whole number of plates.
+    With a tyre, each spacing is one that gives a whole number of plates.
     """
     lower, upper = box(surface.x)
     inner = space_filling("sobol", CANDIDATES, len(lower), seed=1)
@@ -41,28 +41,28 @@ def candidates_in_box(surface: ResponseSurface, tyre: TyreGeometry | None = None
 def augment(surface: ResponseSurface, candidates: Array, cases: int) -> tuple[Array, Array]:
     """Choose candidates one after the other where the prediction interval is widest.
 
-    After each choice the surface is fitted again as if the case had given what is predicted:
-    the next one goes elsewhere.
+    After each choice the surface is fitted again as if the new case had returned the predicted
+    value, so that the next choice lies elsewhere.
 
     Parameters
     ----------
     surface : ResponseSurface
-        Of any kind.
+        A surface of any kind.
     candidates : ndarray of shape (m, n)
         Points in natural units, inside the box of the cases.
     cases : int
-        How many to choose.
+        Number of points to choose.
 
     Returns
     -------
     points : ndarray of shape (cases, n)
     half_widths : ndarray of shape (cases,)
-        Half width of the interval at each point before it is chosen.
+        Half width of the prediction interval at each point just before it is chosen.
 
     Raises
     ------
     InputError
-        When there are fewer candidates, apart from cases that are solved, than cases asked for.
+        When fewer unsolved candidates remain than cases are asked for.
     """
     span = np.ptp(surface.x, axis=0)
     free = np.array(

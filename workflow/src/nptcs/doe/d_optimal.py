@@ -8,7 +8,7 @@ from nptcs.arrays import Array, Rows
 from nptcs.errors import InputError
 
 GAIN = 1e-9
-"""Smallest growth of the logarithm of the determinant for which a case is exchanged."""
+"""Smallest increase of the logarithm of the determinant for which a case is exchanged."""
 
 RIDGE = 1e-8
 """Added to the diagonal while a random start is still singular."""
@@ -17,7 +17,7 @@ RIDGE = 1e-8
 def d_optimal(candidates: Array, cases: int, starts: int, seed: int) -> Rows:
     """Choose cases by exchanges (Fedorov), from random starts; the best start wins.
 
-    A candidate is chosen once at most: a deterministic solver gives nothing new twice.
+    No candidate is chosen twice: a deterministic solver would only repeat its result.
 
     Parameters
     ----------
@@ -26,24 +26,24 @@ def d_optimal(candidates: Array, cases: int, starts: int, seed: int) -> Rows:
     cases : int
         Between p and m.
     starts, seed : int
-        Random starts and their seed.
+        Number of random starts, and the seed of the random numbers.
 
     Returns
     -------
     ndarray of shape (cases,)
-        Row numbers, in growing order.
+        Row numbers of the chosen candidates, in increasing order.
 
     Raises
     ------
     InputError
-        When there are fewer cases than terms, fewer candidates than cases, or when the candidates
-        cannot determine the terms.
+        When there are fewer cases than terms or fewer candidates than cases, or when the
+        candidates cannot determine the terms.
     """
     number, terms = candidates.shape
     if not terms <= cases <= number:
         raise InputError(
-            f"a D-optimal design for {terms} terms takes at least {terms} cases of {number} "
-            "candidates",
+            f"a D-optimal design for {terms} terms needs at least {terms} cases, and at most "
+            f"{number}, the number of candidates",
             column="design.cases",
             value=cases,
             remedy="change the number of cases, the terms or the levels",
@@ -52,7 +52,7 @@ def d_optimal(candidates: Array, cases: int, starts: int, seed: int) -> Rows:
         raise InputError(
             "all candidates together cannot determine the terms",
             column="design.terms",
-            remedy="give a factor one level more than its highest power, or drop terms",
+            remedy="give each factor one more level than its highest power, or drop terms",
         )
     generator = np.random.default_rng(seed)
     found = [_exchanged(candidates, generator.permutation(number)[:cases]) for _ in range(starts)]

@@ -12,7 +12,7 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 
 BOX_BEHNKEN_FACTORS = (3, 4, 5)
-"""Numbers of factors for which all pairs make the design; more need incomplete blocks."""
+"""Numbers of factors for which the design consists of all pairs; more need incomplete blocks."""
 
 
 def space_filling(
@@ -20,8 +20,9 @@ def space_filling(
 ) -> Array:
     """Spread cases over the box, shape (cases, factors).
 
-    A Latin hypercube is made even by random exchanges that lower its centred discrepancy; a
-    Sobol sequence is scrambled, and cut after `cases` points of the next power of two.
+    A Latin hypercube is evened out by random exchanges that lower its centred discrepancy. Of a
+    scrambled Sobol sequence whose length is the next power of two, the first `cases` points are
+    taken.
     """
     generator = np.random.default_rng(seed)
     if kind == "latin_hypercube":
@@ -36,8 +37,8 @@ def central_composite(
 ) -> Array:
     """Corners, axial points and centre, shape (2ⁿ + 2n + centre, n).
 
-    Inscribed, the corners lie at 2^(-n/4): then the variance of a second-order surface depends
-    on the distance from the centre only.
+    With inscribed axial points the corners lie at 2^(-n/4), and the variance of a second-order
+    surface depends only on the distance from the centre.
     """
     corner = 1.0 if axial == "face" else 2.0 ** (-factors / 4)
     corners = corner * np.array(list(product([-1.0, 1.0], repeat=factors)))
@@ -46,16 +47,16 @@ def central_composite(
 
 
 def box_behnken(factors: int, centre_cases: int) -> Array:
-    """Corners of the squares of all pairs of factors, the others at their middle, and centre.
+    """Combine the corners of each pair of factors, all others at their middle, with the centre.
 
     Raises
     ------
     InputError
-        For other than three to five factors.
+        For fewer than three or more than five factors.
     """
     if factors not in BOX_BEHNKEN_FACTORS:
         raise InputError(
-            "a Box–Behnken design is made for three to five factors",
+            "a Box–Behnken design needs three to five factors",
             column="design",
             value=factors,
             remedy="use central_composite or d_optimal",

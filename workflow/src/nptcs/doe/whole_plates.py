@@ -1,4 +1,4 @@
-"""Spacings at which a whole number of plates shares the width of the tyre."""
+"""Spacings that divide the width of the tyre among a whole number of plates."""
 
 from __future__ import annotations
 

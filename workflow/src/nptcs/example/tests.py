@@ -69,7 +69,7 @@ def draw(series: Series, number: int, random: np.random.Generator) -> Draw:
 
 
 def not_simulated(test: TestType) -> ValueError:
-    """Error for a test of which the example has no series."""
+    """Return the error for a test type that the example data do not contain."""
     return ValueError(f"the example simulates no {test} test")
 
 
@@ -172,7 +172,7 @@ def _response(series: Series, specimen: Draw, strain: Array) -> tuple[Array, Arr
 
 
 def with_noise(readings: Array, deviation: float, random: np.random.Generator) -> Array:
-    """Add normal noise of a standard deviation."""
+    """Add normal noise of this standard deviation."""
     return readings + deviation * random.standard_normal(len(readings))
 
 

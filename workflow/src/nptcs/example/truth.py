@@ -18,7 +18,7 @@ C10_MPA = {"rubber_75A": 1.18, "rubber_88A": 2.91, "rubber_92A": 4.77}
 
 @dataclass(frozen=True)
 class Series:
-    """A group of equal specimens and how they are tested.
+    """A group of nominally equal specimens and how they are tested.
 
     Parameters
     ----------

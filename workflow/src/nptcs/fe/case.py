@@ -31,7 +31,7 @@ def spoke_design(
     """
     plates = tyre.plates_across(values["spacing_mm"])
     return SpokeDesign(
-        # what it was calibrated with changes nothing: both rings share the tables of equal spokes
+        # the ring of the calibration changes no spoke: both rings share the tables of equal spokes
         geometry=model.geometry.model_copy(update={"calibrated_with": None}),
         mesh=model.spoke_mesh,
         pitch_mm=tyre.tread_width_mm / plates,

@@ -1,4 +1,4 @@
-"""Spoke tables kept by the content of what they depend on, so that cases share them."""
+"""Spoke tables stored under a hash of everything that they depend on, so that cases share them."""
 
 from __future__ import annotations
 

@@ -68,24 +68,26 @@ def _status(
     again: dict[str, str],
 ) -> tuple[FileStatus, str]:
     if path is not None and path.samefile(sheet):
-        return "sheet", ""
+        return FileStatus.SHEET, ""
     if path is None:
-        return "missing", f"named for {', '.join(ids)}, but not in the folder"
+        return FileStatus.MISSING, f"named for {', '.join(ids)}, but not in the folder"
     if not ids and is_note(name):
-        return "note", "a README is a note, not test data"
+        return FileStatus.NOTE, "a README is a note, not test data"
     if not ids:
-        return "not named", "no row of the sheet names it"
-    good = [id_ for id_ in ids if id_ in outcomes and outcomes[id_].status == "ok"]
+        return FileStatus.NOT_NAMED, "no row of the sheet names it"
+    good = [id_ for id_ in ids if id_ in outcomes and outcomes[id_].understood]
     included = [id_ for id_ in good if id_ in specimens and specimens[id_].include]
     told = [f"{id_} repeats the data of {again[id_]}" for id_ in included if id_ in again]
     if included:
         repeated = len(told) == len(included)
         reason = "; ".join(told) + ", not counted again" if told else ""
-        return "repeated" if repeated else "used", reason
+        return FileStatus.REPEATED if repeated else FileStatus.USED, reason
     if good:
-        return "left out", "; ".join(specimens[id_].reason for id_ in good if id_ in specimens)
+        return FileStatus.LEFT_OUT, "; ".join(
+            specimens[id_].reason for id_ in good if id_ in specimens
+        )
     messages = [outcomes[id_].message for id_ in ids if id_ in outcomes]
-    return "not understood", "; ".join(messages) or "its row in the sheet has an error"
+    return FileStatus.NOT_UNDERSTOOD, "; ".join(messages) or "its row in the sheet has an error"
 
 
 def _format(name: str, ids: list[str], outcomes: dict[str, IngestRecord]) -> str:

@@ -67,7 +67,7 @@ def repeats(
     first: dict[str, str] = {}
     found: dict[str, str] = {}
     for record in records:
-        if record.status != "ok" or not record.data_sha256:
+        if not record.understood or not record.data_sha256:
             continue
         earlier = first.setdefault(record.data_sha256, record.specimen)
         piece = (pieces or {}).get(record.specimen, "")

@@ -3,7 +3,7 @@
 A ring section, spokes and a load come in, the loaded ring goes out. It is the paper's section 3.3,
 solved exactly: ``solve`` for one design, ``curve`` for its load–displacement curve,
 ``solve_batch`` for a table of designs; ``solve_law`` for spokes whose force follows a curve or that
-are single spokes. Comparing with the paper belongs to `nptcs.compare`.
+act one by one. Comparing with the paper belongs to `nptcs.compare`.
 """
 
 from nptcs.lca.batch import Batch, solve_batch

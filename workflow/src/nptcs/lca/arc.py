@@ -21,9 +21,9 @@ STATE = ("u", "v", "phi", "n", "v_shear", "m")
 _ODD = np.array([False, True, True, False, True, False])
 """Rows that change their sign when the direction of θ does."""
 _CLOSEST = 1e-11
-"""Relative discriminant below which two real roots are taken as conjugate ones just as close: that
-changes the solution by as little, while real modes so close would lose digits and conjugate ones,
-being real and imaginary part, do not."""
+"""Relative discriminant below which two real roots are replaced by a conjugate pair just as
+close. The solution changes as little; two real modes so close would lose digits, the real and
+imaginary part of one complex mode do not."""
 
 
 @dataclass(frozen=True)

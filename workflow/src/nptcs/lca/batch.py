@@ -249,7 +249,7 @@ class Piece:
 
 
 def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
-    """Solve well-formed rows; those that Newton's method does not solve form a second piece.
+    """Solve well-formed rows; those for which Newton's method fails form a second piece.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Checks of single numbers, with an error that names the quantity."""
+"""Checks of single numbers, whose errors name the quantity."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The two angles of each design: Newton's method, and brackets where it does not arrive.
+"""The two angles of each design: Newton's method, and brackets where it does not converge.
 
 For a given θc the transition angle is the root of U(θt) = u_r(θt; θc, θt), which is negative
 before it and positive beyond; displacement and force then grow with θc. Both facts hold over the
@@ -20,14 +20,14 @@ from nptcs.lca.system import Arcs, Joined, join
 Target = Literal["force", "sinking", "contact_angle"]
 STEP = 1e-7
 """Relative step of θc and step of θt (radians) after which Newton's method, whose error is of the
-order of the step's square, has arrived."""
+order of the step's square, has converged."""
 MISFIT = 1e-9
 """Largest relative misfit of the target, and of u(θt) to δ, in a solution."""
 LARGEST_CONTACT = np.radians(85)
 """No tyre has larger contact angles; the flat constraint is singular at 90°."""
 NEWTON_STEPS, BRACKET_STEPS = 20, 80
 BRACKET_STEP = 1e-10
-"""Relative step after which a bracketed search, whose last steps are Newton's, has arrived."""
+"""Relative step after which a bracketed search, whose last steps are Newton's, has converged."""
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def _step(joined: Joined, misfit: Floating) -> tuple[Floating, Floating]:
 
 
 def newton(ring: Ring, arcs: Arcs, target: Target, value: Floating, theta_c: Floating) -> Angles:
-    """Run Newton's method on all designs; those that arrive leave the set.
+    """Run Newton's method on all designs; those that have converged leave the set.
 
     Parameters
     ----------
@@ -152,7 +152,7 @@ def transition_for(ring: Ring, arcs: Arcs, theta_c: Floating) -> Floating:
 def by_brackets(
     ring: Ring, arcs: Arcs, target: Target, value: Floating
 ) -> tuple[Floating, Floating]:
-    """Find θc and θt with nested brackets; slow and sure, for the few that need it."""
+    """Find θc and θt with nested brackets; slow but safe, for the few that need it."""
     match target:
         case "contact_angle":
             return value.copy(), transition_for(ring, arcs, value)

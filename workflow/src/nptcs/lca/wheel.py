@@ -150,7 +150,7 @@ class Pressed:
 def break_points(
     wheel: Wheel, left: Edge, right: Edge, field: CubicHermiteSpline | None
 ) -> Floating:
-    """Return the elements' ends: where anything changes its form, and as many between as needed."""
+    """Return the elements' ends: wherever the equations change, and as many between as needed."""
     start, end = wheel.span
     fixed = [np.array([start, left.angle, right.angle, end])]
     if wheel.spoke_angles is not None:
@@ -341,11 +341,11 @@ def _end_conditions(
 
     On flat ground u cos θ - v sin θ + δ = 1 - cos θ and V - Φ - ε tan θ N = tan θ, at one point.
     Half a wheel has v = Φ = 0 at both ends and V = 0 at the top; a whole ring closes, but for M,
-    which closes only where the edges are such that the ground's force passes through the hub.
+    which closes only if the ground's force passes through the hub.
     """
     theta = float(points[first])
     sine, cosine, tangent = np.sin(theta), np.cos(theta), np.tan(theta)
-    # behind a spoke at the left edge, flatness is a matter of the element's start
+    # behind a spoke at the left edge, flatness holds at the start of the element
     begin, last = 6 * first, 6 * (len(points) - 1)
     delta = 6 * len(points)
     entries = [

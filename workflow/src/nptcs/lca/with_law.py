@@ -24,7 +24,7 @@ from nptcs.lca.wheel import SAME_ANGLE, ContactSpokes, Edge, Pressed, Wheel, pre
 _ITERATIONS = 60
 _STEADY = 1e-9
 """Relative change of displacement and force after which an iteration, whose error is of the order
-of the change's square, has arrived."""
+of the change's square, has converged."""
 _PAUSE = 0.03
 """Length that an edge's coordinate spends at a single spoke while the ground takes it over."""
 

@@ -50,7 +50,7 @@ def reduce_series(
     for specimen in specimens:
         name = specimen.specimen
         record = records[name]
-        if record.status != "ok":
+        if not record.understood:
             continue
         try:
             tables.append(reduce_record(curves[name], specimen, record, settings, plausible))

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from typing import Literal, assert_never
 
 from nptcs.report.tables.entries import Entry
 from nptcs.tables.result_table import Heading, ReportSection
@@ -20,7 +21,7 @@ class Cell:
 
     @property
     def css(self) -> str:
-        """Tell how the cell is set."""
+        """Return the CSS class of the cell."""
         if self.number or self.text == "–":
             return "number"
         if len(self.text) == 64 and set(self.text) <= set("0123456789abcdef"):
@@ -69,12 +70,16 @@ class Plots:
         return "panels two" if len(self.plots) in (2, 4) else "panels"
 
 
+ParagraphKind = Literal["", "ok", "bad", "warn", "heading"]
+"""What a paragraph is: plain, one of three judgements, which have colours, or a heading."""
+
+
 @dataclass(frozen=True)
 class Text:
-    """A paragraph; `kind` is empty or one of ok, bad, warn, heading."""
+    """A paragraph."""
 
     text: str
-    kind: str = ""
+    kind: ParagraphKind = ""
 
 
 @dataclass(frozen=True)
@@ -83,7 +88,7 @@ class Listing:
 
     lead: str
     items: tuple[str, ...]
-    kind: str = ""
+    kind: ParagraphKind = ""
 
 
 @dataclass(frozen=True)
@@ -112,6 +117,26 @@ class Folded:
 
 
 PageBlock = TableView | Plots | Text | Listing | Facts | Folded
+BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded"]
+
+
+def macro_of(block: PageBlock) -> BlockMacro:
+    """Name the macro of the page template that writes a block."""
+    match block:
+        case TableView():
+            return "table"
+        case Plots():
+            return "plots"
+        case Text():
+            return "text"
+        case Listing():
+            return "listing"
+        case Facts():
+            return "facts"
+        case Folded():
+            return "folded"
+        case _:
+            assert_never(block)
 
 
 @dataclass(frozen=True)

@@ -108,7 +108,7 @@ class Results:
     def failed(self) -> dict[str, str]:
         """Name the specimens that could not be read, with the message."""
         return {
-            name: record.message for name, record in self.records.items() if record.status != "ok"
+            name: record.message for name, record in self.records.items() if not record.understood
         }
 
     def series(self) -> dict[str, list[Specimen]]:

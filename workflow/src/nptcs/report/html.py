@@ -7,6 +7,7 @@ from importlib import resources
 from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from nptcs.report.blocks import macro_of
 from nptcs.report.data import Results
 from nptcs.report.sections.plan import build_sections
 from nptcs.report.sections.summary import summary_blocks
@@ -40,6 +41,7 @@ def render_report(results: Results) -> str:
         settings=results.config.report,
         sound=results.verdict()[0],
         synthetic=results.any_synthetic,
+        macro_of=macro_of,
         summary=summary_blocks(results, sheets),
         sections=build_sections(results, sheets),
         style=_resource("report.css"),

@@ -8,6 +8,7 @@ import pandas as pd
 
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.problems import Problem, problems_table
+from nptcs.tables.status import has_result
 
 
 def all_problems(
@@ -33,11 +34,10 @@ def all_problems(
     rows += [
         ("ingest", record.specimen, "", record.status, record.message)
         for record in records
-        if record.status != "ok"
+        if not record.understood
     ]
     rows += [
         ("solve", case["case_id"], case["solver"], case["status"], case["message"])
-        for case in cases.to_dict("records")
-        if case["status"] != "ok"
+        for case in cases[~has_result(cases["status"])].to_dict("records")
     ]
     return pd.concat([problems_table(rows), found], ignore_index=True)

@@ -1,4 +1,4 @@
-"""Reports that a failed run left behind must not look current."""
+"""Set aside reports that a failed run has not brought up to date: they must not look current."""
 
 from __future__ import annotations
 

@@ -32,10 +32,10 @@ FEWER_DIGITS = {
     "mean_absolute_percent": 3,
     "largest_percent": 3,
 }
-"""Columns whose digits beyond these mean nothing."""
+"""Significant digits of columns in which more would mean nothing."""
 
 PERCENTS = ("difference_percent", "change_percent")
-"""Endings of columns that have three digits as well."""
+"""Endings of the names of further columns that get three digits."""
 
 
 def table_view(

@@ -8,6 +8,7 @@ import pandas as pd
 
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.specimens import Specimen
+from nptcs.tables.status import has_result
 
 
 def verdict(
@@ -34,8 +35,8 @@ def verdict(
     line : str
         ``No problems: all 87 cases solved; 33 of 34 specimens used (1 left out by the sheet).``
     """
-    solved, number = int((cases["status"] == "ok").sum()), len(cases)
-    share = f"all {number} cases" if solved == number else f"{solved} of {number} cases"
+    with_result, number = int(has_result(cases["status"]).sum()), len(cases)
+    share = f"all {number} cases" if with_result == number else f"{with_result} of {number} cases"
     counts = f"{share} solved; {_specimens(sheet, records)}."
     if problems.empty:
         return True, f"No problems: {counts}"
@@ -53,7 +54,7 @@ def problem_lines(problems: pd.DataFrame) -> list[str]:
 def _specimens(sheet: Sequence[Specimen], records: Mapping[str, IngestRecord]) -> str:
     """Count the specimens used, left out and unreadable."""
     included = [s.specimen for s in sheet if s.include]
-    failed = [name for name in included if records[name].status != "ok"]
+    failed = [name for name in included if not records[name].understood]
     notes = []
     if left_out := len(sheet) - len(included):
         notes.append(f"{left_out} left out by the sheet")

@@ -1,4 +1,4 @@
-"""Margins of the plates: stress at their faces against the ply's tested strengths."""
+"""Margins of the plates: the stress at their faces compared with the ply's tested strengths."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Responses of solved tyres as tables, one row per response, with a reason where one is missing."""
+"""Responses of solved tyres as tables, one row per response, with a reason for each gap."""
 
 from __future__ import annotations
 
@@ -12,7 +12,6 @@ from nptcs.campaign.record import CaseRecord
 from nptcs.config.responses import TyreResponseSettings
 from nptcs.responses.curve import CurvePoint, LoadCurve
 from nptcs.responses.strength import PlyStrengths, maximum_stress_factor, tsai_wu_factor
-from nptcs.solvers.contract import Status
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 OK, NOT_ASSESSED, NOT_REACHED = "ok", "not assessed", "not reached"
@@ -117,7 +116,7 @@ def _solved(records: Sequence[CaseRecord]) -> list[CaseRecord]:
     return [
         record
         for record in records
-        if record.result.status == Status.OK
+        if record.result.status.solved
         and record.load_n is not None
         and record.result.curve is not None
     ]
@@ -139,7 +138,9 @@ def _responses(
             else:
                 yield _missing(name, at, unit, why)
     yield from _margins(record, strengths, at)
-    yield _plate_mass(record, settings)
+    mass = _plate_mass(record, settings)
+    yield mass
+    yield _plate_cost(mass, settings)
 
 
 def _why_not(record: CaseRecord) -> str:
@@ -207,3 +208,14 @@ def _plate_mass(record: CaseRecord, settings: TyreResponseSettings) -> Response:
         return _missing("plate_mass", "", "kg", "the solver does not report the plates' volume")
     note = f"all plates of the tyre, {density:g} kg/m³ as configured"
     return Response("plate_mass", "", volume * density * 1e-9, "kg", OK, note)
+
+
+def _plate_cost(mass: Response, settings: TyreResponseSettings) -> Response:
+    price = settings.plate_price_per_kg
+    if price is None:
+        why = "no plate_price_per_kg in the configuration"
+        return _missing("plate_cost", "", "currency", why)
+    if mass.status != OK:
+        return _missing("plate_cost", "", "currency", mass.note)
+    note = f"all plates of the tyre, {price:g} per kg as configured"
+    return Response("plate_cost", "", mass.value * price, "currency", OK, note)

@@ -65,7 +65,7 @@ class SpokeSource(Protocol):
     columns: tuple[str, ...]
 
     def table(self, row: Row) -> SpokeEnergyTable:
-        """Return the table of a row; ValueError where there is none."""
+        """Return the table for a row; ValueError where there is none."""
         ...
 
     def displacement_error_mm(
@@ -121,11 +121,11 @@ def solve_table(
     ----------
     table : DataFrame
         Columns `REQUIRED` and those of `spokes`; any of `OPTIONAL` and `DIMENSIONS` replaces the
-        general value where a cell is not empty. Other columns are kept.
+        common value where the cell is not empty. Other columns are kept.
     spokes : SpokeSource
         Energy tables by name, or a surrogate.
     tyre : TyreGeometry
-        The tyre that the table's designs vary.
+        The tyre that the designs of the table vary.
     options : RingOptions
     workers : int
         Processes; results do not depend on it.

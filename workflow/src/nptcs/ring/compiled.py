@@ -1,4 +1,4 @@
-"""Whether numba is installed (`pip install nptcs[fast]`), and its mark for the ring's formulas."""
+"""Whether numba is installed (`pip install nptcs[fast]`), and how formulas are marked for it."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ HAS_NUMBA = find_spec("numba") is not None
 
 
 def compilable(function: Function) -> Function:
-    """Mark a function that compiled code may call; Python calls it as it is written."""
+    """Mark a function that compiled code may call; plain Python calls it unchanged."""
     if not HAS_NUMBA:
         return function
     from numba.extending import register_jitable

@@ -1,6 +1,7 @@
 """Elimination of a cyclic chain of small blocks, written for the compiler.
 
-Node after node is eliminated; the last one, which closes the circle, meets all others and waits.
+Nodes are eliminated one after the other; the last one closes the circle, is coupled to all the
+others and is eliminated last.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ WIDE = 2 * M + N
 def eliminate(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> None:
     """Solve the cyclic block system; `rhs` (nodes, 5, 2) becomes the solution.
 
-    Rows are exchanged within a block only: the tangent of a stable state is near to symmetric and
+    Rows are exchanged within a block only: the tangent of a stable state is nearly symmetric and
     positive definite, and a singular block shows as numbers that are not finite.
 
     Parameters
@@ -31,9 +32,9 @@ def eliminate(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> None:
     """
     count = len(rhs)
     last = count - 1
-    # of node i: by the next node, by the last one, and the right-hand sides
+    # of node i: coupling to the next node and to the last one, and the right-hand sides
     carried = np.zeros((count, M, WIDE))
-    # the next node to eliminate with the last one, and the last one with it
+    # coupling of the next node to be eliminated with the last one, and of the last one with it
     to_last, from_last = lower[last].copy(), upper[last].copy()
     for i in range(last):
         own = carried[i]

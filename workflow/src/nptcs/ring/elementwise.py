@@ -24,10 +24,10 @@ from nptcs.ring.compiled import compilable
 Value = Any
 
 UNKNOWNS = 5
-# strains that stretch the rubber along the ring
+# number of strains that stretch the rubber along the ring
 ALONG = 4
 VARIABLES = 10
-# constants of a ring that the functions below read, by place
+# places of a ring's constants that the functions below read
 HALF, SURFACE, FOOT, OUTER, AREA_PER_LENGTH = 0, 1, 2, 3, 4
 GROW_SECTION, GROW_FACE, GROW_SHEAR = 5, 6, 7
 STIFF, SMOOTH, SLIP_STIFF, FRICTION, COMPLIANCE = 8, 9, 10, 11, 12
@@ -90,7 +90,7 @@ def band(
 ) -> None:
     """Add residual and tangent of an element of band, wires and tread.
 
-    `stress` (4) and `stiff` (4, 4) are room to work in.
+    `stress` (4) and `stiff` (4, 4) are workspace.
     """
     e, q, shear, tx, ty = band_strains(angle, m, d)
     nx, ny = ty, -tx
@@ -145,8 +145,8 @@ def surface_point(
 ) -> tuple[Value, Value, Value, Value]:
     """Place (x, y) of the tread's surface over an element's middle: r + reach n(ψ) + shift t(ψ).
 
-    The core's shear γ carries its upper face by c γ along and keeps its thickness, as simple shear
-    does. The tread grows as its strains along the ring shrink; the arc rises over its chord.
+    The core's shear γ moves its upper face along by c γ and keeps the thickness, as simple shear
+    does. The tread thickens where it is shortened along the ring; the arc rises above its chord.
 
     Returns
     -------
@@ -177,7 +177,7 @@ def traction(w: Value, depth: Value, slip: Value) -> Value:
     """
     stiff, smooth, soft = w[STIFF], w[SMOOTH], w[COMPLIANCE]
     open_depth = np.maximum(depth, 0.0)
-    # penetration g: the depth that the compliance leaves, g + soft p(g) = depth
+    # penetration g: what the compliance leaves of the depth, g + soft p(g) = depth
     bend = soft * stiff / smooth
     low = 2.0 * open_depth / (1.0 + np.sqrt(1.0 + 2.0 * bend * open_depth))
     high = (open_depth + 0.5 * soft * stiff * smooth) / (1.0 + soft * stiff)

@@ -21,7 +21,7 @@ from nptcs.ring.solution import RingState, load
 from nptcs.ring.system import System
 from nptcs.ring.tyre import RingTyre
 
-# short against the depth over which the pressure of the ground sets in, long against rounding
+# far below the depth over which the ground's pressure sets in, far above rounding
 RELATIVE_STEP = 2e-7
 
 
@@ -200,7 +200,7 @@ class _Contact:
         )
 
     def along(self, tyre: RingTyre, push: Array) -> Array:
-        """Multipliers (nodes, 5) as they meet ∂x of each element."""
+        """Product of the multipliers (nodes, 5) with ∂x of each element."""
         mean, difference = numpy_kernel.element_variables(tyre.ring, push)
         return np.sum(self.by_x * np.concatenate([mean, difference]), axis=0)
 

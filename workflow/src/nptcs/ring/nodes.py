@@ -1,4 +1,4 @@
-"""Nodes of the ring: equal parts of each pitch, more of them near the contact."""
+"""Nodes of the ring: each pitch in equal parts, with more of them near the contact."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def ring_nodes(mesh: RingMesh, section: RingSection, spoke_count: int) -> RingNo
     feet: list[int] = []
     for spoke in range(spoke_count):
         low = start + spoke * pitch
-        # the nearest the pitch comes to θ = 0
+        # the smallest |θ| in the pitch
         off = np.abs(np.angle(np.exp(1j * (low + 0.5 * pitch)))) - 0.5 * pitch
         near = off < np.radians(mesh.refined_deg) - 1e-9
         count = mesh.elements_per_pitch * (mesh.refinement if near else 1)

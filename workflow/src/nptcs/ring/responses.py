@@ -10,7 +10,7 @@ from nptcs.ring.tyre import RingTyre
 
 
 def contact_length_mm(place_mm: Array, force_n: Array) -> float:
-    """Length of a uniform pressure with the same variance: √(12 Var p).
+    """Length of the uniform pressure with the same variance of place: √(12 Var p).
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""Cross-section of the ring: what its strains cost, and where its surfaces lie.
+"""Cross-section of the ring: its stiffness, and where its surfaces lie.
 
 The generalised strains of the ring are, in this order,
 
@@ -7,8 +7,8 @@ The generalised strains of the ring are, in this order,
 stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
 κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ - θ of the core and shift s
 of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
-v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is harder pressed than pulled, and
-under the contact the tread is pressed by three per cent.
+v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in compression than
+in tension, and above the contact the tread is compressed by three per cent.
 """
 
 from __future__ import annotations
@@ -136,7 +136,9 @@ def ring_section(
     surface = tyre.outer_diameter_mm / 2.0 - outer
     row = row_depth_mm / 2.0
     if not 0.0 <= row < half:
-        raise ValueError(f"rows of {row_depth_mm:g} mm fill wires {2.0 * half:g} mm apart")
+        raise ValueError(
+            f"rows {row_depth_mm:g} mm deep fill the space between wires {2.0 * half:g} mm apart"
+        )
     if cover <= tyre.wire_diameter_mm / 2.0 or row > cover:
         raise ValueError(
             f"a band {tyre.shear_band_thickness_mm:g} mm thick does not cover its wires, "

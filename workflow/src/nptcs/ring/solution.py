@@ -19,7 +19,7 @@ CALM_ITERATIONS = 6
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
 FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
-# the iteration that ends below it has left an error of about its square
+# an iteration whose step is below it leaves an error of about the step's square
 TOLERANCE_MM = 1e-5
 BACKTRACKS = 6
 # unknowns of a node that are lengths: u_x, u_y, s
@@ -30,7 +30,7 @@ class RingError(RuntimeError):
     """A load could not be reached; `states` holds those that were."""
 
     def __init__(self, message: str, states: list[RingState]) -> None:
-        # both in args, so that it survives the way back from a worker process
+        # both in args, so that the exception can be pickled by a worker process
         super().__init__(message, states)
         self.states = states
 
@@ -43,7 +43,7 @@ class SpokeRangeError(RingError):
 
 
 class _NoEquilibrium(Exception):
-    """No equilibrium with this step; `outside` says which spoke left its table, if one did."""
+    """No equilibrium with this step; `outside` says whether a spoke left its table."""
 
     def __init__(self, message: str, outside: bool = False) -> None:
         super().__init__(message)
@@ -91,13 +91,13 @@ def load(tyre: RingTyre, loads_n: Sequence[float]) -> list[RingState]:
     Returns
     -------
     list of RingState
-        All converged states: the first touch, the loads, and those between that halved steps
-        needed. The loads are met exactly.
+        All converged states: the first touch, the loads, and intermediate ones where a
+        step had to be halved. The loads are met exactly.
 
     Raises
     ------
     RingError
-        If a load is not reached with steps down to 2 N.
+        If a load is not reached even with steps of 2 N.
     SpokeRangeError
         If a spoke leaves its table.
     ValueError
@@ -198,7 +198,7 @@ def _iterates(
         if not np.isfinite(largest):
             raise _NoEquilibrium("the iteration has left the range of numbers")
         if count >= CALM_ITERATIONS:
-            # two contact states that take turns: go half-way, twice as far when that helps
+            # two contact states alternate: halve the step, and double it again once that helps
             part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
         before = largest
         damp = min(part, LARGEST_STEP_MM / max(largest, 1e-12))
@@ -225,7 +225,7 @@ def _newton_step(tyre: RingTyre, system: System, load_n: float | None) -> tuple[
 
 
 def tangent_stiffness(tyre: RingTyre, state: RingState) -> float:
-    """dF/dδ at a state, N/mm, with the ground's shear as it was remembered there."""
+    """dF/dδ at a state, N/mm, with the ground's shear remembered from the state before."""
     system = tyre.kernel.assemble(tyre.ring, state.u, state.rise_mm, state.anchor_before)
     rhs = system.slope[:, :, None]
     follow = -tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)[:, :, 0]

@@ -1,30 +1,30 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
 The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
-Gaussian process over `laminate_features`. A predicted table serves search and exploration; a design
-that is decided on is solved with a computed table.
+Gaussian process over `spoke_features`. A predicted table serves search and exploration; the
+design that is chosen in the end is solved with a computed table.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from warnings import catch_warnings, simplefilter
 
 import numpy as np
 from scipy.stats import qmc
-from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.ring.laminate_features import spoke_features
+from nptcs.likelihood import SearchError, bounds_are_answers, maximise
+from nptcs.spoke_features import spoke_features
 
 COMPONENTS = 10
 DESIGN = ("plate_count", "thickness_mm", "angle_deg", "spoke_c10_mpa")
 FEWEST_TABLES = 3 * COMPONENTS
+FEATURES = 6
 
 
 @dataclass(frozen=True)
@@ -56,6 +56,9 @@ class SpokeSurrogate:
         Constants of the ply of all of them.
     kernels : sequence of kernels, optional
         Of an earlier fit; fitted by maximum likelihood if not given.
+    unfitted : array (m, 4), optional
+        Spokes whose tables are too short to be fitted: a design nearer to one of them than to any
+        fitted spoke is refused.
 
     Raises
     ------
@@ -69,11 +72,14 @@ class SpokeSurrogate:
         tables: Sequence[SpokeEnergyTable],
         ply: Mapping[str, float],
         kernels: Sequence[Kernel] | None = None,
+        unfitted: Array | None = None,
     ) -> None:
         designs = np.asarray(designs, dtype=float)
         _check(designs, tables)
         self.designs, self.ply = designs, dict(ply)
         self.low, self.high = designs.min(axis=0), designs.max(axis=0)
+        self.tables = list(tables)
+        self.unfitted = np.empty((0, len(DESIGN))) if unfitted is None else unfitted
         self._first = tables[0]
         scaled = np.array([table.coefficients for table in tables]) / designs[:, 3:]
         self.mean = scaled.mean(axis=0)
@@ -92,6 +98,12 @@ class SpokeSurrogate:
     def kernels(self) -> list[Kernel]:
         """The fitted kernels, for a surrogate of other tables without another search."""
         return [process.kernel_ for process in self._processes]
+
+    def without(self, rows: Array) -> SpokeSurrogate:
+        """Return the surrogate of the other spokes, with the same kernels."""
+        kept = np.setdiff1d(np.arange(len(self.tables)), rows)
+        tables = [self.tables[row] for row in kept]
+        return SpokeSurrogate(self.designs[kept], tables, self.ply, self.kernels, self.unfitted)
 
     def _unit(self, designs: Array) -> Array:
         unit: Array = (spoke_features(designs, self.ply) - self._middle) / self._spread
@@ -113,11 +125,25 @@ class SpokeSurrogate:
         ):
             if not low - slack <= value <= high + slack:
                 raise InputError(
-                    f"the surrogate knows spokes from {low:g} to {high:g} only",
+                    f"the surrogate was fitted to spokes from {low:g} to {high:g} only",
                     "compute this spoke's table, or fit the surrogate to a wider box",
                     column=name,
                     value=float(value),
                 )
+        if len(self.unfitted) and self._distance(design, self.unfitted) < self._distance(
+            design, self.designs
+        ):
+            raise InputError(
+                "the nearest computed spoke loses its stability early: its neighbours cannot be "
+                "predicted",
+                "compute this spoke's table",
+                value=dict(zip(DESIGN, design.tolist(), strict=True)),
+            )
+
+    def _distance(self, design: Array, others: Array) -> float:
+        """Distance to the nearest of other designs (n, 4), in standard deviations of features."""
+        offset = self._unit(others) - self._unit(design[None])
+        return float(np.sqrt(np.sum(offset**2, axis=1)).min())
 
     def predict(self, design: Sequence[float]) -> PredictedTable:
         """Predict the table of a spoke.
@@ -134,6 +160,11 @@ class SpokeSurrogate:
         """
         values = np.asarray(design, dtype=float)
         self.check_inside(values)
+        return self.predict_anywhere(values)
+
+    def predict_anywhere(self, design: Array) -> PredictedTable:
+        """Predict without a look at the box: for tests of spokes that were left out."""
+        values = np.asarray(design, dtype=float)
         scores, errors = self._scores(values[None])
         coefficients = values[3] * (self.mean + scores[0] @ self.components)
         modes = values[3] * errors[0][:, None] * self.components
@@ -148,13 +179,13 @@ class SpokeSurrogate:
     def next_design(
         self, importance: Array | None = None, candidates: int = 256, seed: int = 1
     ) -> tuple[dict[str, float], float]:
-        """Name the spoke whose computed table would lower the mean variance over the box most.
+        """Name the spoke whose table, once computed, would lower the mean variance in the box most.
 
         Parameters
         ----------
         importance : array (components,), optional
             Weight of each component's variance, for example the squares of a displacement's
-            derivatives by the components; its share of the energy's variance is 1 if not given.
+            derivatives by the components; 1 for all if not given.
         candidates : int
             Points of the box that are compared, and as many at which the variance is counted.
         seed : int
@@ -162,7 +193,7 @@ class SpokeSurrogate:
         Returns
         -------
         tuple
-            The design by `DESIGN`, and the part of the mean variance that it would take away.
+            The design by `DESIGN`, and the part of the mean variance that it would remove.
         """
         weight = np.ones(COMPONENTS) if importance is None else np.asarray(importance)
         points = qmc.Sobol(len(DESIGN), seed=seed).random(2 * candidates)
@@ -207,18 +238,22 @@ def _check(designs: Array, tables: Sequence[SpokeEnergyTable]) -> None:
             )
 
 
+def start_kernel() -> Kernel:
+    """Kernel of a component, where its search starts."""
+    smooth = ConstantKernel(1.0, (1e-3, 1e6)) * RBF(np.ones(FEATURES), (1e-1, 1e4))
+    return smooth + WhiteKernel(1e-6, (1e-12, 1e-2))
+
+
 def _process(unit: Array, score: Array, kernel: Kernel | None) -> GaussianProcessRegressor:
     """Fit one component, or take a kernel as it is."""
-    start = ConstantKernel(1.0, (1e-3, 1e6)) * RBF(
-        np.ones(unit.shape[1]), (1e-1, 1e4)
-    ) + WhiteKernel(1e-6, (1e-12, 1e-2))
     process = GaussianProcessRegressor(
-        kernel if kernel is not None else start,
-        optimizer="fmin_l_bfgs_b" if kernel is None else None,
+        kernel if kernel is not None else start_kernel(),
+        optimizer=maximise if kernel is None else None,
         normalize_y=True,
     )
-    with catch_warnings():
-        # a table has no noise and may not depend on all features: the search ends on these bounds
-        simplefilter("ignore", ConvergenceWarning)
-        process.fit(unit, score)
+    try:
+        with bounds_are_answers():
+            process.fit(unit, score)
+    except SearchError as error:
+        raise InputError(str(error), "compute more spokes") from None
     return process

@@ -1,4 +1,4 @@
-"""Predicted spokes for a table of designs, with the error that the prediction brings."""
+"""Predicted spokes for a table of designs, with the error that comes from the prediction."""
 
 from __future__ import annotations
 

@@ -12,7 +12,7 @@ from nptcs.ring.elementwise import UNKNOWNS
 
 @dataclass(frozen=True)
 class Ring:
-    """All that the kernels read of a ring.
+    """Everything about a ring that the kernels read.
 
     Parameters
     ----------

@@ -2,5 +2,5 @@
 
 One case comes in (`contract.CaseInputs`), one result goes out (`contract.SolverResult`). The
 mathematics is in rooms of its own (`nptcs.fe`, `nptcs.lca`); a solver reads its options, calls it
-and reports.
+and returns the result.
 """

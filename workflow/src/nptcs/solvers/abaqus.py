@@ -1,4 +1,4 @@
-"""Solver ``abaqus``: the paper's whole tyre, solved by the Abaqus that the user has."""
+"""Solver ``abaqus``: the paper's whole tyre, solved by the user's own Abaqus."""
 
 from __future__ import annotations
 
@@ -17,7 +17,15 @@ from nptcs.decks.abaqus.deck import tyre_deck
 from nptcs.solvers.abaqus_history import load_curve
 from nptcs.solvers.abaqus_messages import COMPLETED, NOT_CONVERGED, licence_denial, read_messages
 from nptcs.solvers.abaqus_watch import JobWatch, text_of
-from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
+    CaseInputs,
+    Solver,
+    SolverOptions,
+    SolverResult,
+    Status,
+)
 from nptcs.solvers.external import CommandStopped, Ended, run_command, time_for_command
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants
 
@@ -41,6 +49,8 @@ class AbaqusOptions(SolverOptions, AbaqusModel):
         description="Wall time after which a case is stopped and recorded as timeout; waiting for "
         "a licence counts",
     )
+    case_s: float = Field(3600.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(8000.0, gt=0, description=CASE_MEMORY)
     command: tuple[str, ...] = Field(("abaqus",), min_length=1, description="Command")
     arguments: tuple[str, ...] = Field(
         ("job={job}", "input={job}.inp", "cpus={cpus}", "interactive", "ask_delete=OFF"),
@@ -186,7 +196,7 @@ SOLVER = Solver(
     version="1",
     solve=solve,
     factors=TYRE_FACTORS,
-    about="the paper's whole tyre, solved by the Abaqus that the user has",
+    about="the paper's whole tyre, solved by the user's own Abaqus",
     required=TYRE_FACTORS,
     options=AbaqusOptions,
     needs_ply=True,

@@ -34,9 +34,9 @@ def load_curve(dat_text: str) -> tuple[list[float], list[float]]:
 
 
 def _table(text: str, node_set: str) -> dict[str, float] | None:
-    """Read the one node's row of a printed table, by column; None if it is not there.
+    """Read the row of a set's only node from a printed table, by column; None if there is none.
 
-    Abaqus prints no row of zeros: the values of a table that says so are left out.
+    Abaqus does not print rows of zeros: for a table that says so the result is empty.
     """
     start = re.search(
         rf"PRINTED FOR NODES BELONGING TO NODE SET (?:\S*_)?{re.escape(node_set)}\s*$",

@@ -1,7 +1,7 @@
 """What Abaqus says of a job: licence, warnings, errors, increments.
 
-Abaqus prints no exit code that can be trusted, so that its text files decide. The licence's texts
-are those that Abaqus and FlexNet print while they queue for tokens or refuse them.
+The exit code of Abaqus cannot be trusted, so its text files decide. The texts about licences are
+those that Abaqus and FlexNet print while they queue for tokens or refuse them.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ DENIED = re.compile(
 )
 
 CONTRADICTION = re.compile(r"ZERO PIVOT")
-"""Constraints that contradict each other: forces and displacements may mean nothing."""
+"""Constraints that contradict each other: forces and displacements may be meaningless."""
 
 HARMLESS = re.compile(r"\bREQUEST|\bPRINTED\b|\bPREPRINT\b|OVERCONSTRAINT CHECKS")
-"""Of output and listings only, or of constraints that say the same twice and are taken once."""
+"""About output and listings only, or about redundant constraints, which Abaqus applies once."""
 
 FATAL = {
     "something is left out": re.compile(
@@ -51,7 +51,7 @@ FATAL = {
     ),
     "wires are left out": re.compile(r"REBAR.*\b(?:NOT|NO|CANNOT)\b"),
 }
-"""Warnings after which Abaqus solves another model than the deck's. All others are kept as text."""
+"""Warnings after which Abaqus solves a model other than the deck's. All others are kept as text."""
 
 NOT_CONVERGED = re.compile(
     r"TOO MANY ATTEMPTS MADE FOR THIS INCREMENT|TOO MANY INCREMENTS"

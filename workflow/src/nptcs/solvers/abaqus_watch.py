@@ -1,4 +1,4 @@
-"""Watching an Abaqus job: neither a queue for tokens nor another model may cost hours."""
+"""Watching an Abaqus job, so that neither a queue for tokens nor a wrong model costs hours."""
 
 from __future__ import annotations
 
@@ -15,14 +15,14 @@ READ_EVERY_S = 2.0
 
 
 class JobWatch:
-    """Stops a job that queues too long for its licence, or warns that it solves another model.
+    """Stops a job that queues too long for its licence, or warns that it solves a different model.
 
     Parameters
     ----------
     job : Path
-        The job's files without their endings; they may not exist yet.
+        The job's files without their suffixes; they may not exist yet.
     licence_wait_s : float
-        Time that the job may queue without a break.
+        Time that the job may queue without interruption, s.
     accepted_warnings : sequence of str
         Regular expressions of warnings that are not fatal although they look so.
     """

@@ -13,7 +13,15 @@ from nptcs.decks.calculix import complaints, spoke_deck, total_forces, true_thic
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM
 from nptcs.fe.spoke.stiffness_line import stiffness_line
-from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
+    CaseInputs,
+    Solver,
+    SolverOptions,
+    SolverResult,
+    Status,
+)
 from nptcs.solvers.external import CommandStopped, run_command, time_for_command
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants, realised_spacing
 from nptcs.solvers.spoke_responses import spoke_responses
@@ -24,6 +32,8 @@ STEPS = 4
 class CalculixOptions(SolverOptions, FeSpokeModel):
     """Options of ``calculix``: the spoke's model and the command that solves it."""
 
+    case_s: float = Field(60.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(500.0, gt=0, description=CASE_MEMORY)
     geometry: LayerlessGeometry = Field(default_factory=SpokeGeometry, description="The spoke")
     command: tuple[str, ...] = Field(
         ("ccx",), min_length=1, description="Command; the job's name is added as its last argument"

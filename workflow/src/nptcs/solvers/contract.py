@@ -19,16 +19,21 @@ from nptcs.config.base import Strict
 from nptcs.config.tyre import TyreGeometry
 from nptcs.tables.status import Status as Status
 
+CASE_S = "Wall time that a case usually takes; decides the size and the time limit of a job"
+CASE_MEMORY = "Memory that a case may need; a job of a queue asks for it"
+
 
 class SolverOptions(Strict):
     """Base of a solver's own section ``solvers: NAME:`` in the configuration."""
 
-    without_effect: ClassVar[frozenset[str]] = frozenset({"timeout_s"})
+    without_effect: ClassVar[frozenset[str]] = frozenset({"timeout_s", "case_s", "case_memory_mb"})
     """Options that cannot change a result; they are not part of the key of a solved case."""
 
     timeout_s: float = Field(
         600.0, gt=0, description="Wall time after which a case is stopped and recorded as timeout"
     )
+    case_s: float = Field(1.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(150.0, gt=0, description=CASE_MEMORY)
 
     def tables(self) -> Mapping[str, str]:
         """Name the CSV files that the solver reads: a key for the solver → path."""
@@ -49,7 +54,7 @@ class SolverOptions(Strict):
 
 @dataclass(frozen=True)
 class CaseInputs:
-    """All that a solver may look at.
+    """Everything that a solver may look at.
 
     Parameters
     ----------
@@ -59,8 +64,8 @@ class CaseInputs:
         Factor values of the case and the study's fixed values, e.g. ``spacing_mm``,
         ``thickness_mm``, ``angle_deg``, ``shear_band_c10_mpa``, ``spoke_c10_mpa``.
     load_n : float
-        Vertical load at which the secant stiffness is taken; not a number for a solver that
-        loads no tyre.
+        Vertical load at which the secant stiffness is taken; NaN for a solver that loads
+        no tyre.
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
@@ -213,13 +218,13 @@ class Solver:
     realise: Callable[[Mapping[str, float], TyreGeometry], dict[str, float]] | None = None
 
     def missing_responses(self, result: SolverResult) -> list[str]:
-        """Name what a result that says ``ok`` must give and does not."""
+        """Name the responses that a result with status ``ok`` must have and lacks."""
         return missing_responses(result, self.loads_tyre)
 
 
 def missing_responses(result: SolverResult, loads_tyre: bool) -> list[str]:
-    """Name what a result that says ``ok`` must give, by a solver of tyres or of single spokes."""
-    if result.status != Status.OK:
+    """Name the responses that an ``ok`` result of a tyre or a single spoke lacks."""
+    if not result.status.solved:
         return []
     given = {**result.model_dump(include=set(TYRE_RESPONSES)), **result.extra}
     promised = TYRE_RESPONSES if loads_tyre else SPOKE_RESPONSES

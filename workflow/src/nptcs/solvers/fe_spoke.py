@@ -3,18 +3,30 @@
 from __future__ import annotations
 
 import numpy as np
+from pydantic import Field
 
 from nptcs.config.fe import FeSpokeModel
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
-from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, SolverResult, Status
+from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
+    CaseInputs,
+    Solver,
+    SolverOptions,
+    SolverResult,
+    Status,
+)
 from nptcs.solvers.fe_inputs import SPOKE_FACTORS, checked_values, ply_constants, realised_spacing
 from nptcs.solvers.spoke_responses import spoke_responses
 
 
 class FeSpokeOptions(SolverOptions, FeSpokeModel):
     """Options of ``fe_spoke``: the finite element model of the spoke."""
+
+    case_s: float = Field(10.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(250.0, gt=0, description=CASE_MEMORY)
 
 
 def solve(inputs: CaseInputs) -> SolverResult:

@@ -22,6 +22,8 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreError, TyreModel, TyreState
 from nptcs.fe.tyre.responses import contact_responses, spoke_forces
 from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -37,10 +39,12 @@ class FeTyreOptions(SolverOptions, FeModel):
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
+    case_s: float = Field(20.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
     plate_stress: Literal["all", "off"] = Field(
         "all",
-        description="all: the spokes that are loaded most are solved again at their motion in the "
-        "tyre, for the stress of plates and rubber; off: those responses are not assessed",
+        description="all: the most loaded spokes are solved again at their motion in the tyre, for "
+        "the stress of plates and rubber; off: those responses are not assessed",
     )
     curve_to_mm: float | None = Field(
         None,

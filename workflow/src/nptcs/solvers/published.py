@@ -37,7 +37,7 @@ class PublishedOptions(SolverOptions):
 
 
 def solve(inputs: CaseInputs) -> SolverResult:
-    """Look the case up in the archive; a case that is not there is an error, never a guess."""
+    """Look up the case in the archive; a case that is not there is an error, never a guess."""
     options: PublishedOptions = inputs.options
     if fault := options.load_fault(inputs.load_n):
         return SolverResult(status=Status.ERROR, message=fault)

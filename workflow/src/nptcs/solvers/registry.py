@@ -1,4 +1,4 @@
-"""The solvers by name: those of this package and those that a laboratory brings along."""
+"""The solvers by name: those of this package and those that a laboratory adds."""
 
 from __future__ import annotations
 
@@ -99,7 +99,7 @@ def model_choices(options: SolverOptions) -> dict[str, str]:
 
 
 def needs_ply(study: Study, options: Mapping[str, Mapping[str, Any]]) -> bool:
-    """Whether one of a study's solvers takes the constants of a ply.
+    """Tell whether one of a study's solvers needs the constants of a ply.
 
     Parameters
     ----------

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import ClassVar
+from typing import ClassVar, Literal
 
 import numpy as np
 from pydantic import Field
@@ -11,13 +11,17 @@ from pydantic import Field
 from nptcs.config.fe import FeModel
 from nptcs.config.ring import RingModel
 from nptcs.errors import InputError
-from nptcs.fe.case import spoke_design
+from nptcs.fe.case import plate_volume_mm3, spoke_design
 from nptcs.fe.energy_cache import shared_table
-from nptcs.fe.spoke.equilibrium import SpokeError
+from nptcs.fe.output.loaded_spokes import loaded_spokes
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.tyre.responses import spoke_forces
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.solvers.contract import (
+    CASE_MEMORY,
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -33,6 +37,14 @@ class RingSolverOptions(SolverOptions, RingModel):
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
+    case_s: float = Field(15.0, gt=0, description=CASE_S)
+    case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
+    plate_stress: Literal["all", "off"] = Field(
+        "off",
+        description="all: the spokes that are loaded most are solved again at their motion in the "
+        "tyre, as by `fe_tyre`, for the stress of plates and rubber, which takes a hundred times "
+        "as long as the ring; off: those responses are not assessed",
+    )
     spoke_cache: Path | None = Field(
         None,
         description="Folder in which cases share the tables of equal spokes, also with `fe_tyre`; "
@@ -73,16 +85,31 @@ def solve(inputs: CaseInputs) -> SolverResult:
     except RingError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
+    found = responses(tyre, last)
+    area = found["contact_length_mm"] * inputs.tyre.tread_width_mm
+    motion = tyre.spoke_motion(last.u)
+    plates, rubber, notes = None, {}, ""
+    if options.plate_stress == "all":
+        try:
+            plates, rubber = loaded_spokes(SpokeModel(design), table, motion)
+        except SpokeError as error:
+            notes = f"stress of plates and spokes' rubber not assessed: {error}"
     return SolverResult(
         status=Status.OK,
+        message=notes,
         vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
         displacement_mm=last.rise_mm,
         extra={
             "table_force_residual_n": table.force_residual_n,
-            **responses(tyre, last),
+            **found,
+            "mean_pressure_mpa": inputs.load_n / area,
+            **spoke_forces(table, motion),
+            **rubber,
+            "plate_volume_mm3": plate_volume_mm3(design, inputs.tyre.spoke_count),
             "iterations": float(sum(state.iterations for state in states)),
         },
         curve=_curve(states),
+        plate_stress=plates,
         neutral_line=_neutral_line(tyre, last),
     )
 
@@ -101,7 +128,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="1",
+    version="2",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,

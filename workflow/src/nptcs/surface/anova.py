@@ -17,7 +17,7 @@ NOISE_FREE = 1e-9
 
 
 class Noise(StrEnum):
-    """What the cases say of the noise of the response."""
+    """What the cases say about the noise of the response."""
 
     REPLICATES = "replicates differ"
     EQUAL = "replicates are equal"
@@ -66,7 +66,7 @@ class AnovaRow:
 
 
 def noise_of(surface: Surface) -> Noise:
-    """Tell what equal cases of a surface say of the noise."""
+    """Tell what equal cases of a surface say about the noise."""
     error, df = pure_error(surface.x, surface.y)
     if df == 0:
         return Noise.UNKNOWN

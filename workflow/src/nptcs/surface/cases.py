@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.tables.cases import realised_column
+from nptcs.tables.status import has_result
 
 
 @dataclass(frozen=True)
@@ -53,7 +54,7 @@ def solved_cases(cases: pd.DataFrame, solver: str, factors: Sequence[str]) -> So
     SolvedCases
     """
     rows = cases[cases["solver"] == solver]
-    solved = rows[rows["status"] == "ok"]
+    solved = rows[has_result(rows["status"])]
     used = as_realised(solved, factors)
     names = list(factors)
     given = solved[names].apply(tuple, axis=1)

@@ -1,4 +1,4 @@
-"""How surfaces of every kind predict cases that they have not seen: one protocol for all."""
+"""How surfaces of every kind predict cases that they have not seen, tested in one way for all."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ GRID_POINTS = 10_000
 """Points of the grid over the box on which the direction of each factor's effect is read."""
 
 MOST_LEVELS = 10
-"""A factor with more values than this has no levels that could be left out."""
+"""A factor with more values than this has no levels to leave out."""
 
 FLAT = 1e-9
 """Share of the response's range below which a step along a factor has no direction."""
@@ -34,11 +34,34 @@ class LeftOut:
         Whether the response lies in the prediction interval.
     cpu_s : float
         Processor time of all refits.
+    what : str
+        What was left out at a time.
     """
 
     error: Array
     covered: Mask
     cpu_s: float
+    what: str = "a case"
+
+    @property
+    def known(self) -> Array:
+        """Errors of the cases without which the surface could be fitted."""
+        return self.error[np.isfinite(self.error)]
+
+    @property
+    def largest(self) -> float:
+        """Largest error in size; NaN if no case could be left out."""
+        return float(np.abs(self.known).max()) if len(self.known) else np.nan
+
+    @property
+    def rms(self) -> float:
+        """Root mean square error; NaN if no case could be left out."""
+        return float(np.sqrt(np.mean(self.known**2))) if len(self.known) else np.nan
+
+    @property
+    def coverage_percent(self) -> float:
+        """Share of these cases in the prediction interval; NaN if none could be left out."""
+        return 100 * float(self.covered.sum()) / len(self.known) if len(self.known) else np.nan
 
 
 @dataclass(frozen=True)
@@ -58,20 +81,24 @@ class LevelError:
 
 
 def leave_one_out(surface: ResponseSurface) -> LeftOut:
-    """Fit the surface again without each case, all its parameters anew, and predict that case."""
+    """Fit the surface again without each group of cases, all parameters anew, and predict them.
+
+    A group is a single case, or all cases that the kind of surface says belong together
+    (`ResponseSurface.groups`): leaving one of them out would test nothing.
+    """
     start = time.process_time()
     error, covered = np.full(len(surface.y), np.nan), np.zeros(len(surface.y), bool)
-    for case in range(len(surface.y)):
-        kept = np.arange(len(surface.y)) != case
+    groups = surface.groups()
+    for group in np.unique(groups.labels):
+        out = groups.labels == group
         try:
-            other = surface.refit(surface.x[kept], surface.y[kept])
+            other = surface.refit(surface.x[~out], surface.y[~out])
         except InputError:
             continue
-        point = surface.x[[case]]
-        low, high = other.interval(point, CONFIDENCE)
-        error[case] = other.predict(point)[0] - surface.y[case]
-        covered[case] = low[0] <= surface.y[case] <= high[0]
-    return LeftOut(error, covered, time.process_time() - start)
+        low, high = other.interval(surface.x[out], CONFIDENCE)
+        error[out] = other.predict(surface.x[out]) - surface.y[out]
+        covered[out] = (low <= surface.y[out]) & (surface.y[out] <= high)
+    return LeftOut(error, covered, time.process_time() - start, groups.what)
 
 
 def leave_one_level_out(surface: ResponseSurface, axis: int) -> LevelError:

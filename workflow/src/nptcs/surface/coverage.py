@@ -12,6 +12,7 @@ from nptcs.surface.cases import as_realised
 from nptcs.surface.fit import coding, refuse_aliased
 from nptcs.surface.response_surface import box
 from nptcs.tables.coverage import CaseCoverage
+from nptcs.tables.status import has_result
 from nptcs.terms import parse
 
 MANY_VALUES = 10
@@ -58,7 +59,7 @@ def coverage_table(cases: pd.DataFrame, studies: Mapping[str, Planned]) -> pd.Da
             status = planned.design["case_id"].map(records.set_index("case_id")["status"])
             status = status.fillna("missing")
             key = {"study": study, "solver": solver}
-            solved = as_realised(records[records["status"] == "ok"], planned.factors)
+            solved = as_realised(records[has_result(records["status"])], planned.factors)
             whole = {"factor": "", "level": "", "estimable": estimable(solved, planned)}
             rows.append({**key, **whole, **_counts(status)})
             for factor in planned.factors:
@@ -106,8 +107,8 @@ def _levels(values: pd.Series) -> pd.Series:
 def _counts(status: pd.Series) -> dict[str, object]:
     """Count the cases of a level by how they ended."""
     counts = status.value_counts()
-    solved, missing = int(counts.get("ok", 0)), int(counts.get("missing", 0))
-    failed = counts.drop(["ok", "missing"], errors="ignore")
+    solved, missing = int(has_result(status).sum()), int(counts.get("missing", 0))
+    failed = status[~has_result(status) & status.ne("missing")].value_counts()
     return {
         "cases": len(status),
         "solved": solved,

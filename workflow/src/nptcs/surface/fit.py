@@ -13,7 +13,7 @@ from scipy import stats
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.surface import least_squares
-from nptcs.surface.response_surface import Outside, box, refuse_unusable
+from nptcs.surface.response_surface import Groups, Outside, box, refuse_unusable, single_cases
 from nptcs.terms import Polynomial, coded_to_natural, parse
 
 RANK_TOLERANCE = 1e-9
@@ -111,8 +111,12 @@ class Surface:
         """Fit the same terms to other cases."""
         return fit_points(x, y, self.polynomial, self.through_origin)
 
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
+
     def content(self) -> dict[str, Any]:
-        """All that makes the surface, as plain values."""
+        """Everything that defines the surface, as plain values."""
         return {
             "factors": self.polynomial.factors,
             "exponents": self.polynomial.exponents,

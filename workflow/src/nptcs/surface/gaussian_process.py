@@ -1,8 +1,7 @@
-"""A Gaussian process on a mean of one's choice: it passes through cases that have no noise."""
+"""A Gaussian process on any mean; it passes through cases that have no noise."""
 
 from __future__ import annotations
 
-import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
@@ -10,13 +9,20 @@ from typing import Any
 
 import numpy as np
 from scipy import stats
-from sklearn.exceptions import ConvergenceWarning
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, WhiteKernel
 
 from nptcs.arrays import Array
+from nptcs.errors import InputError
+from nptcs.likelihood import SearchError, bounds_are_answers, maximise
 from nptcs.surface.fit import coding
-from nptcs.surface.response_surface import Outside, ResponseSurface, refuse_unusable
+from nptcs.surface.response_surface import (
+    Groups,
+    Outside,
+    ResponseSurface,
+    refuse_unusable,
+    single_cases,
+)
 
 NUGGET = 1e-8
 """Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
@@ -30,7 +36,7 @@ VARIANCE_BOUNDS = (1e-3, 1e3)
 
 @dataclass(frozen=True)
 class GaussianProcess:
-    """A Matérn 5/2 process in coded units that follows what its mean leaves of the cases.
+    """A Matérn 5/2 process in coded units that follows the residuals of its mean.
 
     Parameters
     ----------
@@ -81,8 +87,12 @@ class GaussianProcess:
             mean = self.mean.refit(x[:, self._mean_columns()], y)
         return _fitted(self.factor_names, x, y, mean, self.theta, restarts=0)
 
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
+
     def content(self) -> dict[str, Any]:
-        """All that makes the surface but its mean, as plain values."""
+        """Everything that defines the surface except its mean, as plain values."""
         return {
             "factor_names": self.factor_names,
             "x": self.x.tolist(),
@@ -110,7 +120,7 @@ class GaussianProcess:
 
     @cached_property
     def _scale(self) -> float:
-        """Root mean square of what the mean leaves; 1 where it leaves nothing."""
+        """Root mean square of the mean's residuals; 1 where there are none."""
         return float(np.sqrt(np.mean(self._residual**2))) or 1.0
 
     @cached_property
@@ -170,11 +180,15 @@ def _fitted(
     process = GaussianProcessRegressor(
         kernel.clone_with_theta(start),
         alpha=NUGGET,
+        optimizer=maximise,
         n_restarts_optimizer=restarts,
         random_state=0,
     )
-    with warnings.catch_warnings():
-        # a length at its bound is a factor without, or with local, effect: nothing to warn of
-        warnings.simplefilter("ignore", ConvergenceWarning)
-        process.fit(draft._coded(x), draft._residual / draft._scale)
+    try:
+        with bounds_are_answers():
+            process.fit(draft._coded(x), draft._residual / draft._scale)
+    except SearchError as error:
+        raise InputError(
+            str(error), column="surfaces", remedy="leave this surface out, or change its mean"
+        ) from None
     return GaussianProcess(factors, x, y, mean, np.asarray(process.kernel_.theta))

@@ -25,7 +25,7 @@ def impact_table(
     rules: Sequence[AveragingRule],
     near_tie_ratio: float,
 ) -> pd.DataFrame:
-    """Take the impact values of every study, solver and rule.
+    """Compute the impact values of every study, solver and rule.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def impact_table(
 def _with_basis(
     table: pd.DataFrame, surface: Surface, design: pd.DataFrame, failed: int
 ) -> pd.DataFrame:
-    """Add in what values the index is computed, and on how many cases it rests."""
+    """Add which values the index is computed in, and on how many cases it rests."""
     used = [
         np.isin(surface.x[:, axis].round(9), design[factor].to_numpy(float).round(9)).all()
         for axis, factor in enumerate(surface.factors)

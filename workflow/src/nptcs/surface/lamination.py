@@ -1,4 +1,4 @@
-"""The lamination form: a response surface that carries the mechanics of plates in rubber.
+"""The lamination form: a response surface built on the mechanics of plates in rubber.
 
 The compliance of the tyre is that of ring and rubber plus that of the plates' bending,
 
@@ -24,7 +24,7 @@ from scipy.optimize import least_squares
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.laminate import abd
-from nptcs.surface.response_surface import Outside, refuse_unusable
+from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
 
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg")
 REFERENCE_SPACING_MM = 15.0
@@ -35,7 +35,7 @@ OPTIONAL_SHAPE = ("log_r", "log_a", "m")
 """Shape parameters that forms with fewer than eight coefficients leave out, in part."""
 
 ABSENT = {"log_r": -np.inf, "log_a": -np.inf, "m": 1.0}
-"""What a shape parameter is where it is left out: nothing added, a linear effect of S."""
+"""Value of a shape parameter that is left out: nothing added, or a linear effect of S."""
 
 RUBBER_PLACE = {"log_r": 2, "log_a": 3, "log_p": 4}
 """Where the rubber adds to the diagonal of ABD: A66, D11, D22."""
@@ -87,6 +87,13 @@ class Lamination:
         """Evaluate the stiffness at points of shape (m, 3) → (m,), N/mm."""
         return _stiffness(self.parameters, self.shape, x, laminates(x, self.ply))
 
+    def predict_with(self, x: Array, ply: Mapping[str, float | Array]) -> Array:
+        """Evaluate the stiffness with plates of another ply, shape (m, 3) → (m,), N/mm.
+
+        The fitted coefficients stay; a constant of the ply has one value or m.
+        """
+        return _stiffness(self.parameters, self.shape, x, laminates(x, ply))
+
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
         """Bounds of the prediction interval, linear in the parameters: two of shape (m,)."""
         jacobian = _jacobian(self.parameters, self.shape, x, laminates(x, self.ply))
@@ -100,8 +107,12 @@ class Lamination:
         """Fit the same form to other cases, from the parameters found here."""
         return _best(x, y, self.ply, {self.shape: [self.parameters]})
 
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
+
     def content(self) -> dict[str, Any]:
-        """All that makes the surface, as plain values."""
+        """Everything that defines the surface, as plain values."""
         return {
             "x": self.x.tolist(),
             "y": self.y.tolist(),
@@ -174,7 +185,7 @@ def fit_lamination(
     return _best(ordered, y, ply, starts)
 
 
-def laminates(x: Array, ply: Mapping[str, float]) -> Array:
+def laminates(x: Array, ply: Mapping[str, float | Array]) -> Array:
     """Laminate stiffness ABD of the plates of each case, shape (m, 6, 6), in N and mm."""
     return abd(ply, x[:, 2], x[:, 1])
 

@@ -11,7 +11,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.surface.fit import Surface, fit_points
-from nptcs.surface.response_surface import Outside
+from nptcs.surface.response_surface import Groups, Outside, single_cases
 from nptcs.terms import Polynomial
 
 Bend = Literal["log", "reciprocal"]
@@ -73,8 +73,12 @@ class LinkedSurface:
         """Fit the same terms to other cases."""
         return fit_linked(self.link, x, y, self.inner.polynomial, self.inner.through_origin)
 
+    def groups(self) -> Groups:
+        """Tell which cases are left out together: each alone."""
+        return single_cases(self.y)
+
     def content(self) -> dict[str, Any]:
-        """All that makes the surface, as plain values."""
+        """Everything that defines the surface, as plain values."""
         return {"link": self.link, "inner": self.inner.content(), "y": self.y.tolist()}
 
 

@@ -12,6 +12,7 @@ from nptcs.config.surface import (
     GaussianProcessModel,
     LaminationModel,
     PolynomialModel,
+    SpokeProcessModel,
     SurfaceModel,
     name_of,
 )
@@ -21,6 +22,7 @@ from nptcs.surface.lamination import Lamination, fit_lamination
 from nptcs.surface.linked import LinkedSurface, fit_linked
 from nptcs.surface.response_surface import ResponseSurface
 from nptcs.surface.selection import chosen_terms
+from nptcs.surface.spoke_process import fit_spoke_process
 from nptcs.terms import parse
 
 
@@ -68,6 +70,8 @@ def fit_model(model: SurfaceModel, cases: Cases) -> ResponseSurface:
             return _lamination(model, cases)
         case GaussianProcessModel():
             return _process(model, cases)
+        case SpokeProcessModel():
+            return fit_spoke_process(cases.x, cases.y, cases.factors, cases.ply, model.degree)
         case _:
             assert_never(model)
 

@@ -15,7 +15,7 @@ def assess(surface: Surface) -> dict[str, float]:
 
     Leave-one-out residuals are e/(1 - h) with the leverage h (PRESS); the ten folds are drawn
     with a fixed seed. R² compares with the total sum of squares about the
-    mean, through the origin with that about zero.
+    mean, or, through the origin, with that about zero.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What every kind of surface can do, and a prediction that knows where the surface is valid."""
+"""What every kind of surface offers, and predictions that respect the range of validity."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from typing import Any, Protocol, Self
 
 import numpy as np
 
-from nptcs.arrays import Array, Mask
+from nptcs.arrays import Array, Index, Mask
 from nptcs.errors import InputError
 
 INSIDE_TOLERANCE = 1e-9
@@ -17,10 +17,31 @@ INSIDE_TOLERANCE = 1e-9
 
 
 class Outside(StrEnum):
-    """What a surface says outside the box of the cases that it was fitted to."""
+    """What happens outside the box of the cases that a surface was fitted to."""
 
     REFUSED = "refused"
     FLAGGED = "flagged"
+
+
+@dataclass(frozen=True)
+class Groups:
+    """Cases that are left out together.
+
+    Parameters
+    ----------
+    labels : ndarray of shape (m,)
+        Number of the group of each case.
+    what : str
+        What a group is, in words.
+    """
+
+    labels: Index
+    what: str
+
+
+def single_cases(y: Array) -> Groups:
+    """Each case is a group of its own."""
+    return Groups(np.arange(len(y)), "a case")
 
 
 class ResponseSurface(Protocol):
@@ -35,7 +56,7 @@ class ResponseSurface(Protocol):
     coefficients : int
         Fitted coefficients, hyperparameters of a Gaussian process left out.
     outside : Outside
-        What is said outside the cases' box.
+        What happens outside the cases' box.
     """
 
     @property
@@ -65,14 +86,18 @@ class ResponseSurface(Protocol):
         """Fit the same surface to other cases: its terms or form kept, all parameters anew."""
         ...
 
+    def groups(self) -> Groups:
+        """Tell which cases are left out together when the surface is tested."""
+        ...
+
     def content(self) -> dict[str, Any]:
-        """All that `nptcs.surface.stored.load` needs, as plain values."""
+        """Everything that `nptcs.surface.stored` needs to read it back, as plain values."""
         ...
 
 
 @dataclass(frozen=True)
 class Prediction:
-    """What a surface says of m points.
+    """Predictions of a surface at m points.
 
     Parameters
     ----------

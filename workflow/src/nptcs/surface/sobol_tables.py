@@ -40,7 +40,7 @@ class VarianceShares:
 def variance_shares(
     models: Models, failed: Mapping[tuple[str, str], int], settings: Sensitivity
 ) -> VarianceShares:
-    """Share the variance of every surface out among its factors.
+    """Divide the variance of every surface among its factors.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def variance_shares(
                 found = sobol_indices(surface.predict, inputs, settings.sobol)
             except InputError as error:
                 place = f"{key['solver']}, {key['surface']}"
-                problems.append(("sensitivity", key["study"], place, "refused", str(error)))
+                problems.append(("surface", key["study"], place, "refused", str(error)))
                 continue
             cases = {"samples": found.samples, "cases": len(surface.y)}
             cases["failed_cases"] = failed[key["study"], key["solver"]]

@@ -143,7 +143,7 @@ def _best_direction(
 
 
 def _root(surface: Surface, start: Array, axes: list[int]) -> Array | None:
-    """Search a point without slope inside the box; None if the search leads elsewhere."""
+    """Search for a point without slope inside the box; None if the search ends elsewhere."""
     found = optimize.least_squares(
         lambda coded: _slope(surface, _whole(surface, coded, axes))[axes],
         start,
@@ -184,7 +184,7 @@ def _kind(curvatures: Array) -> str:
 
 
 def _whole(surface: Surface, coded: Array, axes: list[int]) -> Array:
-    """Put the coded values of some factors among those of all, the others at their middle."""
+    """Return a whole point from the coded values of some factors, the others at their middle."""
     point = np.zeros(len(surface.factors))
     point[axes] = coded
     return point

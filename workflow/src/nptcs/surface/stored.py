@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping
+from dataclasses import asdict
 from pathlib import Path
 from typing import Any
 
@@ -15,11 +16,10 @@ from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
 from nptcs.surface.linked import LinkedSurface
+from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
+from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.terms import Polynomial
-
-Models = Mapping[str, Mapping[str, ResponseSurface]]
-"""Surfaces by solver and name."""
 
 
 def dump(surfaces: Mapping[str, Surface]) -> str:
@@ -54,8 +54,8 @@ def load(text: str) -> dict[str, Surface]:
     return {solver: _polynomial(polynomial) for solver, polynomial in content.items()}
 
 
-def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
-    """Read a file of surfaces of any kind, by solver and name.
+def read_registry(path: str | Path) -> SurfaceRegistry:
+    """Read all fitted surfaces of a study.
 
     Raises
     ------
@@ -63,26 +63,75 @@ def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
         For a file that is missing, damaged or edited.
     """
     try:
-        return load_models(read_stored(path, "file of surfaces"))
+        return load_registry(read_stored(path, "file of surfaces"))
     except BrokenSealError as error:
         raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
 
 
-def dump_models(models: Models) -> str:
-    """Write surfaces of any kind, by solver and name, as JSON text."""
-    content = {
-        solver: {name: to_plain(surface) for name, surface in named.items()}
-        for solver, named in models.items()
-    }
-    return sealed_object(content, "Models")
+def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:
+    """Read the surfaces of a study's stiffness at its load, by solver and name.
+
+    Raises
+    ------
+    InputError
+        As `read_registry`.
+    """
+    return read_registry(path).by_solver(Response(STIFFNESS))
 
 
-def load_models(text: str) -> dict[str, dict[str, ResponseSurface]]:
-    """Read what `dump_models` has written."""
-    return {
-        solver: {name: from_plain(content) for name, content in named.items()}
-        for solver, named in open_object(text, "Models").items()
-    }
+def dump_registry(registry: SurfaceRegistry) -> str:
+    """Write the surfaces of a study, of any kind and response, as JSON text."""
+    surfaces = [
+        {
+            "solver": fitted.solver,
+            "name": fitted.name,
+            "response": asdict(fitted.response),
+            "realised": list(fitted.realised),
+            "not_assessed": fitted.not_assessed,
+            "failed": fitted.failed,
+            "left_out_rms": _number(fitted.left_out_rms),
+            "left_out_largest": _number(fitted.left_out_largest),
+            "surface": to_plain(fitted.surface),
+        }
+        for fitted in registry.surfaces
+    ]
+    return sealed_object({"study": registry.study, "surfaces": surfaces}, "FittedSurfaces")
+
+
+def load_registry(text: str) -> SurfaceRegistry:
+    """Read what `dump_registry` has written.
+
+    Raises
+    ------
+    BrokenSealError
+        For a text that was damaged or edited.
+    """
+    content = open_object(text, "FittedSurfaces")
+    study = content["study"]
+    return SurfaceRegistry(study, tuple(_fitted(study, plain) for plain in content["surfaces"]))
+
+
+def _fitted(study: str, plain: Mapping[str, Any]) -> FittedSurface:
+    missing = float("nan")
+    return FittedSurface(
+        study=study,
+        solver=plain["solver"],
+        name=plain["name"],
+        response=Response(**plain["response"]),
+        surface=from_plain(plain["surface"]),
+        realised=tuple(plain["realised"]),
+        not_assessed=plain["not_assessed"],
+        failed=plain["failed"],
+        left_out_rms=missing if plain["left_out_rms"] is None else plain["left_out_rms"],
+        left_out_largest=missing
+        if plain["left_out_largest"] is None
+        else plain["left_out_largest"],
+    )
+
+
+def _number(value: float) -> float | None:
+    """JSON has no NaN: a number that was not assessed is null."""
+    return value if np.isfinite(value) else None
 
 
 def to_plain(surface: ResponseSurface) -> dict[str, Any]:
@@ -138,9 +187,21 @@ def _process(content: Mapping[str, Any]) -> GaussianProcess:
     )
 
 
+def _spoke_process(content: Mapping[str, Any]) -> SpokeProcess:
+    return SpokeProcess(
+        factor_names=tuple(content["factor_names"]),
+        x=np.array(content["x"]),
+        y=np.array(content["y"]),
+        ply=content["ply"],
+        degree=content["degree"],
+        theta=np.array(content["theta"]),
+    )
+
+
 READERS: dict[str, Callable[[Mapping[str, Any]], ResponseSurface]] = {
     Surface.__name__: _polynomial,
     LinkedSurface.__name__: _linked,
     Lamination.__name__: _lamination,
     GaussianProcess.__name__: _process,
+    SpokeProcess.__name__: _spoke_process,
 }

@@ -7,19 +7,28 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from nptcs.surface.comparison import LevelError, directions, leave_one_level_out, leave_one_out
+from nptcs.surface.comparison import LevelError, directions, leave_one_level_out
 from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
 from nptcs.surface.linked import LinkedSurface
 from nptcs.surface.quality import assess
+from nptcs.surface.registry import STIFFNESS
 from nptcs.surface.response_surface import ResponseSurface, box
-from nptcs.surface.study import RESPONSE, StudySurfaces
+from nptcs.surface.spoke_process import SpokeProcess
+from nptcs.surface.study import Fit, StudySurfaces
 from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
 
-COMPARISON_RULE = (
+ALL_ANEW = (
     "terms or form kept, all parameters and hyperparameters fitted anew without each case or level"
 )
+COMPARISON_RULE: Mapping[type[ResponseSurface], str] = {
+    Surface: ALL_ANEW,
+    LinkedSurface: ALL_ANEW,
+    Lamination: ALL_ANEW,
+    GaussianProcess: ALL_ANEW,
+    SpokeProcess: "hyperparameters kept, all else fitted anew without each spoke or level",
+}
 
 
 def surface_table(
@@ -46,13 +55,13 @@ def surface_table(
     return pd.DataFrame(rows, columns=list(SurfaceTable.to_schema().columns))
 
 
-def quality_table(study: str, done: StudySurfaces) -> pd.DataFrame:
+def quality_table(done: StudySurfaces) -> pd.DataFrame:
     """Make the `SurfaceQuality` of a study's polynomials, one row per solver."""
     rows = [
         {
-            "study": study,
+            "study": done.study,
             "solver": solver,
-            "response": RESPONSE,
+            "response": STIFFNESS,
             "failed_cases": done.solved[solver].failed,
             "same_cases": done.solved[solver].same,
             "realised_factors": ", ".join(done.solved[solver].changed),
@@ -64,19 +73,16 @@ def quality_table(study: str, done: StudySurfaces) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=list(SurfaceQuality.to_schema().columns))
 
 
-def comparison_tables(study: str, done: StudySurfaces) -> tuple[pd.DataFrame, pd.DataFrame]:
+def comparison_tables(done: StudySurfaces) -> tuple[pd.DataFrame, pd.DataFrame]:
     """Make the `SurfaceComparison` and the `SurfaceByFactor` of all surfaces of a study."""
     comparison, by_factor = [], []
-    for solver, named in done.models.items():
-        for name, surface in named.items():
-            key = {"study": study, "solver": solver, "surface": name}
-            axes = range(len(surface.factors))
-            levels = [leave_one_level_out(surface, axis) for axis in axes]
-            cpu_s = done.fit_cpu_s[solver, name]
-            comparison.append({**key, **_compared(surface, levels), "fit_cpu_s": cpu_s})
-            by_factor += [
-                {**key, **row} for row in _factors(surface, levels, done.solved[solver].changed)
-            ]
+    for fit in done.of_stiffness():
+        key = {"study": done.study, "solver": fit.solver, "surface": fit.name}
+        axes = range(len(fit.surface.factors))
+        levels = [leave_one_level_out(fit.surface, axis) for axis in axes]
+        comparison.append({**key, **_compared(fit, levels)})
+        changed = done.solved[fit.solver].changed
+        by_factor += [{**key, **row} for row in _factors(fit.surface, levels, changed)]
     return (
         pd.DataFrame(comparison, columns=list(SurfaceComparison.to_schema().columns)),
         pd.DataFrame(by_factor, columns=list(SurfaceByFactor.to_schema().columns)),
@@ -84,7 +90,7 @@ def comparison_tables(study: str, done: StudySurfaces) -> tuple[pd.DataFrame, pd
 
 
 def form_of(surface: ResponseSurface) -> str:
-    """Say of what a surface is made: its terms, shape parameters or hyperparameters."""
+    """Describe a surface by its terms, shape parameters or hyperparameters."""
     if isinstance(surface, Surface):
         return " + ".join(surface.polynomial.names)
     if isinstance(surface, LinkedSurface):
@@ -95,32 +101,45 @@ def form_of(surface: ResponseSurface) -> str:
         sizes = ", ".join(f"{value:.3g}" for value in np.exp(surface.theta))
         mean = "constant" if surface.mean is None else form_of(surface.mean)
         return f"Matérn 5/2, variance and lengths in half ranges {sizes}; mean: {mean}"
+    if isinstance(surface, SpokeProcess):
+        response = "log of the response" if surface.logarithmic else "response"
+        return (
+            f"{response} on one spoke of degree {surface.degree} in the ring's logarithms; "
+            f"{len(surface.theta)} processes over spokes"
+        )
     raise TypeError(f"not a kind of surface: {type(surface).__name__}")
 
 
-def _compared(surface: ResponseSurface, levels: list[LevelError]) -> dict[str, object]:
+def _compared(fit: Fit, levels: list[LevelError]) -> dict[str, object]:
     """Fit, leave-one-out and level errors of one surface."""
-    residual = surface.y - surface.predict(surface.x)
-    left_out = leave_one_out(surface)
-    errors = left_out.error[np.isfinite(left_out.error)]
+    surface, left_out = fit.surface, fit.left_out
     worst = [level.largest for level in levels if np.isfinite(level.largest)]
     names = zip(surface.factors, levels, strict=True)
     return {
-        "response": RESPONSE,
+        "response": fit.response.name,
+        **fit_measures(surface),
+        "leave_one_out_largest": left_out.largest,
+        "leave_one_out_rms": left_out.rms,
+        "leave_one_out_not_fitted": len(surface.y) - len(left_out.known),
+        "coverage_percent": left_out.coverage_percent,
+        "level_out_largest": max(worst, default=np.nan),
+        "level_out_not_fitted": ", ".join(name for name, level in names if level.refused),
+        "outside_the_box": surface.outside.value,
+        "fit_cpu_s": fit.cpu_s,
+        "leave_one_out_cpu_s": left_out.cpu_s,
+        "rule": COMPARISON_RULE[type(surface)],
+    }
+
+
+def fit_measures(surface: ResponseSurface) -> dict[str, object]:
+    """How a surface follows its cases: points, coefficients, form, R² and the largest residual."""
+    residual = surface.y - surface.predict(surface.x)
+    return {
         "points": len(surface.y),
         "coefficients": surface.coefficients,
         "form": form_of(surface),
         "r_squared": 1 - float(residual @ residual / np.sum((surface.y - surface.y.mean()) ** 2)),
         "largest_residual": float(np.abs(residual).max()),
-        "leave_one_out_largest": float(np.abs(errors).max()) if len(errors) else np.nan,
-        "leave_one_out_rms": float(np.sqrt(np.mean(errors**2))) if len(errors) else np.nan,
-        "leave_one_out_not_fitted": len(surface.y) - len(errors),
-        "coverage_percent": 100 * left_out.covered.sum() / len(errors) if len(errors) else np.nan,
-        "level_out_largest": max(worst, default=np.nan),
-        "level_out_not_fitted": ", ".join(name for name, level in names if level.refused),
-        "outside_the_box": surface.outside.value,
-        "leave_one_out_cpu_s": left_out.cpu_s,
-        "rule": COMPARISON_RULE,
     }
 
 

@@ -30,6 +30,7 @@ from nptcs.tables.published_stiffness import (
     StiffnessByLevel,
     StiffnessErrors,
 )
+from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.result_table import (
     PER_STUDY,
     ReportSection,
@@ -190,7 +191,7 @@ TABLES: dict[str, ResultTable] = {
     ),
     "surface_selection.csv": ResultTable(
         SurfaceSelection,
-        "Terms of the polynomials dropped one after the other, by AICc and by PRESS",
+        "Terms of the polynomials dropped one by one, by AICc and by PRESS",
         "diagnostics",
         "the polynomials' terms; only a term that no other one needs may go",
         section=ReportSection.SURFACES,
@@ -223,6 +224,26 @@ TABLES: dict[str, ResultTable] = {
         section=ReportSection.SENSITIVITY,
         headings=headings.of(headings.SOBOL, MainEffects),
         synthetic=SyntheticBy.STUDIES,
+    ),
+    "response_surfaces.csv": ResultTable(
+        ResponseSurfaces,
+        "Surfaces of every response, and how they predict cases that were left out",
+        "surface, sensitivity",
+        "cases.csv and the responses of solved tyres, realised values; left-out cases predicted by "
+        "surfaces that were fitted anew",
+        section=ReportSection.SURFACES,
+        headings=headings.RESPONSE_SURFACES,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "response_impact.csv": ResultTable(
+        ResponseImpact,
+        "What each factor does to each response",
+        "sobol",
+        "of each response the surface that predicts left-out cases best; Sobol indices by "
+        "Saltelli's scheme, slopes over a scrambled Sobol sequence",
+        section=ReportSection.SENSITIVITY,
+        headings=headings.RESPONSE_IMPACT,
+        synthetic=SyntheticBy.ROWS,
     ),
     "spoke_stiffness.csv": ResultTable(
         SpokeLines,
@@ -279,9 +300,9 @@ TABLES: dict[str, ResultTable] = {
     ),
     "stiffness_errors.csv": ResultTable(
         StiffnessErrors,
-        "Differences from the published stiffness, blind cases apart from calibrated ones",
+        "Differences from the published stiffness, blind cases and calibration cases",
         "compare_published",
-        "stiffness_against_published.csv, summed up",
+        "stiffness_against_published.csv, summarised",
         section=ReportSection.PUBLISHED_STIFFNESS,
         headings=headings.ERRORS,
         synthetic=SyntheticBy.ROWS,

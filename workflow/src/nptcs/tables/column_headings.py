@@ -48,6 +48,28 @@ QUALITY = {
     "largest_residual": Heading("largest residual", "N/mm"),
 }
 RESPONSES = {"value": Heading("value", "unit of the row")}
+RESPONSE_SURFACES = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "smallest": "smallest",
+        "largest": "largest",
+        "largest_residual": "largest residual",
+        "left_out_largest": "left out, largest error",
+        "left_out_rms": "left out, rms error",
+    }.items()
+} | {
+    "left_out_largest_percent": Heading("left out, largest error", "%"),
+    "left_out_rms_percent": Heading("left out, rms error", "%"),
+    "coverage_percent": Heading("in the 95 % interval", "%"),
+}
+RESPONSE_IMPACT = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "impact": "impact, mean |slope| × range",
+        "signed_impact": "mean slope × range",
+        "effect": "effect, √ST × SD",
+    }.items()
+} | {name: Heading(name, "unit of the factor") for name in ("lowest", "highest")}
 COMPARISON = {
     "largest_residual": Heading("largest residual", "N/mm"),
     "leave_one_out_largest": Heading("leave-one-out, largest", "N/mm"),

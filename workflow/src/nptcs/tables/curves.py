@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable
 from pathlib import Path
-from typing import Literal
+from typing import Literal, assert_never
 
 import pandas as pd
 import pandera.pandas as pa
@@ -119,6 +119,17 @@ class IngestRecord(Strict):
     )
     steps: tuple[Step, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
+
+    @property
+    def understood(self) -> bool:
+        """Tell whether the specimen has a curve; otherwise the message says why not."""
+        match self.status:
+            case "ok":
+                return True
+            case "error":
+                return False
+            case _:
+                assert_never(self.status)
 
     @classmethod
     def failed(cls, specimen: str, error: InputError) -> IngestRecord:

@@ -114,7 +114,7 @@ class SurfaceStationary(pa.DataFrameModel):
 
 
 class SurfaceSelection(pa.DataFrameModel):
-    """``surface_selection.csv``: terms dropped one after the other, hierarchy kept."""
+    """``surface_selection.csv``: terms dropped one by one, the hierarchy kept."""
 
     study: Series[str]
     solver: Series[str]

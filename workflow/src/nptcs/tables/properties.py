@@ -1,4 +1,4 @@
-"""Contract of the property table: one row a specimen and property."""
+"""Contract of the property table: one row per specimen and property."""
 
 from __future__ import annotations
 

@@ -48,9 +48,9 @@ class StiffnessAgainstPublished(pa.DataFrameModel):
 
 
 class StiffnessErrors(pa.DataFrameModel):
-    """Differences of ``stiffness_against_published.csv`` summed up for each study and solver.
+    """Differences of ``stiffness_against_published.csv``, summarised by study and solver.
 
-    Blind cases are apart from those on which the solver was calibrated.
+    Blind cases are kept apart from those on which the solver was calibrated.
     """
 
     study: Series[str]
@@ -77,7 +77,7 @@ class StiffnessByLevel(pa.DataFrameModel):
     """Main effects: means over the cases at one level of a factor, computed and published.
 
     All means of a factor are over the same combinations of the other factors: those at which
-    every level has both values. Otherwise a case that failed would pose as a trend.
+    every level has both values. Otherwise a case that failed would look like a trend.
     """
 
     study: Series[str]

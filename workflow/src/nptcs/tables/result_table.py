@@ -1,4 +1,4 @@
-"""What the catalogue says of a result table, as plain data: the report and the workbook follow."""
+"""What the catalogue says of a result table, as plain data for the report and the workbook."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from enum import StrEnum
 import pandera.pandas as pa
 
 PER_STUDY = "STUDY"
-"""Stands in a file name and a title for the name of each study that has a surface."""
+"""Placeholder in file names and titles for the name of each study that has a surface."""
 
 
 @dataclass(frozen=True)

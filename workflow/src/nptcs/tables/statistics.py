@@ -1,4 +1,4 @@
-"""Contract of the statistics table: one row a group of specimens and property."""
+"""Contract of the statistics table: one row per group of specimens and property."""
 
 from __future__ import annotations
 

@@ -5,6 +5,8 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.response_surfaces import ResponseSurfaces
+
 
 class SurfaceTable(pa.DataFrameModel):
     """``STUDY_surface.csv``: coefficients of the polynomials, one row per solver and term."""
@@ -145,5 +147,6 @@ JOINED = {
     "quality": SurfaceQuality,
     "comparison": SurfaceComparison,
     "by_factor": SurfaceByFactor,
+    "response_surfaces": ResponseSurfaces,
 }
 """Tables that each study makes and that are joined over all studies."""

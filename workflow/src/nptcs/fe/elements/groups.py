@@ -1,4 +1,4 @@
-"""Blocks of like elements: energy, forces and tangents of all of them at once.
+"""Groups of elements of the same kind: energy, forces and tangents of all of them at once.
 
 Total Lagrangian, in terms of the deformation gradient F and the first Piola–Kirchhoff stress P.
 Bodies of two dimensions are in plane strain (F33 = 1). The element tangent is
@@ -21,8 +21,8 @@ from nptcs.fe.elements.neo_hooke import neo_hookean
 
 # Voigt order of strains and stresses: 11, 22, 33, 12, 23, 13, with engineering shear strains
 VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
-# rubber is worked on in parts whose arrays stay in a processor's cache: half the time for two
-# processes side by side
+# rubber is worked on in parts whose arrays stay in a processor's cache: this halves the time when
+# two processes run at once
 CACHE_BYTES = 400_000
 _I = np.array([0, 1, 2, 0, 1, 0])
 _J = np.array([0, 1, 2, 1, 2, 2])

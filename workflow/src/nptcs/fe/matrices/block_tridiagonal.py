@@ -1,9 +1,9 @@
 """The spoke's symmetric matrix as a chain of dense blocks, and its factorisations.
 
-Unknowns come in rows of equal length, and an element joins three rows that follow each other,
-beginning with an even one (its lower corners). A block holds an odd row and the even one after it;
-of one block only the last row meets the next. Dense LAPACK on these blocks does half the work of a
-banded factorisation, which treats every row as if it met the next three
+Unknowns come in rows of equal length, and an element joins three consecutive rows, beginning with
+an even one (its lower corners). A block holds an odd row and the even one after it; only the last
+row of a block is coupled to the next block. Dense LAPACK on these blocks does half the work of a
+banded factorisation, which treats every row as if it were coupled to the next three
 (``docs/decisions/0003-fe-kernel.md``).
 """
 
@@ -72,7 +72,7 @@ class BlockPattern:
         lower, line = np.divmod(low, self._wide)
         beside = lower - block
         if np.any((beside > 1) | ((beside == 1) & (column < self.row))):
-            raise ValueError("an element joins rows that do not meet in a block")
+            raise ValueError("an element joins rows of blocks that are not neighbours")
         inside = (block * self._wide + column) * self._wide + line
         outside = (block * self.row + column - self.row) * self._wide + line
         target: Index = np.where(beside == 0, inside, self._blocks * self._wide**2 + outside)

@@ -1,4 +1,4 @@
-"""The ring's matrix: element tangents gathered into diagonals, and its solution.
+"""The ring's matrix: element tangents gathered into diagonals, and the solution of its equations.
 
 The matrix of a ring numbered from both of its sides at once is zero far from its diagonal:
 LAPACK's banded factorisation beats a general sparse one there

@@ -1,4 +1,4 @@
-"""Finite element states as bricks of 27 nodes with fields, whatever the elements were."""
+"""Finite element states as 27-node bricks with fields, whatever elements they came from."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Bricks:
     displacement : array (bricks, 27, 3)
         mm.
     cell : mapping of arrays (bricks,)
-        One value a brick.
+        One value per brick.
     point : mapping of arrays (bricks, 27)
         Values at the nodes, NaN where a field has no meaning.
     """
@@ -149,7 +149,7 @@ def _cells(
 def ring_bricks(
     tyre: TyreModel, dimensions: TyreGeometry, state: TyreState, low_mm: float, high_mm: float
 ) -> Bricks:
-    """Band and tread, drawn between two axial places; the energy has the wires' with it."""
+    """Band and tread, drawn between two axial positions; the energy includes the wires'."""
     energies: dict[tuple[int, ...], float] = {}
     for wire in tyre.wires:
         for nodes, energy in zip(

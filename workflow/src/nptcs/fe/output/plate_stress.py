@@ -23,7 +23,7 @@ IN_PLANE = [0, 1, 3]
 class FaceStress:
     """Stress at the two faces of each plate element, at its centre and as its mean.
 
-    Arrays (faces,); the elements with the ply +A first, then the same with the ply -A. Second
+    Arrays (faces,): first the faces at the ply +A, then those of the same elements at -A. Second
     Piola–Kirchhoff stress in axes that turn with the plate, whose strains are small.
 
     Parameters

@@ -137,7 +137,7 @@ def _quads(
 def spoke_figure(model: SpokeModel) -> Figure:
     """Draw the spoke pulled by 4 mm and pressed by 20 mm (figure 13's ends), the band not turning.
 
-    Colour: von Mises stress of the rubber, the plates dark. Beside it the stress along the fibres
+    Colour: von Mises stress of the rubber, the plates dark. Next to it the stress along the fibres
     near the faces of both plies.
     """
     ends = [walk(model, TENSION_MM, 4)[-1], walk(model, -COMPRESSION_MM, 10)[-1]]
@@ -148,7 +148,7 @@ def spoke_figure(model: SpokeModel) -> Figure:
         section = section_stress(model, state)
         _draw(axes, rest, section)
         label = f"{state.motion[0]:+g} mm"
-        axes.set_title(f"{label}, {state.force[0]:+.0f} N a spoke")
+        axes.set_title(f"{label}, {state.force[0]:+.0f} N per spoke")
         for ply, style in enumerate(("-", "--")):
             panels[2].plot(
                 *_broken(section.fibre_mpa[:, ply], section.height_mm, model),

@@ -1,4 +1,4 @@
-"""Bricks as VTK files for ParaView: ``.vtu``, and ``.pvd`` for a row of states.
+"""Bricks as VTK files for ParaView: ``.vtu``, and ``.pvd`` for a series of states.
 
 VTK itself writes them (the extra ``nptcs[paraview]``, see ``docs/how-to/use-finite-elements.md``).
 """
@@ -45,7 +45,7 @@ def shared_nodes(bricks: Bricks) -> tuple[Index, Array, Array, dict[str, Array]]
     connectivity : array (bricks, 27)
     position, displacement : arrays (points, 3)
     fields : mapping of arrays (points,)
-        Mean over the bricks at a node that have a value there.
+        Mean over those bricks at a node that have a value there.
     """
     body = np.repeat(bricks.cell["spoke"], BRICK_NODES)
     places = np.round(bricks.position.reshape(-1, 3) / SAME_NODE_MM)
@@ -112,7 +112,7 @@ def _grid(nodes: Index, position: Array) -> Any:
         vtkUnstructuredGrid,
     )
 
-    # VTK's own local coordinates say which of our nodes stands where
+    # VTK's own local coordinates tell where each of our nodes belongs
     local = np.array(vtkTriQuadraticHexahedron().GetParametricCoords()).reshape(-1, 3)
     order = np.round(2.0 * local).astype(np.int64) @ np.array([9, 3, 1])
     points = vtkPoints()

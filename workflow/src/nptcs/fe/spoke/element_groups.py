@@ -23,7 +23,7 @@ def rubber_group(
     """Rubber elements with a linear pressure; a constant one where they are linear in a direction.
 
     An element that is linear through its thickness has too few displacements for a linear
-    pressure: oscillating pressures of ±16 MPa and a false instability were seen there.
+    pressure: with one, pressures oscillated by ±16 MPa and a false instability appeared.
     """
     points, weights = gauss([order + 1 for order in orders])
     _, slope = tensor_shape(orders, points)

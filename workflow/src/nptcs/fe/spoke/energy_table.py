@@ -132,7 +132,7 @@ def _term(lines: list[list[Array]], orders: tuple[int, int, int]) -> Array:
 
 
 def chebyshev_nodes(low: float, high: float, count: int) -> Array:
-    """Chebyshev points of the second kind on [low, high], both ends with them."""
+    """Chebyshev points of the second kind on [low, high], including both ends."""
     unit = -np.cos(np.pi * np.arange(count) / (count - 1))
     return 0.5 * (low + high) + 0.5 * (high - low) * unit
 

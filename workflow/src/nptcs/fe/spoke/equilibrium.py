@@ -14,7 +14,7 @@ from nptcs.fe.spoke.period import SpokeDesign, SpokePeriod
 
 MAX_ITERATIONS = 14
 SMALLEST_CUT = 1.0 / 16.0
-# work of the step that is left, in parts of the energy, where nothing else is asked for
+# work of the step that is left, in parts of the energy, unless another value is given
 STRICT_WORK = 1e-9
 # first step's work, in parts of the energy, from which a corrected guess is not worth following
 FARTHEST_WORK = 1.0
@@ -23,7 +23,7 @@ SAME_PATH = 0.05
 
 
 class SpokeError(RuntimeError):
-    """The spoke's equilibrium was not found, with the last state that was."""
+    """The spoke's equilibrium was not found, with the last state that was found."""
 
 
 @dataclass

@@ -87,15 +87,15 @@ def _midpoints(edges: Array) -> Array:
 
 
 def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array, Array]:
-    """Lay the section's nodes out.
+    """Place the nodes of the section.
 
     Returns
     -------
     rows : array (rows,)
         Heights of the node rows, mm.
     x : array (rows, columns)
-        Circumferential places of the nodes, mm; the plate's layer lies between the two in the
-        middle.
+        Circumferential positions of the nodes, mm; the plate's layer lies between the two middle
+        columns.
     has_plate : array (element rows,) of bool
     """
     heights, thickness = geometry.section()
@@ -118,7 +118,7 @@ def section_grid(geometry: SpokeGeometry, mesh: SpokeMesh) -> tuple[Array, Array
 
 
 def axial_grid(mesh: SpokeMesh, pitch_mm: float, plate_width_mm: float) -> Array:
-    """Axial places of the node planes, from one edge of a plate to the same edge of the next."""
+    """Axial positions of the node planes, from one edge of a plate to the same edge of the next."""
     half = plate_width_mm / 2.0
     breaks = (-half, half, pitch_mm - half)
     return _midpoints(subdivide(breaks, (mesh.plate_columns, mesh.gap_columns)))

@@ -114,7 +114,7 @@ def sampled_states(
     options : EnergyTableOptions
     corrections : callable
         Gives, for a place, what is added to the extrapolation of the states before it, or None.
-        It says where an iteration begins, not where it ends.
+        It determines where an iteration begins, not where it ends.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Arrays kept in a file that is believed only if it is whole and of the right kind."""
+"""Arrays stored in a file that is trusted only if it is complete and of the right kind."""
 
 from __future__ import annotations
 

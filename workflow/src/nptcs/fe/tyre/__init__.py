@@ -1,5 +1,5 @@
 """The tyre: the ring of shear band and tread on spokes' energies, pressed on the ground.
 
-An energy table, a rubber and a mesh come in, a loaded tyre (`equilibrium`) goes out. How a spoke
-came by its energy is not known here.
+An energy table, a rubber and a mesh come in, a loaded tyre (`equilibrium`) goes out. Where the
+energy of a spoke comes from is not known here.
 """

@@ -44,9 +44,9 @@ class ContactResponse:
 class Ground:
     """The rigid plane y = -R + δ under the tread's outer edges.
 
-    The normal pressure is p(g) = ε g²/2d up to a penetration d, ε (g - d/2) beyond: its slope has
-    no jump: Newton's method does not chatter. The shear traction is µ p tanh(ε_t s / µ p)
-    with the slip s since the point last came to rest; it is remembered at each converged step.
+    The normal pressure is p(g) = ε g²/2d up to a penetration d, ε (g - d/2) beyond: its slope does
+    not jump, so Newton's method does not chatter. The shear traction is µ p tanh(ε_t s / µ p)
+    with the slip s since the last converged step, at which it is remembered.
 
     Parameters
     ----------

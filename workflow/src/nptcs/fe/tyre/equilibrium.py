@@ -32,7 +32,7 @@ SMALLEST_RISE_MM = 0.02
 
 
 class TyreError(RuntimeError):
-    """The load could not be reached; `path` holds what was."""
+    """The load could not be reached; `path` holds the points that were."""
 
     def __init__(self, message: str, path: LoadPath) -> None:
         # both in args, so that it survives the way back from a worker process
@@ -203,7 +203,7 @@ class TyreModel:
             if not np.isfinite(largest):
                 raise FloatingPointError("the iteration has left the range of numbers")
             if count >= calm:
-                # two contact states that take turns: go half-way, twice as far when that helps
+                # where two contact states alternate, go half-way, and further again once that helps
                 part = max(part / 2.0, 0.1) if largest > 0.5 * before else min(2.0 * part, 1.0)
             before = largest
             damp = min(part, LARGEST_STEP_MM / max(largest, 1e-12))

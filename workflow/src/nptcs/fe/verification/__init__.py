@@ -1,5 +1,5 @@
-"""Models that only benchmarks and tests use: what the faster ones are measured against.
+"""Reference models for benchmarks and tests, which the faster models are measured against.
 
-The same inputs as in `nptcs.fe.tyre` come in, the same results go out, with more unknowns. No study
-and no solver imports from here.
+The same inputs as in `nptcs.fe.tyre` come in and the same results go out, with more unknowns. No
+study and no solver imports from here.
 """

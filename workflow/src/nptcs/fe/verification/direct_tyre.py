@@ -1,10 +1,10 @@
 """The tyre with every spoke meshed: the direct model that the reduced tyre is measured against.
 
 The same ring, contact and load control as `TyreModel`; in place of the energy table each spoke is
-its own finite element mesh. One Newton iteration linearises ring and spokes together; the inner
-displacements of each spoke are eliminated onto its foot before the ring is solved, and follow it
-before the next linearisation (group elimination: no step of the whole system's Newton method is
-changed by it).
+its own finite element mesh. Each Newton iteration linearises ring and spokes together. The inner
+displacements of each spoke are condensed onto its foot before the ring is solved, and recovered
+before the next linearisation; this elimination changes no step of Newton's method for the whole
+system.
 """
 
 from __future__ import annotations
@@ -218,7 +218,7 @@ class DirectTyre(TyreModel):
     tyre : TyreGeometry
     design : SpokeDesign
     table : SpokeEnergyTable
-        Not used for the solution: names the motions that `TyreState` reports.
+        Not used in the solution; the base class needs it.
     band_c10_mpa : float
     rigid_foot : bool
         Spokes' feet as rigid bodies, as for the energy table, instead of conforming to the band.

@@ -26,12 +26,12 @@ HATCHES = ("", "//", "..", "xx")
 
 
 def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Figure, Axes]:
-    """Make a panel that is named after the section of the band that its rows are of."""
+    """Make a panel titled with the section of the band to which its rows belong."""
     return panel(f"Our LCA, {SECTION_NAMES[table['section'].iloc[0]]}", x_label, y_label)
 
 
-def _line_a_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: str) -> None:
-    """Draw one column against another, a line for each C10 in the column `rubber`."""
+def _line_per_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: str) -> None:
+    """Draw one column against another, one line per C10 in the column `rubber`."""
     for number, (c10, rows) in enumerate(table.groupby(rubber)):
         rows = rows.sort_values(x)
         axes.plot(rows[x], rows[y], label=f"{c10:g}", **line_look(number))
@@ -55,7 +55,7 @@ def load_displacement(table: pd.DataFrame) -> Figure:
         Rows of ``lca_validation.csv`` of one section.
     """
     figure, axes = _section_panel(table, "vertical load [N]", "displacement [mm]")
-    _line_a_rubber(axes, table, "spoke_c10_mpa", "load_n", "displacement_mm")
+    _line_per_rubber(axes, table, "spoke_c10_mpa", "load_n", "displacement_mm")
     published = table["published_displacement_mm"]
     axes.plot(table["load_n"], published, "o", mfc="none", mec="black", ms=9, label="_published")
     axes.plot([], [], "o", mfc="none", mec="black", ms=8, label="printed")
@@ -75,7 +75,7 @@ def contact_against_load(table: pd.DataFrame, column: str) -> Figure:
         A key of `CONTACT`.
     """
     figure, axes = _section_panel(table, "vertical load [N]", CONTACT[column])
-    _line_a_rubber(axes, table, "spoke_c10_mpa", "load_n", column)
+    _line_per_rubber(axes, table, "spoke_c10_mpa", "load_n", column)
     _rubber_legend(axes)
     return figure
 
@@ -139,7 +139,7 @@ def fem_differences(table: pd.DataFrame, limit: float) -> Figure:
         Largest difference on the axis, in percent, the same for all sections.
     """
     figure, axes = _section_panel(table, "spoke C10 [MPa]", "LCA − FEM, stiffness [%]")
-    _line_a_rubber(axes, table, "shear_band_c10_mpa", "spoke_c10_mpa", "fem_difference_percent")
+    _line_per_rubber(axes, table, "shear_band_c10_mpa", "spoke_c10_mpa", "fem_difference_percent")
     axes.axhline(0, color="black", linewidth=0.8)
     axes.set_ylim(-limit, limit)
     figure.legend(

@@ -14,7 +14,7 @@ from nptcs.report.figures.style import GREY, line_look, mark_synthetic, panel, s
 from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
-"""Differences that the parity figure draws, and how."""
+"""Differences marked in the parity figure, and the dashes of their lines."""
 
 DISPLACEMENTS = {
     "radial_mm": "radial displacement, outward [mm]",

@@ -19,8 +19,8 @@ def force_displacement(
 ) -> Figure:
     """Draw force against displacement for each C10, with the lines through the origin.
 
-    Full lines are computed, dashed ones go through the origin; a hollow mark stands where the
-    line of table 10 ends.
+    Full lines are computed, dashed ones go through the origin; a hollow mark is where the line of
+    table 10 ends.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""One study's cases, its solvers next to each other, and what all its figures share."""
+"""The cases of one study with its solvers next to each other, and the order of the solvers."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ from nptcs.tables.published_stiffness import (
     PUBLISHED,
     PUBLISHED_STIFFNESS,
 )
+from nptcs.tables.status import has_result
 
 
 def rests_on_synthetic(results: Results, study: Study, table: pd.DataFrame) -> bool:
@@ -48,7 +49,7 @@ def case_comparison(
         table[f"{solver}_{DIFFERENCE}"] = case[DIFFERENCE]
         headings[f"{solver}_computed"] = Heading(str(solver), "N/mm")
         headings[f"{solver}_{DIFFERENCE}"] = Heading(f"{solver} − published", "%")
-        failed += (f"{solver}: " + case["status"] + " ").where(case["status"] != "ok", "")
+        failed += (f"{solver}: " + case["status"] + " ").where(~has_result(case["status"]), "")
         calibrated += pd.Series(f"{solver} ", case.index).where(case["used_for_calibration"], "")
     table["failed"], table["calibrated_on"] = failed.str.strip(), calibrated.str.strip()
     return table.reset_index(), headings

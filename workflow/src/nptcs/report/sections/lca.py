@@ -1,4 +1,4 @@
-"""Section 7 of the report: the load-bearing model against the published numbers."""
+"""Section of the report on the load-bearing model against the published numbers."""
 
 from __future__ import annotations
 

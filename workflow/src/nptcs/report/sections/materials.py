@@ -1,4 +1,4 @@
-"""Section 2 of the report: the material card."""
+"""Section of the report on the material card."""
 
 from __future__ import annotations
 

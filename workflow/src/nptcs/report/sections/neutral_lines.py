@@ -28,7 +28,7 @@ def line_blocks(results: Results) -> list[PageBlock]:
     missing = [case_id for case_id in _line_cases(results) if case_id not in set(lines["case_id"])]
     blocks: list[PageBlock] = []
     if missing:
-        blocks.append(Text(f"No solver gave a neutral line of {joined(missing)}."))
+        blocks.append(Text(f"No solver gave a neutral line for {joined(missing)}."))
     return blocks if lines.empty else [*blocks, *_drawn_lines(results)]
 
 
@@ -59,9 +59,9 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
         Plots(
             "Displacement of the band's neutral line relative to the rim (figure 14 of the "
             "paper), by every solver that computes it. Finite elements: the middle between the "
-            f"wire layers, radius {middle:g} mm, all spokes point one way, so that the two sides "
-            f"differ; load-bearing model: the ring of radius {tyre.band_radius_mm:g} mm, the same "
-            "on both sides.",
+            f"wire layers, radius {middle:g} mm, all spokes lean the same way, so that the two "
+            f"sides differ; load-bearing model: the ring of radius {tyre.band_radius_mm:g} mm, the "
+            "same on both sides.",
             tuple(plots),
         ),
         Listing("What the neutral lines show", tuple(sentences)),

@@ -1,4 +1,4 @@
-"""Which function builds which section, and the tables that a section shows without being asked."""
+"""Which function builds which section, and which further tables a section shows."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Section 8 of the report: which rule made which table, from which files, with which software."""
+"""Section of the report on provenance: rule and source of each table, input files, software."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Section of the report that compares computed with published stiffness: tables 5, 7, figure 14."""
+"""Section of the report on computed against published stiffness: tables 5 and 7, figure 14."""
 
 from __future__ import annotations
 
@@ -57,8 +57,8 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
     return [
         Text(
             "Differences are (computed − published) / published. Cases that a solver was "
-            "calibrated on are named by the configuration and summed up apart; all others are "
-            "blind. " + ply_words(results)
+            "calibrated on are named in the configuration and summarised separately; all others "
+            "are blind. " + ply_words(results)
         ),
         sheet_view(sheet_of(sheets, StiffnessErrors)),
         Plots(

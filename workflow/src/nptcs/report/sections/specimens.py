@@ -1,4 +1,4 @@
-"""Section 1 of the report: specimens and files."""
+"""Section of the report on specimens and files."""
 
 from __future__ import annotations
 

@@ -35,7 +35,7 @@ def level_facts(results: Results) -> list[Fact]:
 
 
 def spoke_facts(lines: pd.DataFrame) -> list[Fact]:
-    """Say how single spokes differ from table 10: what a tyre of such spokes starts from."""
+    """Say how single spokes differ from table 10, which explains part of the tyre's difference."""
     compared = lines.dropna(subset=[f"{name}_difference_percent" for name in DIRECTIONS])
     facts = []
     for (study, solver), rows in compared.groupby(["study", "solver"], sort=False):

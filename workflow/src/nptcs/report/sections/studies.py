@@ -1,4 +1,4 @@
-"""Sections 3 to 6 of the report: designs, cases, response surfaces and sensitivity."""
+"""Sections of the report on designs, cases, response surfaces and sensitivity."""
 
 from __future__ import annotations
 
@@ -145,7 +145,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
-        asked = f"No surface is asked for of the study {study.name}: it has no terms."
+        asked = f"The study {study.name} has no terms, so no surface is fitted to it."
         return [Text(study.title, "heading"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = f"No surface could be fitted to the study {study.name}; see the problems above."

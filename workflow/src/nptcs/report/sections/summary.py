@@ -11,7 +11,7 @@ from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined, with_error
-from nptcs.tables.files import Files
+from nptcs.tables.files import Files, FileStatus
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaValidation
 from nptcs.tables.published_stiffness import StiffnessErrors
@@ -19,7 +19,7 @@ from nptcs.tables.result_table import ReportSection
 from nptcs.tables.surface import SurfaceQuality
 
 WARNING = "warning: "
-"""How a check of a material card begins that a reader of any result must see."""
+"""Prefix of those checks of a material card that every reader must see."""
 
 
 def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
@@ -49,7 +49,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
     for name, reason in results.left_out().items():
         remarks.append(f"Specimen {name} is left out by the sheet: {reason}")
     files = results.table(Files)
-    stray = files[files["status"] == "not named"]
+    stray = files[files["status"] == FileStatus.NOT_NAMED]
     if len(stray):
         remarks.append(
             "No row of the sheet names these files of the folder: " + joined(stray["file"])
@@ -128,7 +128,7 @@ def _rankings(results: Results) -> list[Fact]:
 
 
 def _published_differences(results: Results) -> list[Fact]:
-    """Sum up how far the computed stiffness is from the published one."""
+    """Summarise how far the computed stiffness is from the published one."""
     facts = []
     for row in results.table(StiffnessErrors).itertuples():
         kind = "blind" if row.group == "blind" else "used for calibration"

@@ -1,7 +1,7 @@
 """What the report and the workbook say of a table: sheet, title, file, rule, source, headings.
 
 Result tables get their entry from `nptcs.tables.catalogue`; the others, which the report makes
-itself of the sheet, the records and the material card, have theirs here.
+itself from the sheet, the records and the material card, have theirs here.
 """
 
 from __future__ import annotations

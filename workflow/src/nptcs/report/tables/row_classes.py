@@ -5,12 +5,11 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from typing import assert_never
 
+from nptcs.tables.files import FileStatus
 from nptcs.tables.result_table import RowMark
 
 Row = Mapping[str, object]
 RowClass = Callable[[Row], str]
-
-FILE_CLASSES = {"not understood": "bad", "missing": "bad", "not named": "warn", "left out": "out"}
 
 
 def row_class(mark: RowMark, left_out: Collection[str] = ()) -> RowClass:
@@ -68,7 +67,18 @@ def by_calibration(row: Row) -> str:
 
 def by_file_status(row: Row) -> str:
     """Mark files that are missing, not understood, not named or left out."""
-    return FILE_CLASSES.get(str(row["status"]), "")
+    status = FileStatus(str(row["status"]))
+    match status:
+        case FileStatus.NOT_UNDERSTOOD | FileStatus.MISSING:
+            return "bad"
+        case FileStatus.NOT_NAMED:
+            return "warn"
+        case FileStatus.LEFT_OUT:
+            return "out"
+        case FileStatus.USED | FileStatus.REPEATED | FileStatus.NOTE | FileStatus.SHEET:
+            return ""
+        case _:
+            assert_never(status)
 
 
 def by_include(row: Row) -> str:

@@ -39,7 +39,7 @@ class Sheet:
     synthetic : bool
         Whether it rests on synthetic specimens.
     section : ReportSection, optional
-        Section of the report that shows it; none for a table that a section asks for by itself.
+        Section of the report that shows it by default; none for a table that a section names.
     """
 
     entry: Entry

@@ -1,8 +1,8 @@
-"""What a spoke's energy depends on, in the variables in which it is smooth.
+"""The variables that a spoke's energy depends on smoothly.
 
 A spoke's energy divided by its rubber's C10 depends on the number of its plates and on their
 stiffness divided by C10. For the laminate [+A/-A] that stiffness is T E(A) in stretch and T³ E(A)
-in bending; the process sees both as logarithms besides the four design variables.
+in bending; the process takes both as logarithms, next to the four design variables.
 """
 
 from __future__ import annotations

@@ -1,0 +1,70 @@
+"""The kinds of blocks are a closed set: the page template has a macro for each, and no default."""
+
+import re
+from importlib import resources
+from types import SimpleNamespace
+from typing import get_args
+
+import pytest
+from jinja2 import Environment, PackageLoader, StrictUndefined, UndefinedError
+
+from nptcs.report.blocks import (
+    BlockMacro,
+    Facts,
+    Folded,
+    Listing,
+    PageBlock,
+    ParagraphKind,
+    Plots,
+    TableView,
+    Text,
+    macro_of,
+)
+
+TEMPLATES = resources.files("nptcs.report") / "templates"
+ENTRY = SimpleNamespace(file="a.csv", rule="r", source="s")
+BLOCKS = [
+    TableView(ENTRY, "words of the block", (), (), ()),
+    Plots("words of the block", ()),
+    Text("words of the block"),
+    Listing("words of the block", ()),
+    Facts("words of the block", ()),
+    Folded("words of the block", ""),
+]
+
+
+def written(block, macro_name=macro_of):
+    """Write one block as the page does."""
+    loader = PackageLoader("nptcs.report")
+    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
+    template = environment.get_template("report.html.j2")
+    source = loader.get_source(environment, template.name)[0]
+    macros = source[source.index("{% macro badge") : source.index("<header>")]
+    page = environment.from_string(macros + "{{ block(view) }}")
+    return page.render(view=block, macro_of=macro_name)
+
+
+def test_each_kind_of_block_is_tried_here_and_has_a_macro_of_its_own():
+    assert {type(block) for block in BLOCKS} == set(get_args(PageBlock))
+    assert sorted(macro_of(block) for block in BLOCKS) == sorted(get_args(BlockMacro))
+
+
+@pytest.mark.parametrize("block", BLOCKS, ids=lambda block: type(block).__name__)
+def test_the_template_writes_each_kind_of_block(block):
+    assert "words of the block" in written(block)
+
+
+def test_an_unknown_block_is_an_error_and_not_a_paragraph():
+    with pytest.raises(AssertionError, match="unreachable"):
+        macro_of(SimpleNamespace(text="x", kind=""))
+    with pytest.raises(UndefinedError):
+        written(Text("x"), lambda block: "picture")
+
+
+@pytest.mark.parametrize("kind", [kind for kind in get_args(ParagraphKind) if kind])
+def test_each_kind_of_paragraph_looks_different(kind):
+    if kind == "heading":
+        assert "<h3>" in written(Text("x", kind))
+        return
+    assert re.search(rf"\.{kind}\b", (TEMPLATES / "report.css").read_text("utf-8"))
+    assert f'class="{kind}"' in written(Text("x", kind))

@@ -1,0 +1,92 @@
+"""What a batch of cases asks of a queue: number of jobs, memory, time and licences."""
+
+from __future__ import annotations
+
+from math import ceil
+
+from nptcs.config.root import Campaign
+from nptcs.solvers.contract import SolverOptions
+
+JOB_MEMORY_MB = 600.0
+"""Memory of a job besides its cases: Snakemake, the script and the server that starts the cases."""
+JOB_MINUTES = 2.0
+"""Time of a job besides its cases: Snakemake and the imports start again on the node."""
+MARGIN = 2.0
+"""Factor on the usual time of cases: a node may be slower, and half of the cases take longer."""
+
+
+def cases_at_a_time(cores: int, options: SolverOptions) -> int:
+    """Return the cases that run side by side on these cores."""
+    return max(1, cores // options.cores_per_case())
+
+
+def batch_count(cases: int, campaign: Campaign, options: SolverOptions) -> int:
+    """Return the jobs into which the cases of a study are divided for one solver.
+
+    Parameters
+    ----------
+    cases : int
+        Cases of the study.
+    campaign : Campaign
+        `minutes_per_batch` decides where it is given, otherwise `batches`.
+    options : SolverOptions
+        Of the solver.
+
+    Examples
+    --------
+    >>> options = SolverOptions(case_s=20.0)
+    >>> batch_count(78, Campaign(batches=3), options)
+    3
+    >>> batch_count(78, Campaign(minutes_per_batch=5, cores_per_batch=2), options)
+    3
+    >>> batch_count(2, Campaign(minutes_per_batch=0.01), options)
+    2
+    """
+    if campaign.minutes_per_batch is None:
+        return campaign.batches
+    at_a_time = cases_at_a_time(campaign.cores_per_batch, options)
+    minutes = cases * options.case_s / at_a_time / 60.0
+    return min(cases, max(1, ceil(minutes / campaign.minutes_per_batch)))
+
+
+def batch_memory_mb(cores: int, options: SolverOptions, attempt: int = 1) -> int:
+    """Return the memory that a job asks for, in MB: its cases' times the attempt, and its own.
+
+    Examples
+    --------
+    >>> batch_memory_mb(2, SolverOptions(case_memory_mb=300.0))
+    1200
+    """
+    cases = cases_at_a_time(cores, options) * options.case_memory_mb
+    return ceil(JOB_MEMORY_MB + cases * attempt)
+
+
+def batch_minutes(
+    cases: int, batches: int, cores: int, options: SolverOptions, attempt: int = 1
+) -> int:
+    """Return the wall time that a job asks for, in minutes.
+
+    Twice the usual time of its cases, times the attempt, and one case more that runs into its
+    time limit.
+
+    Examples
+    --------
+    >>> batch_minutes(78, 3, 2, SolverOptions(case_s=20.0, timeout_s=600.0))
+    21
+    """
+    rounds = ceil(ceil(cases / batches) / cases_at_a_time(cores, options))
+    seconds = MARGIN * rounds * options.case_s * attempt + options.timeout_s
+    return ceil(JOB_MINUTES + seconds / 60.0)
+
+
+def licence_request(tokens: int, queue_licence: str) -> str:
+    """Return the option by which Slurm holds licence tokens for a job; empty without any.
+
+    Examples
+    --------
+    >>> licence_request(5, "abaqus")
+    '--licenses=abaqus:5'
+    >>> licence_request(5, ""), licence_request(0, "abaqus")
+    ('', '')
+    """
+    return f"--licenses={queue_licence}:{tokens}" if tokens and queue_licence else ""

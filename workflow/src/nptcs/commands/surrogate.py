@@ -1,0 +1,143 @@
+"""``nptcs surrogate``: predicted spokes for the fast ring, with their errors."""
+
+from __future__ import annotations
+
+import argparse
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from nptcs.ring.stored_surrogate import StoredSurrogate
+
+FILE = "results/5_solve/surrogate.json"
+
+
+def register(subparsers: Any) -> None:
+    """Declare the two actions."""
+    parser = subparsers.add_parser(
+        "surrogate",
+        help="predict spokes' energy tables for the fast ring",
+        description="Fits a predictor of spokes' energy tables to those of a study, or solves a "
+        "table of designs on predicted spokes in milliseconds each. Designs that are chosen in the "
+        "end should be solved with computed tables.",
+    )
+    actions = parser.add_subparsers(required=True, metavar="ACTION", title="actions")
+    fit = actions.add_parser(
+        "fit",
+        help="fit the predictor to the spokes of a study and test it on spokes left out",
+        description="Takes the spokes of the study's design from the folder of tables (and "
+        "computes those that are missing), prints the errors of the tyre's displacement on spokes "
+        "that were left out, and names the spoke whose table would help most.",
+    )
+    fit.add_argument("study", help="study that the solver ring runs, e.g. joint")
+    fit.add_argument(
+        "--config",
+        nargs="+",
+        default=["config/config.yaml", "config/joint.yaml"],
+        metavar="FILE",
+        help="configuration files, the later on top; default: %(default)s",
+    )
+    fit.add_argument("--results", default="results", help="default: %(default)s")
+    fit.add_argument("-o", "--output", default=FILE, help="default: %(default)s")
+    fit.set_defaults(run=run_fit)
+    solve = actions.add_parser(
+        "solve",
+        help="solve a table of designs on predicted spokes",
+        description="A row has plate_count, thickness_mm, angle_deg, spoke_c10_mpa, "
+        "shear_band_c10_mpa and load_n; tread_c10_mpa, friction and dimensions of the tyre may "
+        "follow. A row outside the box of the spokes is refused in its status and message.",
+    )
+    solve.add_argument("table", metavar="TABLE.csv", help="designs, one per row")
+    solve.add_argument("-o", "--output", metavar="OUT.csv", required=True, help="with the results")
+    solve.add_argument("--surrogate", default=FILE, help="default: %(default)s")
+    solve.add_argument("-j", "--workers", type=int, default=1, help="default: %(default)s")
+    solve.set_defaults(run=run_solve)
+
+
+def run_fit(arguments: argparse.Namespace) -> int:
+    """Fit, test, write."""
+    from nptcs.files import write_text
+    from nptcs.ring.left_out import left_out_spokes
+    from nptcs.ring.stored_surrogate import dump_surrogate
+    from nptcs.ring.surrogate import DESIGN
+
+    stored = _fitted(arguments)
+    surrogate = stored.surrogate
+    write_text(arguments.output, dump_surrogate(stored))
+    found = left_out_spokes(surrogate, stored.tyre, stored.model)
+    inner = ~found.edge
+    print(f"{len(surrogate.tables)} spokes, s from {surrogate.tables[0].low[0]:.3g} mm")
+    for spoke in surrogate.unfitted:
+        named = dict(zip(DESIGN, spoke.tolist(), strict=True))
+        print(f"not fitted, it loses its stability early: {_words(named)}")
+    print("displacement on spokes left out, a tenth at a time, 1500 to 5000 N:")
+    print(f"  all      rms {found.rms():.3f} %, largest {found.largest():.3f} %")
+    if inner.any():
+        print(
+            f"  {int(inner.sum())} not on a face of the others' box: rms {found.rms(inner):.3f} %, "
+            f"largest {found.largest(inner):.3f} %"
+        )
+    design, gain = surrogate.next_design()
+    print(f"the next spoke that would help most: {_words(design)} ({100 * gain:.0f} % of variance)")
+    print(f"written: {arguments.output}")
+    return 0
+
+
+def _words(design: dict[str, float]) -> str:
+    return ", ".join(f"{name} {value:.4g}" for name, value in design.items())
+
+
+def _fitted(arguments: argparse.Namespace) -> StoredSurrogate:
+    """Read the study's spokes and fit the surrogate to them."""
+    from nptcs.calibrate.plan import ply_of
+    from nptcs.config.files import read_config_files
+    from nptcs.errors import InputError
+    from nptcs.files import read_model
+    from nptcs.ring.collect import fit_surrogate
+    from nptcs.ring.stored_surrogate import StoredSurrogate
+    from nptcs.solvers.ring import RingSolverOptions
+    from nptcs.tables.cases import Design
+    from nptcs.tables.io import read_table
+    from nptcs.tables.material_card import PlyCard
+    from nptcs.tables.specimens import read_sheet
+
+    config = read_config_files(arguments.config)
+    known = [study.name for study in config.studies if "ring" in study.solvers]
+    if arguments.study not in known:
+        raise InputError(
+            "this study is not solved by the solver ring",
+            value=arguments.study,
+            remedy=f"name one of: {', '.join(known) or 'none in these files'}",
+        )
+    study, results = config.study(arguments.study), Path(arguments.results)
+    options = RingSolverOptions.model_validate(config.options_of(study.name, "ring"))
+    specimens, _ = read_sheet(config.lab_data.specimen_sheet)
+    ply = ply_of(study, specimens, config.calibration)
+    card = read_model(results / f"3_calibrate/{ply}.json", PlyCard)
+    designs = read_table(results / f"4_design/{study.name}.csv", Design)
+    fitted = fit_surrogate(designs, options, config.tyre, card.values(), options.spoke_cache)
+    return StoredSurrogate(fitted, config.tyre, options, study.name)
+
+
+def run_solve(arguments: argparse.Namespace) -> int:
+    """Solve and write; exit code 1 if a row failed."""
+    import pandas as pd
+
+    from nptcs.errors import InputError
+    from nptcs.ring.batch import solve_table
+    from nptcs.ring.stored_surrogate import read_surrogate
+    from nptcs.ring.surrogate_source import PredictedSpokes
+
+    stored = read_surrogate(arguments.surrogate)
+    try:
+        table = pd.read_csv(arguments.table)
+    except (OSError, ValueError) as error:
+        raise InputError(f"cannot be read: {error}", file=arguments.table) from None
+    spokes = PredictedSpokes(stored.surrogate)
+    solved = solve_table(table, spokes, stored.tyre, stored.model, arguments.workers)
+    solved.to_csv(arguments.output, index=False)
+    failed = solved[solved["status"] != "ok"]
+    print(f"{len(solved)} designs, {len(failed)} without a result: {arguments.output}")
+    for row in failed.head(5).itertuples():
+        print(f"  row {row.Index + 1}: {row.status}: {row.message}")
+    return 1 if len(failed) else 0

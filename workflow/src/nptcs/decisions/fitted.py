@@ -1,0 +1,255 @@
+"""Fitted models of the responses that goals name."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from nptcs.arrays import Array, Mask
+from nptcs.config.goals import ResponseName
+from nptcs.config.surface import (
+    GaussianProcessModel,
+    LaminationModel,
+    PolynomialModel,
+    SurfaceModel,
+    name_of,
+)
+from nptcs.config.tyre import TyreGeometry
+from nptcs.decisions.study_results import STIFFNESS, StudyResults
+from nptcs.doe.whole_plates import SPACING
+from nptcs.errors import InputError
+from nptcs.surface.comparison import leave_one_out
+from nptcs.surface.lamination import FACTORS as LAMINATION_FACTORS
+from nptcs.surface.lamination import Lamination
+from nptcs.surface.models import Cases, fit_model, models_of
+from nptcs.surface.response_surface import ResponseSurface, box, inside_box
+from nptcs.uncertainty.inputs import RUBBERS
+from nptcs.uncertainty.response_model import (
+    Changes,
+    ResponseModel,
+    RubberEffect,
+    SurfaceResponse,
+    lamination_of,
+)
+
+PLATE_MASS = ResponseName("plate_mass")
+THICKNESS = "thickness_mm"
+SAME_VOLUME = 1e-6
+"""Relative difference up to which the plates' volume counts as proportional to count × T."""
+
+
+@dataclass(frozen=True)
+class FittedResponse:
+    """A response with its model and what the model rests on.
+
+    Parameters
+    ----------
+    response : ResponseName
+    unit : str
+    model : ResponseModel
+    surface : str
+        Name of the surface.
+    cases, left_out : int
+        Cases that it was fitted to, and solved ones that lack the response.
+    notes : tuple of str
+        What a reader must know, for example why an effect is not assessed.
+    """
+
+    response: ResponseName
+    unit: str
+    model: ResponseModel
+    surface: str
+    cases: int
+    left_out: int = 0
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class PlateMass:
+    """Mass of the plates: proportional to their number and thickness, without error of its own.
+
+    Parameters
+    ----------
+    factors : tuple of str
+    lower, upper : ndarray of shape (n,)
+        Box of the cases.
+    kg_per_mm : float
+        Mass of all plates of the tyre per plate of a leg and mm of thickness.
+    tread_width_mm : float
+    """
+
+    factors: tuple[str, ...]
+    lower: Array
+    upper: Array
+    kg_per_mm: float
+    tread_width_mm: float
+
+    @property
+    def knows(self) -> frozenset[str]:
+        """The thickness alone: a spacing that is off does not change the number of plates."""
+        return frozenset({THICKNESS})
+
+    def value(self, x: Array, changes: Changes) -> Array:
+        """Mass in kg."""
+        plates = np.round(self.tread_width_mm / x[:, self.factors.index(SPACING)])
+        thickness = x[:, self.factors.index(THICKNESS)] + changes.get(THICKNESS, 0.0)
+        mass: Array = self.kg_per_mm * plates * thickness
+        return mass
+
+    def own_sd(self, x: Array) -> Array:
+        """No error: the mass follows from the dimensions."""
+        return np.zeros(len(x))
+
+    def inside(self, x: Array) -> Mask:
+        """Tell which points lie in the box of the cases."""
+        return np.asarray(((x >= self.lower - 1e-9) & (x <= self.upper + 1e-9)).all(axis=1))
+
+
+def fit_response(
+    results: StudyResults,
+    response: ResponseName,
+    surface: str,
+    tyre: TyreGeometry,
+    ply: Mapping[str, float] | None,
+    rubbers: StudyResults | None,
+) -> FittedResponse:
+    """Fit the model of one response.
+
+    Parameters
+    ----------
+    results : StudyResults
+    response : ResponseName
+    surface : str
+        Name of a surface of the study, for the stiffness; other responses get a Gaussian process
+        on their mean, and the plates' mass follows from the dimensions.
+    tyre : TyreGeometry
+    ply : mapping of str to float or None
+        Constants of the plates' ply.
+    rubbers : StudyResults or None
+        Cases of the study that varies the rubbers, by the same solver.
+
+    Raises
+    ------
+    InputError
+        When no case has the response, the study has no such surface, or the cases cannot carry it.
+    """
+    if response.name == PLATE_MASS.name:
+        return _plate_mass(results, tyre)
+    y = results.values(response)
+    has = np.isfinite(y)
+    model = _model(results, surface) if response.name in STIFFNESS else GAUSSIAN_PROCESS
+    cases = Cases(results.points[has], y[has], results.factors, results.study.terms, ply)
+    if len(cases.y) < results.study.least_solved_cases():
+        raise InputError(
+            f"only {len(cases.y)} cases of study {results.study.name} have {response}",
+            column=f"studies.{results.study.name}.least_cases",
+            value=results.study.least_solved_cases(),
+            remedy="solve more cases",
+        )
+    fitted = fit_model(model, cases)
+    notes = []
+    lamination = lamination_of(fitted)
+    if lamination is None and response.name in STIFFNESS:
+        lamination, why = _lamination(cases)
+        notes += [why] if why else []
+    rubber_effect, why = _rubber_effect(results, response, rubbers)
+    notes += [why] if why else []
+    error = leave_one_out(fitted).error
+    return FittedResponse(
+        response=response,
+        unit=results.unit(response),
+        model=SurfaceResponse(
+            fitted, float(np.sqrt(np.nanmean(error**2))), lamination, rubber_effect
+        ),
+        surface=name_of(model),
+        cases=len(cases.y),
+        left_out=int((~has).sum()),
+        notes=tuple(notes),
+    )
+
+
+GAUSSIAN_PROCESS = GaussianProcessModel(kind="gaussian_process")
+
+
+def _model(results: StudyResults, surface: str) -> SurfaceModel:
+    models = {name_of(GAUSSIAN_PROCESS): GAUSSIAN_PROCESS, **models_of(results.study)}
+    if surface not in models:
+        raise InputError(
+            f"study {results.study.name} has no such surface",
+            column="surface",
+            value=surface,
+            remedy=f"name one of: {', '.join(models)}",
+        )
+    return models[surface]
+
+
+def _lamination(cases: Cases) -> tuple[Lamination | None, str]:
+    """Fit the lamination form to the same cases, or say why it cannot be."""
+    if sorted(cases.factors) != sorted(LAMINATION_FACTORS):
+        return None, "effect of the ply not assessed: the study varies more than the plates"
+    try:
+        form = fit_model(LaminationModel(kind="lamination", coefficients=7), cases)
+    except InputError as error:
+        return None, f"effect of the ply not assessed: {error.message}"
+    return (form, "") if isinstance(form, Lamination) else (None, "")
+
+
+def _rubber_effect(
+    results: StudyResults, response: ResponseName, rubbers: StudyResults | None
+) -> tuple[RubberEffect | None, str]:
+    """Fit the rubber study's surface of the same response, or say why it tells nothing."""
+    study = results.study
+    nominal = {name: float(results.solved[name].iloc[0]) for name in RUBBERS if name in study.fixed}
+    if not nominal:
+        return None, ""
+    if rubbers is None:
+        return None, "effect of the rubbers not assessed: no study of this solver varies them"
+    varied = [name for name in rubbers.factors if name in nominal]
+    if varied != rubbers.factors:
+        return None, "effect of the rubbers not assessed: their study varies other factors too"
+    try:
+        surface = _fit_rubbers(rubbers, response)
+    except InputError as error:
+        return None, f"effect of the rubbers not assessed: {error.message}"
+    point = np.array([[nominal[name] for name in surface.factors]])
+    if not inside_box(surface, point)[0]:
+        low, high = box(surface.x)
+        return None, (
+            f"effect of the rubbers not assessed: {point[0].tolist()} lies outside study "
+            f"{rubbers.study.name} ({low.tolist()} to {high.tolist()})"
+        )
+    return RubberEffect(surface, nominal), ""
+
+
+def _fit_rubbers(rubbers: StudyResults, response: ResponseName) -> ResponseSurface:
+    y = rubbers.values(response)
+    has = np.isfinite(y)
+    cases = Cases(rubbers.points[has], y[has], rubbers.factors, rubbers.study.terms)
+    return fit_model(PolynomialModel(kind="polynomial"), cases)
+
+
+def _plate_mass(results: StudyResults, tyre: TyreGeometry) -> FittedResponse:
+    """Read the mass per plate and thickness from the cases, and check that it is one number."""
+    if not {SPACING, THICKNESS} <= set(results.factors):
+        raise InputError(
+            f"study {results.study.name} does not vary the plates",
+            column="decisions",
+            value=PLATE_MASS.name,
+            remedy="leave the plates' mass out of the goals",
+        )
+    mass, points = results.values(PLATE_MASS), results.points
+    plates = np.round(tyre.tread_width_mm / points[:, results.factors.index(SPACING)])
+    each = mass / plates / points[:, results.factors.index(THICKNESS)]
+    each = each[np.isfinite(each)]
+    if np.ptp(each) > SAME_VOLUME * each.mean():
+        raise InputError(
+            "the plates' mass in the cases is not proportional to their number and thickness",
+            column="decisions",
+            value=PLATE_MASS.name,
+            remedy="use a solver whose plates are of one length",
+        )
+    lower, upper = points.min(axis=0), points.max(axis=0)
+    model = PlateMass(tuple(results.factors), lower, upper, float(each.mean()), tyre.tread_width_mm)
+    return FittedResponse(PLATE_MASS, "kg", model, "number × dimensions × density", len(each))

@@ -1,0 +1,165 @@
+"""The solved cases of one study and solver, and any response of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+
+import numpy as np
+import pandas as pd
+
+from nptcs.arrays import Array
+from nptcs.config.goals import ResponseName
+from nptcs.config.study import Study
+from nptcs.errors import InputError
+from nptcs.responses.curve import LoadCurve
+from nptcs.surface.cases import solved_cases
+from nptcs.surface.study import RESPONSE
+
+STIFFNESS = ("secant_stiffness", "tangent_stiffness")
+OTHER_UNITS = {"plate_mass": "kg"}
+
+
+@dataclass(frozen=True)
+class StudyResults:
+    """What a study and one of its solvers have given.
+
+    Parameters
+    ----------
+    study : Study
+    solver : str
+    cases : DataFrame
+        Rows of ``cases.csv`` of the study and the solver; failed ones included.
+    responses : DataFrame
+        `nptcs.tables.tyre_responses.TyreResponses` of the same cases.
+    curves : DataFrame
+        `nptcs.tables.tyre_responses.TyreCurves` of the same cases.
+    """
+
+    study: Study
+    solver: str
+    cases: pd.DataFrame
+    responses: pd.DataFrame
+    curves: pd.DataFrame
+
+    @property
+    def factors(self) -> list[str]:
+        """Factors of the study."""
+        return [factor.name for factor in self.study.factors]
+
+    @property
+    def solved(self) -> pd.DataFrame:
+        """Solved cases, factors as the solver realised them, one row per tyre."""
+        return solved_cases(self.cases, self.solver, self.factors).table
+
+    @property
+    def points(self) -> Array:
+        """Factors of the solved cases, shape (m, n)."""
+        return self.solved[self.factors].to_numpy(float)
+
+    def at_its_load(self, response: ResponseName) -> ResponseName:
+        """Return a stiffness without a stated load as that at the study's load."""
+        if response.at or response.name not in STIFFNESS:
+            return response
+        return replace(response, at=f"{self.study.load_n:g} N")
+
+    def unit(self, response: ResponseName) -> str:
+        """Return the unit of a response."""
+        if response.name in STIFFNESS:
+            return "N/mm"
+        found = self.responses[self.responses["response"] == response.name]["unit"]
+        return str(found.iloc[0]) if len(found) else OTHER_UNITS.get(response.name, "")
+
+    def values(self, response: ResponseName) -> Array:
+        """Return a response of the solved cases, not a number where a case lacks it, (m,).
+
+        Raises
+        ------
+        InputError
+            For a response that no case has, naming those that cases have.
+        """
+        if response.name in STIFFNESS:
+            found = pd.Series(dict(self._stiffness(response)), dtype=float)
+        else:
+            found = self._tabulated(response)
+        values = found.reindex(self.solved["case_id"]).to_numpy(float)
+        if not np.isfinite(values).any():
+            raise InputError(
+                f"no case of study {self.study.name} by {self.solver} has {response}",
+                column="decisions",
+                value=str(response),
+                remedy=self._remedy(response),
+            )
+        return values
+
+    def with_cases(self, other: StudyResults) -> StudyResults:
+        """Return these results and those of further cases of the same study and solver."""
+        return replace(
+            self,
+            cases=pd.concat([self.cases, other.cases], ignore_index=True),
+            responses=pd.concat([self.responses, other.responses], ignore_index=True),
+            curves=pd.concat([self.curves, other.curves], ignore_index=True),
+        )
+
+    def _stiffness(self, response: ResponseName) -> Iterator[tuple[str, float]]:
+        at, _, unit = response.at.partition(" ")
+        place = float(at)
+        solved = self.solved.set_index("case_id")
+        if response.name == "secant_stiffness" and unit == "N" and place == self.study.load_n:
+            yield from solved[RESPONSE].items()  # type: ignore[misc]
+            return
+        for case_id, rows in self.curves.groupby("case_id"):
+            try:
+                curve = LoadCurve(rows["displacement_mm"].to_numpy(), rows["force_n"].to_numpy())
+            except ValueError:
+                continue
+            point = curve.at_load(place) if unit == "N" else curve.at_displacement(place)
+            if point is not None:
+                secant = response.name == "secant_stiffness"
+                yield str(case_id), point.secant_n_per_mm if secant else point.tangent_n_per_mm
+
+    def _tabulated(self, response: ResponseName) -> pd.Series:
+        rows = self.responses[self.responses["response"] == response.name]
+        if response.at:
+            rows = rows[rows["at"] == response.at]
+        return rows.drop_duplicates("case_id").set_index("case_id")["value"]
+
+    def _remedy(self, response: ResponseName) -> str:
+        if response.name in STIFFNESS:
+            return "ask for a load or displacement that the solved curves reach"
+        known = sorted({*self.responses["response"], *STIFFNESS})
+        near = get_close_matches(response.name, known, 1)
+        guess = f"did you mean {near[0]}? " if near else ""
+        places = sorted({*self.responses[self.responses["response"] == response.name]["at"]} - {""})
+        if places:
+            return f"it is known at {', '.join(places)}"
+        return f"{guess}known responses: {', '.join(known)}"
+
+
+def results_of(
+    study: Study,
+    solver: str,
+    cases: pd.DataFrame,
+    responses: pd.DataFrame,
+    curves: pd.DataFrame,
+) -> StudyResults:
+    """Take the rows of one study and solver from the tables of a run.
+
+    Raises
+    ------
+    InputError
+        When the study is not solved by that solver.
+    """
+    if solver not in study.solvers:
+        raise InputError(
+            f"study {study.name} is not solved by this solver",
+            column="decisions.solver",
+            value=solver,
+            remedy=f"name one of {', '.join(study.solvers)}",
+        )
+    chosen = [
+        table[(table["study"] == study.name) & (table["solver"] == solver)]
+        for table in (cases, responses, curves)
+    ]
+    return StudyResults(study, solver, *chosen)

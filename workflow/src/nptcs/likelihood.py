@@ -1,0 +1,69 @@
+"""The search for a Gaussian process's hyperparameters, and whether it has arrived.
+
+scikit-learn warns of two different things in one class: a hyperparameter on its bound, which is an
+answer (a factor without effect, no noise), and a search that broke off, which is not. Here a broken
+search goes on by another method, and one that does not arrive is said.
+"""
+
+from __future__ import annotations
+
+import warnings
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from typing import Any
+
+import numpy as np
+from scipy.optimize import minimize
+from sklearn.exceptions import ConvergenceWarning
+
+from nptcs.arrays import Array
+
+ARRIVED = 1e-3
+"""Slope of the log likelihood by a log hyperparameter, as far as bounds leave it free, that counts
+as zero: a change of a length by one per cent then changes the likelihood by 1e-5 of itself."""
+
+
+class SearchError(RuntimeError):
+    """No maximum of the likelihood was found."""
+
+
+def maximise(objective: Callable[..., Any], start: Array, bounds: Array) -> tuple[Array, float]:
+    """Minimise minus the log likelihood, as scikit-learn's `optimizer` does.
+
+    Parameters
+    ----------
+    objective : callable
+        Hyperparameters (n,) to the value and its slope (n,).
+    start : ndarray of shape (n,)
+    bounds : ndarray of shape (n, 2)
+
+    Raises
+    ------
+    SearchError
+        If two methods both break off away from a maximum.
+    """
+    best = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=bounds)
+    if not best.success:
+        other = minimize(objective, best.x, method="TNC", jac=True, bounds=bounds)
+        best = other if other.fun <= best.fun else best
+    if not best.success and free_slope(objective, best.x, bounds) > ARRIVED * (1 + abs(best.fun)):
+        raise SearchError(f"the search for hyperparameters broke off: {best.message}")
+    return best.x, float(best.fun)
+
+
+def free_slope(objective: Callable[..., Any], theta: Array, bounds: Array) -> float:
+    """Largest slope in size at a point, without those that lead out of the bounds."""
+    slope = np.asarray(objective(theta)[1], dtype=float)
+    edge = 1e-8 * (bounds[:, 1] - bounds[:, 0])
+    held = ((theta <= bounds[:, 0] + edge) & (slope > 0)) | (
+        (theta >= bounds[:, 1] - edge) & (slope < 0)
+    )
+    return float(np.abs(np.where(held, 0.0, slope)).max())
+
+
+@contextmanager
+def bounds_are_answers() -> Iterator[None]:
+    """Silence scikit-learn's remark that a hyperparameter lies on its bound, and nothing else."""
+    with warnings.catch_warnings():
+        warnings.filterwarnings("ignore", "The optimal value found.*bound", ConvergenceWarning)
+        yield
