@@ -21,6 +21,7 @@ from nptcs.ingest.reading.units import FACTORS
 from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
 
 HEAD_LINES = 60
+_MARKUP = re.compile(rb"(?i)(?:\xef\xbb\xbf)?\s*<(?:\?xml|!doctype|html|head|table|workbook)\b")
 _WORD = re.compile(r"[^\W\d_]{2}|[|\[(%]")
 
 
@@ -117,6 +118,12 @@ def _open_text(
     profile: FormatProfile,
     limits: FileLimits,
 ) -> OpenedFile:
+    if _MARKUP.match(raw):
+        raise InputError(
+            "is a page of HTML or XML, not a table",
+            "open it in a spreadsheet and save it as XLSX or CSV",
+            path,
+        )
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
     plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
     lines = plain.lines
