@@ -1,14 +1,15 @@
 """The sandwich ring against the finite element tyre: same spokes, same ground, same rubbers.
 
     python benchmarks/ring_against_fe.py [--spokes results/5_solve/spokes] [--cases 26]
-        [--along 2] [--across 1] [--picture ring_against_fe.png]
+        [--along 3] [--picture docs/images/ring-against-fe.png]
 
-Eight designs that span tables 5 and 7, then `--cases` of their 78 cases (26: every third), at ten
-loads.
-Prints the difference of the displacement in per cent at each load, of the neutral line (in per cent
-of the largest displacement), the peak pressures, the contact lengths √(12 Var p), and the CPU time
-of both. The finite elements are refined along the circumference, where their contact needs it:
-`--along 1` is the campaign's mesh. A folder of spokes saves the computation of their tables.
+Eight designs that span tables 5 and 7, then every third (``--cases 78``: each) of their 78 cases at
+ten loads, by the ring and by two finite element tyres: on the mesh of the campaign, and with
+`--along` times as many elements along the circumference, where the contact needs them. Prints the
+difference of the displacement in per cent at each load, of the neutral line (in per cent of the
+largest displacement), of peak pressure and contact length √(12 Var p), and the CPU time of each.
+The finite elements end at a load that they do not reach: the loads before it are compared. A folder
+of spokes saves the computation of their tables (2 to 9 s each).
 """
 
 from __future__ import annotations
@@ -27,10 +28,11 @@ from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design, tyre_model
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.tyre.equilibrium import TyreError
-from nptcs.ring.responses import contact_length_mm, responses
-from nptcs.ring.solution import load
-from nptcs.ring.tyre import ring_tyre
+from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
+from nptcs.fe.tyre.responses import contact_responses
+from nptcs.ring.responses import responses
+from nptcs.ring.solution import RingState, load
+from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.tables.material_card import PUBLISHED_PLY
 
 TYRE = TyreGeometry()
@@ -65,20 +67,27 @@ def cases() -> list[dict[str, float]]:
 
 @dataclass
 class Difference:
-    """Differences of one design, per cent, at the loads that the finite elements reached."""
+    """Ring against finite elements for one design, at the loads that these reached.
+
+    `percent` is that of the displacement; `line`, `peak` and `length` are per cent at the last load
+    (NaN where it was not reached).
+    """
 
     loads_n: np.ndarray
     percent: np.ndarray
-    text: str
+    line: float
+    peak: float
+    length: float
+    fe_s: float
+    ring_s: float
 
-
-def compare(
-    design: dict[str, float], loads_n: list[float], mesh: TyreMesh, spokes: Path | None
-) -> Difference:
-    """Load one design by both models."""
-    model = FeModel(tyre_mesh=mesh)
-    table = shared_table(model, spoke_design(model, TYRE, PUBLISHED_PLY, design), spokes)
-    return against(table, design["band"], loads_n, model)
+    def __str__(self) -> str:
+        """One line of the printed table."""
+        numbers = " ".join(f"{value:+.2f}" for value in self.percent)
+        return (
+            f"{numbers}  line {self.line:.2f} peak {self.peak:+.1f} length {self.length:+.1f} %  "
+            f"{self.fe_s:.1f} s {1000 * self.ring_s:.0f} ms"
+        )
 
 
 def against(
@@ -105,31 +114,29 @@ def against(
     percent = np.array(
         [100 * (own.rise_mm / rise[own.force_n] - 1) for own in states if own.force_n in rise]
     )
-    text = f"{fe_s:6.1f} s {1000 * ring_s:5.0f} ms"
-    if state is not None:
-        text += _shapes(finite, state, ring, states[-1])
-    return Difference(np.array(reached), percent, text)
+    shapes = (np.nan,) * 3 if state is None else _shapes(finite, state, ring, states[-1])
+    return Difference(np.array(reached), percent, *shapes, fe_s, ring_s)
 
 
-def _shapes(finite, state, ring, own) -> str:
-    """Neutral line, pressure and contact length at the last load."""
+def _shapes(
+    finite: TyreModel, state: TyreState, ring: RingTyre, own: RingState
+) -> tuple[float, float, float]:
+    """Per cent of neutral line, peak pressure and contact length at the last load."""
     line = finite.neutral_line(state.displacement) - finite.neutral_line(0 * state.displacement)
     theta = finite.mesh.theta
     outward = line[:, 0] * np.sin(theta) - line[:, 1] * np.cos(theta)
     along = line[:, 0] * np.cos(theta) + line[:, 1] * np.sin(theta)
-    there = [
+    nodes = [
         np.interp(ring.nodes.theta, theta, part, period=2 * np.pi) for part in (outward, along)
     ]
-    gap = np.hypot(*(a - b for a, b in zip(ring.neutral_line(own.u), there, strict=True))).max()
-    place, pressure = finite.ground.pressure_profile(state.displacement, state.rise_mm)
-    order = np.argsort(place)
-    weight = np.gradient(place[order]) * pressure[order]
-    found = responses(ring, own)
-    return (
-        f"  line {100 * gap / np.hypot(outward, along).max():.2f} %  peak {pressure.max():.3f}"
-        f" {found['largest_pressure_mpa']:.3f} MPa  length"
-        f" {contact_length_mm(place[order], weight):.1f} {found['contact_length_mm']:.1f} mm"
+    gap = np.hypot(*(a - b for a, b in zip(ring.neutral_line(own.u), nodes, strict=True))).max()
+    there = contact_responses(finite.ground.cells(state.displacement, state.rise_mm))
+    here = responses(ring, own)
+    peak, length = (
+        100 * (here.get(name, np.nan) / there.get(name, np.nan) - 1)
+        for name in ("largest_pressure_mpa", "contact_length_mm")
     )
+    return float(100 * gap / np.hypot(outward, along).max()), peak, length
 
 
 def label(design: dict[str, float]) -> str:
@@ -140,26 +147,48 @@ def label(design: dict[str, float]) -> str:
     )
 
 
-def draw(differences: list[Difference], path: Path) -> None:
-    """Draw the differences over the load."""
+def summed_up(group: list[Difference]) -> str:
+    """Say how far the group is apart."""
+    every = np.concatenate([one.percent for one in group])
+    shapes = {
+        name: np.nanmax(np.abs([0.0, *(getattr(one, name) for one in group)]))
+        for name in ("line", "peak", "length")
+    }
+    return (
+        f"displacement rms {np.sqrt(np.mean(every**2)):.3f} %, largest {np.abs(every).max():.3f} % "
+        f"({len(every)} loads); neutral line {shapes['line']:.2f} %, peak pressure "
+        f"{shapes['peak']:.1f} %, contact length {shapes['length']:.1f} % at most"
+    )
+
+
+def draw(by_mesh: dict[str, list[Difference]], path: Path) -> None:
+    """Draw the differences over the load, one panel per mesh of the finite elements."""
     from matplotlib.figure import Figure
 
-    figure = Figure(figsize=(6.4, 4.0), layout="constrained")
-    axes = figure.add_subplot()
-    for number, one in enumerate(differences):
-        first = number < len(DESIGNS)
-        axes.plot(
-            one.loads_n / 1000,
-            one.percent,
-            color="tab:red" if first else "tab:blue",
-            alpha=0.8 if first else 0.35,
-            linewidth=1.2,
-        )
-    axes.axhspan(-0.5, 0.5, color="0.92", zorder=0)
-    axes.set_xlabel("Load [kN]")
-    axes.set_ylabel("Displacement of the ring against\nthe finite elements [%]")
-    axes.set_title("Eight designs (red), cases of tables 5 and 7 (blue)", fontsize=10)
+    figure = Figure(figsize=(7.2, 3.6), layout="constrained")
+    panels = figure.subplots(1, len(by_mesh), sharey=True, squeeze=False)[0]
+    for axes, (mesh, differences) in zip(panels, by_mesh.items(), strict=True):
+        axes.axhspan(-0.5, 0.5, color="0.92", zorder=0)
+        for number, one in enumerate(differences):
+            first = number < len(DESIGNS)
+            axes.plot(
+                one.loads_n / 1000,
+                one.percent,
+                color="tab:red" if first else "tab:blue",
+                alpha=0.8 if first else 0.35,
+                linewidth=1.2,
+            )
+        axes.set_xlabel("Load [kN]")
+        axes.set_title(mesh, fontsize=9)
+    panels[0].set_ylabel("Displacement of the ring against\nthe finite elements [%]", fontsize=9)
+    figure.suptitle("Eight designs (red), cases of tables 5 and 7 (blue)", fontsize=10)
     figure.savefig(path, dpi=150)
+
+
+def meshes(along: int) -> dict[str, TyreMesh]:
+    """Return the meshes of the finite element tyre, by name."""
+    fine = TyreMesh(foot_elements=along, gap_elements=along)
+    return {"mesh of the campaign": TyreMesh(), f"contact {along} times as fine": fine}
 
 
 def main() -> None:
@@ -167,28 +196,41 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--spokes", type=Path)
     parser.add_argument("--cases", type=int, default=26)
-    parser.add_argument("--along", type=int, default=2)
-    parser.add_argument("--across", type=int, default=1)
+    parser.add_argument("--along", type=int, default=3)
     parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
-    along, across = arguments.along, arguments.across
-    mesh = TyreMesh(foot_elements=along, gap_elements=along, tread_rows=across, band_rows=across)
     every = cases()[:: max(78 // max(arguments.cases, 1), 1)][: arguments.cases]
-    print("ring - fe in % at " + ", ".join(f"{value:g}" for value in DESIGN_LOADS) + " N")
-    differences = []
-    for design, loads in [(d, DESIGN_LOADS) for d in DESIGNS] + [(d, CASE_LOADS) for d in every]:
-        one = compare(design, loads, mesh, arguments.spokes)
-        differences.append(one)
-        numbers = " ".join(f"{value:+.2f}" for value in one.percent)
-        print(f"{label(design):38s} {numbers}  {one.text}", flush=True)
-    groups = (("designs", differences[: len(DESIGNS)]), ("cases", differences[len(DESIGNS) :]))
-    for name, group in groups:
-        if group:
-            every_one = np.concatenate([one.percent for one in group])
-            rms = np.sqrt(np.mean(every_one**2))
-            print(f"{name}: rms {rms:.3f} %, largest {np.abs(every_one).max():.3f} %")
+    wanted = [(design, DESIGN_LOADS) for design in DESIGNS] + [(d, CASE_LOADS) for d in every]
+    plain = FeModel()
+    tables = [
+        shared_table(plain, spoke_design(plain, TYRE, PUBLISHED_PLY, design), arguments.spokes)
+        for design, _ in wanted
+    ]
+    by_mesh = compare(wanted, tables, arguments.along)
     if arguments.picture is not None:
-        draw(differences, arguments.picture)
+        draw(by_mesh, arguments.picture)
+
+
+def compare(
+    wanted: list[tuple[dict[str, float], list[float]]],
+    tables: list[SpokeEnergyTable],
+    along: int,
+) -> dict[str, list[Difference]]:
+    """Print the differences of all designs on both meshes."""
+    by_mesh: dict[str, list[Difference]] = {}
+    for name, mesh in meshes(along).items():
+        print(f"\nring - finite elements in %, {name}; designs at {DESIGN_LOADS} N")
+        model = FeModel(tyre_mesh=mesh)
+        for (design, loads), table in zip(wanted, tables, strict=True):
+            one = against(table, design["band"], loads, model)
+            by_mesh.setdefault(name, []).append(one)
+            print(f"{label(design):38s} {one}", flush=True)
+    for name, found in by_mesh.items():
+        print(f"\n{name}")
+        print("  designs:", summed_up(found[: len(DESIGNS)]))
+        if found[len(DESIGNS) :]:
+            print("  cases:  ", summed_up(found[len(DESIGNS) :]))
+    return by_mesh
 
 
 if __name__ == "__main__":

@@ -27,7 +27,8 @@ from nptcs.config.root import read_config
 from nptcs.files import read_model
 from nptcs.surface.cases import as_realised
 from nptcs.surface.response_surface import predict
-from nptcs.surface.stored import read_models
+from nptcs.surface.stored import read_registry
+from nptcs.surface.study import RESPONSE
 from nptcs.tables.material_card import MaterialCard
 
 FACTORS = ["spacing_mm", "thickness_mm", "angle_deg"]
@@ -63,13 +64,14 @@ def main() -> int:
     ply = next(iter(card.plies.values())).values()
     table = designs(given.seed).assign(**study.fixed)
     options = config.options_of("plate", given.solver)
-    options = {**options, "spoke_cache": str(given.results / "5_solve" / "spokes")}
+    cache = str(given.results / "5_solve" / "spokes")
+    options = {**options, "spoke_cache": cache, "plate_stress": "off"}
     jobs = make_jobs(study, given.solver, options, config.tyre, table, ply)
     store = RecordStore(given.results / "5_solve" / "records")
     solved = cases_table(run_cases(jobs, store, given.cores, report_progress))
     x = as_realised(solved, FACTORS)[FACTORS].to_numpy()
-    surface = read_models(given.results / "6_surface" / "models" / "plate.json")[given.solver]
-    said = predict(surface[given.surface], x)
+    registry = read_registry(given.results / "6_surface" / "models" / "plate.json")
+    said = predict(registry.find(RESPONSE, given.solver, given.surface).surface, x)
     truth = solved["vertical_stiffness_n_per_mm"].to_numpy()
     print("| S, T, A | pitch | solver | surface | ± | difference | inside |")
     print("|---|---|---|---|---|---|---|")

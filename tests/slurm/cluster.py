@@ -22,6 +22,7 @@ import signal
 import subprocess
 import sys
 import time
+from collections.abc import Callable
 from pathlib import Path
 
 HERE = Path(__file__).resolve().parent
@@ -46,10 +47,10 @@ def run(*command: str, check: bool = True) -> str:
     return done.stdout.strip()
 
 
-def wait_until(what: str, true: object, seconds: float = 60.0) -> None:
+def wait_until(what: str, true: Callable[[], bool], seconds: float = 60.0) -> None:
     """Wait for a condition, and end with a message if it does not come true."""
     end = time.monotonic() + seconds
-    while not true():  # type: ignore[operator]
+    while not true():
         if time.monotonic() > end:
             raise SystemExit(f"waited {seconds:.0f} s in vain until {what}")
         time.sleep(0.5)
@@ -142,9 +143,11 @@ def stop() -> None:
     say("stopped")
 
 
-def processes_of(node: str) -> list[int]:
-    """Find the processes of a node: its daemon, and all that Slurm has started on it."""
-    found = [int(Path(f"/run/slurmd.{node}.pid").read_text())]
+def processes_of(node: str) -> dict[int, bytes]:
+    """Find the processes of a node with their commands: its daemons first, then what they run."""
+    parents: dict[int, int] = {}
+    commands: dict[int, bytes] = {}
+    tasks: list[int] = []
     for folder in Path("/proc").iterdir():
         if not folder.name.isdigit():
             continue
@@ -154,10 +157,14 @@ def processes_of(node: str) -> list[int]:
             parent = int((folder / "stat").read_text().rsplit(")", 1)[1].split()[1])
         except (OSError, IndexError):
             continue
-        of_step = command.startswith(b"slurmstepd") and parent in found
-        if of_step or f"SLURMD_NODENAME={node}".encode() in environment:
-            found.append(int(folder.name))
-    return found
+        number = int(folder.name)
+        parents[number], commands[number] = parent, command
+        if f"SLURMD_NODENAME={node}".encode() in environment:
+            tasks.append(number)
+    steps = {parents[task] for task in tasks}
+    steps = {step for step in steps if commands.get(step, b"").startswith(b"slurmstepd")}
+    daemon = int(Path(f"/run/slurmd.{node}.pid").read_text())
+    return {number: commands.get(number, b"") for number in [daemon, *steps, *tasks]}
 
 
 def kill_node(node: str) -> None:
@@ -196,40 +203,50 @@ def snakemake(folder: Path, log: str, *arguments: str) -> subprocess.Popen[bytes
         )
 
 
-def kill_node_under_a_batch(process: subprocess.Popen[bytes], least_s: float) -> bool:
-    """Wait until a batch has run on the victim for some seconds, then kill the node."""
-    while process.poll() is None:
-        for job, node, state, seconds, rule in jobs("%i", "%N", "%t", "%M", "%k"):
-            minutes, _, rest = seconds.rpartition(":")
-            if node == VICTIM and state == "R" and 60 * int(minutes or 0) + int(rest) >= least_s:
-                say(f"job {job} ({rule}) runs on {node} for {seconds}")
-                kill_node(node)
-                return True
-        time.sleep(1.0)
-    return False
+class Watch:
+    """Follow a run through Slurm: print what changes, kill the victim, start it again."""
 
+    def __init__(self, solver: str, least_s: float) -> None:
+        self.solver, self.least_s = solver, least_s
+        self.since = 0.0
+        self.known: dict[str, str] = {}
+        self.killed = self.restarted = False
 
-def follow(process: subprocess.Popen[bytes]) -> int:
-    """Print each change of a job's state and node until Snakemake ends; restart a dead node."""
-    known: dict[str, str] = {}
-    restarted = False
-    while True:
-        ended = process.poll()
+    def look(self) -> None:
+        """Look once at the queue and at the nodes."""
         for job, node, state, rule in jobs("%i", "%N", "%T", "%k"):
             text = f"job {job} {rule}: {state} {node}"
-            if known.get(job) != text:
+            if self.known.get(job) != text:
                 say(text)
-                known[job] = text
-        if not restarted and "down" in run("sinfo", "-h", "-n", VICTIM, "-o", "%T", check=False):
-            say(f"Slurm has noticed: {run('sinfo', '-h', '-N', '-o', '%N %T %E')}")
+                self.known[job] = text
+            if node == VICTIM and state == "RUNNING" and self.solver in rule and not self.killed:
+                self.kill_if_it_solves(job)
+        dead = "down" in run("sinfo", "-h", "-n", VICTIM, "-o", "%T", check=False)
+        if self.killed and dead and not self.restarted:
+            say(f"Slurm has noticed: {run('sinfo', '-h', '-N', '-o', '%N is %T (%E)')}")
             run("slurmd", "-N", VICTIM)
-            restarted = True
-        if ended is not None:
-            return ended
-        time.sleep(2.0)
+            self.restarted = True
+
+    def kill_if_it_solves(self, job: str) -> None:
+        """Kill the victim when the script of a batch has run on it for some seconds."""
+        if not any(b".solve.py" in command for command in processes_of(VICTIM).values()):
+            return
+        self.since = self.since or time.monotonic()
+        if time.monotonic() - self.since >= self.least_s:
+            say(f"job {job} has been solving cases on {VICTIM} for {self.least_s:.0f} s or more")
+            kill_node(VICTIM)
+            self.killed = True
+
+    def follow(self, process: subprocess.Popen[bytes]) -> int:
+        """Look every second until Snakemake ends; return its exit code."""
+        while process.poll() is None:
+            self.look()
+            time.sleep(1.0)
+        self.look()
+        return process.returncode
 
 
-def study(folder: Path, status: str, config: str, least_s: float) -> int:
+def study(folder: Path, status: str, config: str, solver: str, least_s: float) -> int:
     """Run a study locally and through Slurm, and compare."""
     local, cluster = folder / "local", folder / "cluster"
     given = ("--configfile", config)
@@ -240,7 +257,7 @@ def study(folder: Path, status: str, config: str, least_s: float) -> int:
         say(f"local run ends with exit code {code}")
         if code:
             return code
-    copy_repository(cluster)
+    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns("results", ".snakemake"))
     say(f"run through Slurm begins, status by {status}")
     process = snakemake(
         cluster,
@@ -250,17 +267,17 @@ def study(folder: Path, status: str, config: str, least_s: float) -> int:
         *("--config", "campaign={minutes_per_batch: 0.1}"),
         *given,
     )
-    killed = kill_node_under_a_batch(process, least_s)
-    code = follow(process)
+    watch = Watch(solver, least_s)
+    code = watch.follow(process)
     say(f"run through Slurm ends with exit code {code}")
     if status == "sacct":
         fields = "JobID%-12,State%-12,NodeList,Elapsed,MaxRSS,ReqMem,ReqCPUS"
         print(run("sacct", "-D", "--format", fields, check=False), flush=True)
     compare = [sys.executable, str(ROOT / "benchmarks" / "same_numbers.py")]
     same = subprocess.run([*compare, str(local), str(cluster)], check=False)
-    if not killed:
+    if not watch.killed:
         say("no batch ran on the node long enough to be killed")
-    return code or same.returncode or int(not killed)
+    return code or same.returncode or int(not watch.killed)
 
 
 def main() -> int:
@@ -273,8 +290,9 @@ def main() -> int:
     studying.add_argument("folder", type=Path)
     studying.add_argument("--status", choices=("squeue", "sacct"), default="squeue")
     studying.add_argument("--config", default="config/small.yaml")
+    studying.add_argument("--kill", default="fe_tyre", help="solver under which the node dies")
     studying.add_argument(
-        "--kill-after", type=float, default=8.0, help="seconds that a batch runs before the kill"
+        "--kill-after", type=float, default=5.0, help="seconds that its batch has solved by then"
     )
     parts.add_parser("stop")
     chosen = parser.parse_args()
@@ -283,7 +301,8 @@ def main() -> int:
     elif chosen.part == "stop":
         stop()
     else:
-        return study(chosen.folder.resolve(), chosen.status, chosen.config, chosen.kill_after)
+        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after)
+        return study(chosen.folder.resolve(), *given)
     return 0
 
 

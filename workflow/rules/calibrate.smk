@@ -1,5 +1,5 @@
 # Properties → the nine constants of each ply; rubber curves → hyperelastic constants; one card.
-PLIES = plies(SPECIMENS, CONFIG.calibration)
+PLIES = FACTS.plies
 
 
 def series_of_material(material):

@@ -1,4 +1,4 @@
-# The configuration and the specimen sheet, checked; what the rules ask of them.
+# The configuration and the specimen sheet, checked, and what the rules need from them.
 import shlex
 import sys
 import time
@@ -7,22 +7,15 @@ from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
 
-from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
-from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
-from nptcs.files import sha256_of_file
-from nptcs.provenance import code_hash
-from nptcs.solvers.registry import (
-    load,
-    model_choices,
-    module_of,
-    needs_ply,
-    read_options,
-)
-from nptcs.tables.catalogue import result_files
+from nptcs.files import remove_unfinished, sha256_of_file
+from nptcs.processes.runs import begin_job, begin_run
+from nptcs.processes.stops import stop_jobs_on_signals
+from nptcs.report.stale import refused
+from nptcs.start.facts import known_facts
 from nptcs.tables.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
 
@@ -35,32 +28,64 @@ one_thread_per_process()  # of the linear algebra in all jobs; cases already sha
 if Path(sys.executable).exists():
     sys.executable = shlex.quote(sys.executable)
 
+# Snakemake looks at its locks after it has read this file
+if not workflow.is_main_process:
+    begin_job()
+elif begin_run(Path(".snakemake")):
+    remove_unfinished("results")
+
+
+onstart:
+    stop_jobs_on_signals(sys.argv)
+    if any(
+        job.rule.name.startswith("solve") for job in workflow.dag.needrun_jobs()
+    ):
+        from nptcs.campaign.plan import plan_lines
+
+        print(*plan_lines(CONFIG), sep="\n", file=sys.stderr, flush=True)
+
+
+def own_solvers():
+    """Files of solvers that do not belong to the package."""
+    return [
+        options["module"]
+        for study in CONFIG.studies
+        for options in CONFIG.solver_options(study).values()
+        if "module" in options
+    ]
+
+
+def find_facts():
+    """What the rules must know, found with the whole package; see `nptcs.start`."""
+    from nptcs.start.survey import survey
+
+    return survey(CONFIG, SPECIMENS, checked=workflow.is_main_process)
+
+
 try:
     CONFIG = read_config(config)
     SHEET = Path(CONFIG.lab_data.specimen_sheet)
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
-    faults, _ = check_materials(
+    FACTS = known_facts(
+        ".snakemake/nptcs/start.json",
+        CONFIG.model_dump(mode="json"),
         [
-            (study, needs_ply(study, CONFIG.solver_options(study)))
-            for study in CONFIG.studies
+            SHEET,
+            *Path(CONFIG.lab_data.formats).glob("*.yaml"),
+            *own_solvers(),
         ],
-        SPECIMENS,
-        CONFIG.calibration,
+        find_facts,
     )
-    if faults:
-        raise faults[0]
-    if workflow.is_main_process:
-        refuse_faults([*study_faults(CONFIG), *name_faults(SPECIMENS, CONFIG)])
 except InputError as error:
-    raise WorkflowError(str(error)) from None
+    raise WorkflowError(refused(error, "results/report.html")) from None
 
 SPECIMEN = {specimen.specimen: specimen for specimen in SPECIMENS}
 SERIES = sorted({specimen.series for specimen in SPECIMENS})
-RUBBERS = rubbers(SPECIMENS)
+RUBBERS = FACTS.rubbers
 STUDIES = [study.name for study in CONFIG.studies]
 SURFACE_STUDIES = [study.name for study in CONFIG.studies if study.terms]
 
-TABLES = [f"results/tables/{file}" for file, _, _ in result_files(SURFACE_STUDIES)]
+TABLES = [f"results/tables/{file}" for file in FACTS.tables]
 
 
 wildcard_constraints:
@@ -92,7 +117,7 @@ def code_of(script, *modules, words=False):
     Snakemake looks at the script's time stamp, which a checkout renews, and not at its imports.
     Rules whose output shows messages and descriptions ask for `words` too.
     """
-    return code_hash(
+    return FACTS.code_of(
         str(SCRIPTS / f"{script}.py"),
         *modules,
         words=words,
@@ -130,10 +155,13 @@ def records(specimens):
 
 
 def solver_of(study_name, solver_name):
-    """A study's solver with its checked options."""
-    options = CONFIG.solver_options(CONFIG.study(study_name))[solver_name]
-    solver = load(module_of(solver_name, options))
-    return solver, read_options(solver, options)
+    """Facts on a study's solver and its options (`nptcs.start.facts.SolverFacts`)."""
+    return FACTS.solvers[study_name][solver_name]
+
+
+def module_of(solver_name, options):
+    """Module or file that defines a solver."""
+    return str(options.get("module") or FACTS.modules[solver_name])
 
 
 def tyre_solvers(study_name):
@@ -141,22 +169,42 @@ def tyre_solvers(study_name):
     return [
         name
         for name in CONFIG.study(study_name).solvers
-        if solver_of(study_name, name)[0].loads_tyre
+        if solver_of(study_name, name).loads_tyre
     ]
 
 
 def batches_of(study_name, solver_name):
     """Number of jobs into which the cases of a study are divided for a solver."""
-    _, options = solver_of(study_name, solver_name)
-    return batch_count(
-        CONFIG.study(study_name).number_of_cases(), CONFIG.campaign, options
-    )
+    cases = CONFIG.study(study_name).number_of_cases()
+    return batch_count(cases, CONFIG.campaign, solver_of(study_name, solver_name))
+
+
+def solved_in_bulk(study_name, solver_name):
+    """Whether a solver solves the cases of a study as a table: no record of each, no curves."""
+    cases = CONFIG.study(study_name).number_of_cases()
+    able = solver_of(study_name, solver_name).solves_tables
+    return able and cases >= CONFIG.campaign.bulk_from
 
 
 def batches(study_name, solver_name=None):
+    """The files with the results of a study, of one of its solvers or of all."""
     study = CONFIG.study(study_name)
     return [
-        f"results/5_solve/{study_name}/{solver}/batch_{batch}.jsonl"
+        f"results/5_solve/{study_name}/{solver}/"
+        + (
+            f"bulk_{batch}.npz"
+            if solved_in_bulk(study_name, solver)
+            else f"batch_{batch}.jsonl"
+        )
         for solver in ([solver_name] if solver_name else study.solvers)
         for batch in range(1, batches_of(study_name, solver) + 1)
     ]
+
+
+def record_batches(study_name, solver_name):
+    """As `batches`, but only those with a record of each case; none if it is solved in bulk."""
+    return (
+        []
+        if solved_in_bulk(study_name, solver_name)
+        else batches(study_name, solver_name)
+    )

@@ -1,5 +1,5 @@
 # Computed results compared with the paper: section 4.3.1, tables 5, 7, 10 and 11, figures 14, 15.
-from nptcs.tables.published_stiffness import PUBLISHED
+from nptcs.tables.solver_names import PUBLISHED
 
 COMPARED_STUDIES = [
     study.name for study in CONFIG.studies if PUBLISHED in study.solvers
@@ -19,7 +19,7 @@ rule spoke_stiffness:
             for study in CONFIG.studies
             for solver in study.solvers
             if solver not in tyre_solvers(study.name)
-            for path in batches(study.name, solver)
+            for path in record_batches(study.name, solver)
         ],
         published=[ancient(path) for path in PUBLISHED_SPOKES.values()],
     output:
@@ -49,6 +49,7 @@ rule compare_published:
         ),
         errors="results/tables/stiffness_errors.csv",
         levels="results/tables/stiffness_by_level.csv",
+        exponents="results/tables/stiffness_exponents.csv",
     log:
         "results/logs/compare_published.log",
     params:
@@ -73,7 +74,7 @@ rule neutral_line:
             path
             for name in LINE_STUDIES
             for solver in tyre_solvers(name)
-            for path in batches(name, solver)
+            for path in record_batches(name, solver)
         ],
         designs=expand("results/4_design/{study}.csv", study=LINE_STUDIES),
     output:

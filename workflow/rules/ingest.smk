@@ -1,6 +1,4 @@
 # Raw files → one tidy curve per specimen, and an account of every file in the folder.
-from nptcs.files import sha256_of_text
-from nptcs.ingest import load_profiles
 from nptcs.ingest.folder import find_file, raw_files
 
 
@@ -15,15 +13,6 @@ def files_of_specimen(wildcards):
     return [ancient(path) for path in found]
 
 
-# the profiles decide how files are read: by what they say, not by their comments or dates
-try:
-    PROFILES = {
-        name: sha256_of_text(profile.model_dump_json())
-        for name, profile in load_profiles(CONFIG.lab_data.formats).items()
-    }
-except InputError as error:
-    raise WorkflowError(str(error)) from None
-
 LAB_FILES = [str(path) for path in raw_files(SHEET.parent).values() if path != SHEET]
 
 
@@ -33,7 +22,7 @@ def ingest_job(wildcards):
         "files": contents(files_of_specimen(wildcards)),
         "folder": str(SHEET.parent),
         "formats": CONFIG.lab_data.formats,
-        "profiles": PROFILES,
+        "profiles": FACTS.profiles,  # what they say, not their comments or dates
         "settings": plain(CONFIG.ingest),
         "code": code_of("ingest"),
     }

@@ -10,14 +10,14 @@ def solver_facts():
     named = {(name, study.name) for study in CONFIG.studies for name in study.solvers}
     facts = {}
     for name, study in sorted(named):
-        solver, options = solver_of(study, name)
+        solver = solver_of(study, name)
         facts[name] = {
             "about": solver.about,
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
             "choices": facts.get(name, {}).get("choices", []),
         }
-        chosen = model_choices(options)
+        chosen = solver.choices
         if chosen and chosen not in facts[name]["choices"]:
             facts[name]["choices"].append(chosen)
     return facts
@@ -38,7 +38,7 @@ def configured_inputs():
     for study in CONFIG.studies:
         paths += [study.published_coefficients, study.published_spoke_stiffness]
         for name in study.solvers:
-            paths += solver_of(study.name, name)[1].tables().values()
+            paths += solver_of(study.name, name).tables().values()
     return list(dict.fromkeys(filter(None, paths)))
 
 
@@ -59,7 +59,7 @@ rule problems:
         cases="results/tables/cases.csv",
         tables=expand("results/2_reduce/{series}_problems.csv", series=SERIES)
         + expand("results/6_surface/{study}_problems.csv", study=SURFACE_STUDIES)
-        + ["results/6_surface/sobol/problems.csv"],
+        + ["results/6_surface/sobol/problems.csv", "results/7_decide/problems.csv"],
     output:
         problems="results/tables/problems.csv",
     log:
@@ -102,6 +102,7 @@ rule report:
             "config": plain(CONFIG),
             "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
             "solvers": solver_facts(),
+            "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
                 for template in sorted(

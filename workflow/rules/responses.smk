@@ -1,5 +1,5 @@
 # Records of solved tyres → what they do at any load, and the margins of their plates.
-from nptcs.tables.published_stiffness import PUBLISHED
+from nptcs.tables.solver_names import PUBLISHED
 
 COMPOSITES = sorted({s.material for s in SPECIMENS if not s.test.is_rubber})
 
@@ -11,7 +11,7 @@ rule tyre_responses:
             for study in STUDIES
             for solver in tyre_solvers(study)
             if solver != PUBLISHED
-            for path in batches(study, solver)
+            for path in record_batches(study, solver)
         ],
         statistics="results/tables/statistics.csv",
     output:

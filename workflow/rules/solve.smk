@@ -5,22 +5,20 @@ from nptcs.campaign.tries import read_tries
 
 
 def ply_card(wildcards):
-    solver, _ = solver_of(wildcards.study, wildcards.solver)
-    if not solver.needs_ply:
+    if not solver_of(wildcards.study, wildcards.solver).needs_ply:
         return []
-    name = ply_of(CONFIG.study(wildcards.study), SPECIMENS, CONFIG.calibration)
-    return [f"results/3_calibrate/{name}.json"]
+    return [f"results/3_calibrate/{FACTS.ply[wildcards.study]}.json"]
 
 
 def solver_tables(wildcards):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return [ancient(path) for path in options.tables().values()]
 
 
-def solve_job(wildcards):
+def solve_job(wildcards, output):
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
-    _, checked = solver_of(wildcards.study, wildcards.solver)
+    checked = solver_of(wildcards.study, wildcards.solver)
     return {
         "study": study.case_definition(),
         "solver": wildcards.solver,
@@ -31,30 +29,36 @@ def solve_job(wildcards):
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": batches_of(wildcards.study, wildcards.solver),
-        "tries": read_tries(
-            "results/5_solve/{study}/{solver}/batch_{batch}.jsonl".format(**wildcards)
-        ),
+        "tries": read_tries(output[0]),
         "code": code_of("solve", module_of(wildcards.solver, options)),
     }
 
 
+def solve_bulk_job(wildcards, output):
+    options = CONFIG.solver_options(CONFIG.study(wildcards.study))[wildcards.solver]
+    return {
+        **solve_job(wildcards, output),
+        "code": code_of("solve_bulk", module_of(wildcards.solver, options)),
+    }
+
+
 def solve_cores(wildcards):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return batch_cores(CONFIG.campaign.cores_per_batch, options)
 
 
 def solve_tokens(wildcards, threads):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return batch_tokens(threads, options)
 
 
 def solve_memory_mb(wildcards, threads, attempt):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     return batch_memory_mb(threads, options, attempt)
 
 
 def solve_minutes(wildcards, threads, attempt):
-    _, options = solver_of(wildcards.study, wildcards.solver)
+    options = solver_of(wildcards.study, wildcards.solver)
     cases = CONFIG.study(wildcards.study).number_of_cases()
     parts = batches_of(wildcards.study, wildcards.solver)
     return batch_minutes(cases, parts, threads, options, attempt)
@@ -86,6 +90,28 @@ rule solve:
         store="results/5_solve/records",
     script:
         "../scripts/solve.py"
+
+
+rule solve_bulk:
+    input:
+        design="results/4_design/{study}.csv",
+        ply=ply_card,
+        tables=solver_tables,
+    output:
+        results="results/5_solve/{study}/{solver}/bulk_{batch}.npz",
+    log:
+        "results/logs/solve/{study}_{solver}_bulk_{batch}.log",
+    threads: solve_cores
+    resources:
+        licence_tokens=solve_tokens,
+        mem_mb=solve_memory_mb,
+        runtime=solve_minutes,
+        slurm_extra=solve_licence,
+    params:
+        job=solve_bulk_job,
+        store="results/5_solve/records",
+    script:
+        "../scripts/solve_bulk.py"
 
 
 rule cases:

@@ -57,7 +57,7 @@ def surface_ply(wildcards):
     study = CONFIG.study(wildcards.study)
     if not study.needs_ply():
         return []
-    return [f"results/3_calibrate/{ply_of(study, SPECIMENS, CONFIG.calibration)}.json"]
+    return [f"results/3_calibrate/{FACTS.ply[study.name]}.json"]
 
 
 rule surface:

@@ -3,6 +3,7 @@
 from typing import Any
 
 from nptcs.compare import published_stiffness as compare
+from nptcs.compare.stiffness_exponents import stiffness_exponents
 from nptcs.console import clear_errors
 from nptcs.tables import published_stiffness as contracts
 from nptcs.tables.cases import Cases, Design
@@ -20,6 +21,8 @@ def compare_published(job: dict[str, Any], cases: str, designs: list[str], **out
     write_table(output["table"], table, contracts.StiffnessAgainstPublished)
     write_table(output["errors"], errors, contracts.StiffnessErrors)
     write_table(output["levels"], levels, contracts.StiffnessByLevel)
+    exponents = stiffness_exponents(table, studies)
+    write_table(output["exponents"], exponents, contracts.StiffnessExponents)
 
 
 if __name__ == "__main__":

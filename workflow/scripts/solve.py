@@ -18,13 +18,13 @@ def solve(job: dict[str, Any], store: str, records: str, design: str, **more) ->
     # time limits and cache places are in the configuration alone: as params they would rerun it
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
     given = {**job, "options": options}, read_table(design, Design), next(iter(constants), None)
-    done = solve_batch(*given, RecordStore(store), more["cores"], more["tokens"])
+    done = solve_batch(*given, RecordStore(store), more["cores"], more["tokens"], more["log"])
     note_ends(records, done)
     write_records(records, done)
 
 
 if __name__ == "__main__":
     granted = {"cores": snakemake.threads, "tokens": snakemake.resources.licence_tokens}
-    granted["config"] = snakemake.config
+    granted |= {"config": snakemake.config, "log": snakemake.log[0]}
     with clear_errors(snakemake.log[0]):
         solve(**snakemake.params, **granted, **snakemake.input, **snakemake.output)

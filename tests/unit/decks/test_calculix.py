@@ -147,7 +147,7 @@ def solve_with_kernel(mesh, design, u_r):
             displacement = displacement + move
             for block in blocks:
                 if isinstance(block, RubberGroup):
-                    block.update_pressure(move)
+                    block.follow(move)
             if np.abs(step).max() < 1e-8:
                 break
     return reaction

@@ -2,8 +2,11 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
+from nptcs.fe.tyre.contact import ContactCells
 from nptcs.fe.tyre.responses import contact_responses, deciding_spokes, spoke_forces
 
 # E = 5 s² + 1000 β² + 1000 φ², written in Chebyshev terms on [-10, 10] × [-1, 1]²
@@ -14,25 +17,56 @@ TABLE = SpokeEnergyTable(
 )  # fmt: skip
 
 
-@pytest.mark.parametrize("points", [12, 60, 600])
-def test_an_even_pressure_has_its_own_length_at_any_mesh(points):
-    place = (np.arange(points) + 0.5) / points * 40.0 + 7.0
-    length = np.full(points, 40.0 / points)
-    found = contact_responses(place, np.full(points, 0.5), length)
-    assert found["contact_length_mm"] == pytest.approx(40.0, rel=0.01)
-    assert found["mean_pressure_mpa"] == pytest.approx(0.5, rel=0.01)
-    assert found["largest_pressure_mpa"] == 0.5
+def cells(edges, pressure):
+    """Parts between edges, as long on the ground as they were unloaded."""
+    return ContactCells(edges[:-1], edges[1:], np.asarray(pressure, float), np.diff(edges))
+
+
+@pytest.mark.parametrize("count", [6, 12, 600])
+def test_an_even_pressure_has_its_own_length_at_any_mesh(count):
+    found = contact_responses(cells(np.linspace(7.0, 47.0, count + 1), np.full(count, 0.5)))
+    assert found["contact_length_mm"] == pytest.approx(40.0)
+    assert found["mean_pressure_mpa"] == pytest.approx(0.5)
+    assert found["largest_pressure_mpa"] == pytest.approx(0.5)
+    assert found["contact_cells"] == pytest.approx(count)
 
 
 def test_uneven_points_count_with_their_length():
     edges = np.concatenate([np.linspace(0, 10, 5)[:-1], np.linspace(10, 40, 200)])
-    place, length = 0.5 * (edges[1:] + edges[:-1]), np.diff(edges)
-    found = contact_responses(place, np.full(len(place), 0.5), length)
-    assert found["contact_length_mm"] == pytest.approx(40.0, rel=0.01)
+    found = contact_responses(cells(edges, np.full(len(edges) - 1, 0.5)))
+    assert found["contact_length_mm"] == pytest.approx(40.0)
+
+
+@given(
+    st.lists(st.tuples(st.floats(0.1, 10.0), st.floats(0.0, 2.0)), min_size=4, max_size=30).filter(
+        lambda parts: any(pressure > 1e-3 for _, pressure in parts)
+    )
+)
+def test_the_mean_pressure_never_exceeds_the_largest(parts):
+    """Of all pressures below a bound the even one has the least variance."""
+    widths, pressure = np.array(parts).T
+    found = contact_responses(cells(np.concatenate([[0.0], np.cumsum(widths)]), pressure))
+    if "mean_pressure_mpa" in found:
+        assert found["mean_pressure_mpa"] <= found["largest_pressure_mpa"] * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("phase", [0.0, 0.25, 0.5, 0.9])
+def test_the_length_does_not_jump_as_the_contact_moves_over_the_points(phase):
+    """A parabola of 40 mm, √(12/5)·20 = 30.98, on points 5.5 mm apart."""
+    edges = 5.5 * (np.arange(-12, 13) + phase)
+    middle = 0.5 * (edges[1:] + edges[:-1])
+    found = contact_responses(cells(edges, np.clip(1.0 - (middle / 20.0) ** 2, 0.0, None)))
+    assert found["contact_length_mm"] == pytest.approx(np.sqrt(12.0 / 5.0) * 20.0, rel=0.04)
+
+
+def test_of_too_few_points_no_length_is_told():
+    found = contact_responses(cells(np.linspace(0.0, 30.0, 4), [0.1, 0.5, 0.1]))
+    assert set(found) == {"contact_cells"}
+    assert found["contact_cells"] < 3.0
 
 
 def test_a_tyre_off_the_ground_has_no_contact():
-    assert contact_responses(np.arange(3.0), np.zeros(3), np.ones(3)) == {}
+    assert contact_responses(cells(np.arange(4.0), np.zeros(3))) == {}
 
 
 def test_spoke_forces_are_those_of_the_energy():

@@ -21,6 +21,7 @@ from nptcs.report.sections.neutral_lines import line_words
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.sections.published_stiffness import published_stiffness_section
 from nptcs.report.sections.ranking import near_tie_sentences, published_ranking, verdicts
+from nptcs.report.sections.rings import EXCLUDED, ring_blocks
 from nptcs.report.sections.spokes import spoke_section, what_differs
 from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
 from nptcs.report.sections.studies import cases_section
@@ -29,7 +30,11 @@ from nptcs.report.tables.sheets import sheets_of
 from nptcs.report.workbook import build_workbook
 from nptcs.tables.impact import Impact
 from nptcs.tables.neutral_line import NeutralLine
-from nptcs.tables.published_stiffness import StiffnessAgainstPublished, StiffnessByLevel
+from nptcs.tables.published_stiffness import (
+    StiffnessAgainstPublished,
+    StiffnessByLevel,
+    StiffnessExponents,
+)
 from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
 
 SOLVERS = ["fe_tyre_paper", "lca"]
@@ -311,3 +316,39 @@ def test_the_models_that_solvers_choose_are_named(compared):
     assert "fe_tyre_paper: the tyre (plate coupling: embedded)." in first.text
     assert "lca: the ring." in first.text
     assert "fe_spoke: one spoke." in first.text
+
+
+def test_the_ring_and_the_rest_of_table_7_are_told_from_the_tables(compared):
+    """Only one of the two rings is in this run, so that nothing is said of both."""
+    rings, known, excluded, clue = ring_blocks(compared)
+    (fact,) = rings.facts
+    assert fact.what == "fe_tyre_paper"
+    assert "rubber: mean " in fact.result
+    assert "over 14 of 15 blind cases" in fact.result
+    exponent, scatter = known.facts
+    assert exponent.source == "stiffness_exponents.csv"
+    table = compared.table(StiffnessExponents)
+    whole = table[(table["factor"] == "spoke_c10_mpa") & (table["levels"] == 5)]
+    for value in whole["computed_exponent"]:
+        assert f"{value:.3f}" in exponent.result
+    # of table 7 itself
+    assert "from 4 to 4.5 MPa 0.388, 0.390, 0.392, 0.384, 0.386" in scatter.result
+    assert "from 4.5 to 5 MPa 0.397, 0.400, 0.437, 0.468" in scatter.result
+    assert excluded.items == EXCLUDED
+    assert clue.text.startswith("The open clue")
+
+
+def test_both_rings_stand_in_the_report(compared):
+    tables = {}
+    for file in ("stiffness_errors.csv", "stiffness_exponents.csv"):
+        mine = compared.tables[file]
+        other = mine[mine["study"] == "rubber"].assign(solver="fe_tyre")
+        tables[file] = pd.concat([mine, other], ignore_index=True)
+    both = replace(compared, tables={**compared.tables, **tables})
+    words, rings, *_ = ring_blocks(both)
+    assert words.text.startswith("Both rings stand here")
+    assert [fact.what for fact in rings.facts] == ["fe_tyre_paper", "fe_tyre"]
+
+
+def test_without_a_finite_element_tyre_nothing_is_said_of_rings(results):
+    assert ring_blocks(results) == []

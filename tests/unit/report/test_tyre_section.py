@@ -135,10 +135,24 @@ def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypat
     assert "89.5 MPa" in words
     assert "88.0 MPa" in words
     assert "secant stiffness at 25 mm: not reached for 2 tyres" in words
-    assert len([block for block in section.blocks if isinstance(block, Plots)]) == 2
+    assert "88.0 MPa (plate_032, fe_tyre_paper)" in words
+    curves, faces = (block for block in section.blocks if isinstance(block, Plots))
+    assert len(curves.plots) == 1
+    assert [p.alt.split(", ")[1] for p in faces.plots] == ["plate_032"]
     sections = build_sections(solved, sheets_of(solved))
     built = next(s for s in sections if s.identifier is ReportSection.TYRE)
     assert any(isinstance(block, TableView) for block in built.blocks)
+
+
+def test_the_fiducial_plates_are_drawn_beside_the_most_stressed_ones(solved, monkeypatch):
+    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
+    stress = solved.table(PlateStress)
+    larger = stress.assign(
+        mises_mpa=stress["mises_mpa"] * np.where(stress["case_id"] == "plate_001", 2.0, 1.0)
+    )
+    other = replace(solved, tables={**solved.tables, "plate_stress.csv": larger})
+    *_, faces = (b for b in tyre_section(other, sheets_of(other)).blocks if isinstance(b, Plots))
+    assert [p.alt.split(", ")[1] for p in faces.plots] == ["plate_032", "plate_001"]
 
 
 def test_the_fiducial_case_alone_is_compared_with_the_paper(solved):

@@ -9,7 +9,7 @@ from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
 from nptcs.ring.compiled import HAS_NUMBA
 from nptcs.ring.gradient import stiffness_gradient
-from nptcs.ring.responses import contact_length_mm, responses
+from nptcs.ring.responses import contact_cells, responses
 from nptcs.ring.solution import SpokeRangeError, load, tangent_stiffness
 from nptcs.ring.tyre import ring_tyre
 
@@ -123,10 +123,11 @@ def test_it_equals_the_finite_elements(table, axial):
     np.testing.assert_allclose(tyre.spoke_motion(states[-1].u), reached.motion, atol=0.12)
 
 
-def test_contact_length_of_a_uniform_pressure():
-    place = np.linspace(-20.0, 20.0, 4001)
-    assert contact_length_mm(place, np.ones(4001)) == pytest.approx(40.0, rel=1e-3)
-    assert contact_length_mm(place, np.zeros(4001)) == 0.0
+def test_the_parts_of_the_tread_in_contact_carry_the_load(table):
+    tyre = built(table)
+    cells = contact_cells(tyre, load(tyre, [1500.0, 3000.0])[-1])
+    carried = np.sum(cells.pressure_mpa * cells.length_mm) * TYRE.tread_width_mm
+    assert carried == pytest.approx(3000.0, rel=1e-6)
 
 
 def test_a_spoke_that_leaves_its_table_ends_the_path(table):

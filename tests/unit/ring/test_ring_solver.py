@@ -71,3 +71,16 @@ def test_a_tyre_that_contradicts_its_spokes_is_bad_input(folder):
     options = ring.RingSolverOptions(spoke_cache=folder, **OPTIONS)
     with pytest.raises(InputError, match="room between rim and band"):
         solved(ring, options, tyre=TyreGeometry(rim_diameter_mm=420.0))
+
+
+def test_it_reports_what_fe_tyre_reports(folder, result):
+    with_stress = solved(
+        ring, ring.RingSolverOptions(spoke_cache=folder, plate_stress="all", **OPTIONS)
+    )
+    finite = solved(fe_tyre, fe_tyre.FeTyreOptions(spoke_cache=folder, **OPTIONS))
+    assert result.plate_stress is None
+    # the ring has no wires that are membranes; where a contact is too short depends on the mesh
+    own = {"wire_wrinkle_mm", "contact_length_mm", "largest_pressure_mpa", "mean_pressure_mpa"}
+    assert set(finite.extra) - own <= set(with_stress.extra)
+    for name in ("plate_volume_mm3", "smallest_spoke_force_n", "plate_largest_mises_mpa"):
+        assert with_stress.extra[name] == pytest.approx(finite.extra[name], rel=0.03)

@@ -90,6 +90,14 @@ def test_a_response_that_no_case_has_is_named():
     assert "9 without this response" in row.message
 
 
+def test_a_solver_without_a_response_that_another_has_is_no_problem():
+    archive = cases().assign(solver="published")
+    both = pd.concat([cases(), archive], ignore_index=True)
+    done = fit_study(both, study(solvers=["lca", "published"]), values=values())
+    assert len(done.problems) == 0
+    assert done.registry().responses("published") == [RESPONSE]
+
+
 def test_the_standard_error_is_not_assessed_outside_the_box():
     fitted = fit_study(cases(), study(), values=values()).registry().find(SOFTER)
     found = fitted.predict(np.array([[12.0, 2.0], [25.0, 2.0]]))

@@ -200,3 +200,13 @@ def test_what_cannot_be_assessed_is_not_a_number():
     row = check(comparison, SurfaceComparison, "comparison").iloc[0]
     assert np.isnan(row["coverage_percent"])
     assert row["leave_one_out_not_fitted"] == 4
+
+
+@pytest.mark.parametrize("link", ["identity", "log", "reciprocal"])
+def test_left_out_errors_of_many_cases_are_those_of_fitting_again(link, monkeypatch):
+    surface = fit_model(PolynomialModel(kind="polynomial", link=link), table_5())
+    again = leave_one_out(surface)
+    monkeypatch.setattr("nptcs.surface.comparison.MANY_CASES", 10)
+    at_once = leave_one_out(surface)
+    np.testing.assert_allclose(at_once.error, again.error, rtol=1e-7, atol=1e-9)
+    assert np.array_equal(at_once.covered, again.covered)

@@ -9,7 +9,7 @@ import sys
 from collections.abc import Sequence
 
 from nptcs import __version__, commands
-from nptcs.errors import InputError
+from nptcs.errors import InputError, explained
 from nptcs.threads import one_thread_per_process
 
 
@@ -21,6 +21,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
         code: int = chosen.run(chosen)
     except InputError as error:
         print(f"nptcs: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        known = explained(error)
+        if known is None:
+            raise
+        print(f"nptcs: {known}", file=sys.stderr)
         return 2
     return code
 

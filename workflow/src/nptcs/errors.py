@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import errno
+from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -62,3 +64,38 @@ class InputError(ValueError):
         """Survive the way back from a worker process with every field."""
         fields = (self.message, self.remedy, self.file, self.line, self.column)
         return (type(self), (*fields, self.specimen, self.value))
+
+
+_GO_ON = "then type the same command again; no half written file is left"
+REMEDIES: Mapping[int, tuple[str, str]] = {
+    errno.ENOSPC: ("the disk is full", f"make room on it, {_GO_ON}"),
+    errno.EDQUOT: ("your quota on this disk is used up", f"make room on it, {_GO_ON}"),
+    errno.EFBIG: ("a file is larger than this system allows", f"raise the limit, {_GO_ON}"),
+    errno.EROFS: ("this disk is read-only", f"choose a folder that can be written to, {_GO_ON}"),
+    errno.EACCES: ("you have no permission for this", f"correct the permissions, {_GO_ON}"),
+    errno.EPERM: ("you have no permission for this", f"correct the permissions, {_GO_ON}"),
+    errno.EMFILE: ("too many files are open", f"raise the limit (ulimit -n), {_GO_ON}"),
+    errno.ENFILE: ("too many files are open", f"end other programs, {_GO_ON}"),
+    errno.EIO: ("the disk reports an error", f"check the disk, {_GO_ON}"),
+}
+"""What went wrong and what to do, by the number of the system's error."""
+
+SHORTAGES = frozenset(
+    {errno.ENOSPC, errno.EDQUOT, errno.EMFILE, errno.ENFILE, errno.ENOMEM, errno.EIO, errno.EAGAIN}
+)
+"""Errors of a machine that lacks something for the moment: the same work may succeed later."""
+
+
+def explained(error: OSError) -> InputError | None:
+    """Turn an error of the operating system into words and a remedy; None for any other.
+
+    Examples
+    --------
+    >>> print(explained(OSError(errno.ENOSPC, "No space left on device", "results/a.csv")))
+    results/a.csv: the disk is full. Remedy: make room on it, then type the same command again; no \
+half written file is left
+    """
+    if error.errno not in REMEDIES:
+        return None
+    message, remedy = REMEDIES[error.errno]
+    return InputError(message, remedy, error.filename)

@@ -5,12 +5,14 @@ from __future__ import annotations
 import hashlib
 import json
 import os
+import socket
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
-from typing import TypeVar
+from typing import Any, TypeVar
 
+import psutil
 from pydantic import BaseModel, ValidationError
 
 from nptcs.errors import InputError
@@ -49,7 +51,7 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
     """
     path = Path(path)
     path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent, prefix=f".{path.stem}-", suffix=path.suffix)
+    handle, name = tempfile.mkstemp(dir=path.parent, prefix=_own_prefix(), suffix=path.suffix)
     os.close(handle)
     temporary = Path(name)
     try:
@@ -61,8 +63,44 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
         os.umask(umask)
         temporary.chmod(0o666 & ~umask)
         temporary.replace(path)
+    except OSError as error:
+        if error.filename in (None, name):  # the user knows the file by its own name
+            error.filename = str(path)
+        raise
     finally:
         temporary.unlink(missing_ok=True)
+
+
+UNFINISHED = ".nptcs-"
+"""How the name of a file begins that is being written."""
+
+
+def _own_prefix() -> str:
+    """Return the beginning of names that says which process writes the file."""
+    return f"{UNFINISHED}{socket.gethostname()}-{os.getpid()}-"
+
+
+def remove_unfinished(folder: str | Path) -> list[Path]:
+    """Remove the files that processes of this machine were writing when they were killed.
+
+    Parameters
+    ----------
+    folder : str or Path
+        Searched with all folders in it.
+
+    Returns
+    -------
+    list of Path
+        What was removed.
+    """
+    ours = f"{UNFINISHED}{socket.gethostname()}-"
+    removed = []
+    for path in sorted(Path(folder).rglob(f"{UNFINISHED}*")):
+        pid, _, _ = path.name.removeprefix(ours).partition("-")
+        if path.name.startswith(ours) and pid.isdecimal() and not psutil.pid_exists(int(pid)):
+            path.unlink(missing_ok=True)
+            removed.append(path)
+    return removed
 
 
 def write_text(path: str | Path, text: str) -> None:
@@ -104,6 +142,34 @@ def read_model(path: str | Path, model: type[Model], by_hand: bool = False) -> M
     except (BrokenSealError, ValidationError) as error:
         reason = " ".join(str(error).splitlines()[:3])
         raise InputError(f"this file is not a sound {kind}: {reason}", REWRITE, path) from None
+
+
+def write_sealed(path: str | Path, content: Mapping[str, Any], kind: str) -> None:
+    """Write plain values as JSON with a checksum, atomically: for whatever is no pydantic model.
+
+    Parameters
+    ----------
+    path : str or Path
+    content : mapping
+        Plain values; numbers must be finite.
+    kind : str
+        A key of `nptcs.seal.FORMATS`, which a new kind of file joins.
+    """
+    write_text(path, sealed_object(content, kind))
+
+
+def read_sealed(path: str | Path, kind: str) -> dict[str, Any]:
+    """Read what `write_sealed` has written.
+
+    Raises
+    ------
+    InputError
+        For a file that is missing, was edited or damaged, or is of another kind or version.
+    """
+    try:
+        return open_object(read_stored(path, kind), kind)
+    except BrokenSealError as error:
+        raise InputError(f"this file is not a sound {kind}: {error}", REWRITE, path) from None
 
 
 def read_stored(path: str | Path, kind: str) -> str:

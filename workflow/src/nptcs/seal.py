@@ -15,14 +15,17 @@ SEAL = "_seal"
 """Key of the seal; no field of a stored record may have this name."""
 
 FORMATS: Mapping[str, int] = {
+    "BulkResults": 1,
     "CaseRecord": 1,
     "CaseRecords": 1,
+    "Figure": 1,
     "FittedSurfaces": 1,
     "IngestRecord": 1,
     "MaterialCard": 1,
     "PlyCard": 1,
     "RubberCard": 1,
     "SpokeSurrogate": 1,
+    "StartFacts": 1,
     "Surfaces": 1,
 }
 """Version of each format: raise it with any change of what the fields mean."""

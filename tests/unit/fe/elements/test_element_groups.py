@@ -49,7 +49,7 @@ def settle(block, displacement):
     """Let the pressures follow a displacement that is held."""
     for _ in range(3):
         block.respond(displacement)
-        block.update_pressure(np.zeros_like(displacement))
+        block.follow(np.zeros_like(displacement))
 
 
 def interior_force(block, positions, displacement):

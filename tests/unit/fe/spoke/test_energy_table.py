@@ -9,7 +9,7 @@ from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMes
 from nptcs.fe.energy_cache import read_table, shared_table, table_key, write_table
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit
-from nptcs.fe.spoke.equilibrium import SpokeFields, SpokeModel
+from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import sample
 from nptcs.tables.material_card import PUBLISHED_PLY
@@ -180,11 +180,9 @@ def test_a_half_turn_leaves_the_spoke_as_it_is():
 def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
     calls = []
 
-    fields = SpokeFields(np.zeros((2, 3)), [np.zeros((1, 1))])
-
-    def computed(design, options, corrections):
+    def computed(design, options):
         calls.append(design)
-        return TABLE, {(0, 1): fields}
+        return TABLE
 
     monkeypatch.setattr("nptcs.fe.energy_cache.computed_table", computed)
     model = FeModel(spoke_mesh=COARSE, table=OPTIONS)

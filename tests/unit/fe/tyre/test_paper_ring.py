@@ -4,9 +4,18 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from nptcs.config.fe import SECTIONS, FeModel, GroundContact, PaperMesh, SpokeGeometry
+from nptcs.config.fe import (
+    SECTIONS,
+    FeModel,
+    GroundContact,
+    PaperMesh,
+    SpokeGeometry,
+    TyreMesh,
+)
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
+from nptcs.fe.tyre.mesh import build_ring
+from nptcs.fe.tyre.responses import wire_wrinkle_mm
 
 TYRE = TyreGeometry()
 FOOT_MM = 15.0
@@ -54,6 +63,21 @@ def test_membranes_bend_for_nothing(tyre):
     inertia = TYRE.tread_width_mm * np.pi * TYRE.wire_diameter_mm**4 / 64
     beam = np.pi / 2 * TYRE.wire_modulus_mpa * inertia * (3 * amplitude) ** 2 / middle**3
     assert tyre.wires[1].respond(moved).energy < 0.05 * beam
+
+
+def test_a_wrinkle_is_a_wave_from_node_to_node(tyre):
+    """A smooth motion has none; every other column moved by 0.2 mm has its amplitude, 0.1 mm."""
+    mesh = tyre.mesh
+    outward = mesh.positions / np.linalg.norm(mesh.positions, axis=1)[:, None]
+    column = np.arange(len(mesh.positions)) // len(mesh.radii)
+    angle = mesh.theta[column]
+    smooth = (5.0 * np.exp(-((angle - np.pi) ** 2) / 0.05))[:, None] * outward
+    assert wire_wrinkle_mm(mesh, smooth) < 0.01
+    near = np.abs(angle - np.pi) < 0.2
+    wave = np.where(near & (column % 2 == 0), 0.2, 0.0)[:, None] * outward
+    assert wire_wrinkle_mm(mesh, smooth + wave) == pytest.approx(0.1, abs=0.01)
+    bending = build_ring(TYRE, TyreMesh(), FOOT_MM)
+    assert wire_wrinkle_mm(bending, np.zeros_like(bending.positions)) is None
 
 
 def test_feet_are_averaged_over_their_true_width(springs):

@@ -5,6 +5,7 @@ import pytest
 from nptcs.config.fe import GroundContact, PaperMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
+from nptcs.fe.tyre.responses import contact_responses
 
 # the published band and tread on a third of the spokes
 SMALL = TyreGeometry(
@@ -56,3 +57,18 @@ def test_the_ground_does_not_count_as_displacement(stiffness, mesh):
     given = stiffness(mesh, TyreGeometry(), 1500.0, 100.0)
     hard = GroundContact(penalty_mpa_per_mm=2000.0, smoothing_mm=0.001)
     assert given == pytest.approx(stiffness(mesh, TyreGeometry(), 1500.0, 100.0, hard), rel=1e-3)
+
+
+@pytest.mark.parametrize("shift_deg", [0.0, 3.0], ids=["on a spoke", "between two spokes"])
+def test_the_contact_does_not_jump_with_the_mesh(springs, shift_deg):
+    """Length and mean pressure of the contact at 5000 N, where a step of it was 10 mm once."""
+    found = []
+    for finer in ({}, ALONG):
+        mesh = TyreMesh(first_spoke_deg=shift_deg, **finer)
+        tyre = TyreModel(TyreGeometry(), springs(), FOOT_MM, 5.0, 10.0, mesh, GroundContact())
+        state = tyre.load([2500.0, 5000.0])
+        found.append(contact_responses(tyre.ground.cells(state.displacement, state.rise_mm)))
+    coarse, fine = found
+    assert coarse["contact_length_mm"] == pytest.approx(fine["contact_length_mm"], rel=0.03)
+    assert coarse["mean_pressure_mpa"] == pytest.approx(fine["mean_pressure_mpa"], rel=0.03)
+    assert coarse["mean_pressure_mpa"] < coarse["largest_pressure_mpa"]

@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-import sys
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
 
 from nptcs.campaign.jobs import make_jobs
+from nptcs.campaign.progress import ProgressWriter
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.runner import run_cases
 from nptcs.campaign.schedule import cases_side_by_side
@@ -24,6 +25,7 @@ def solve_batch(
     store: RecordStore,
     cores: int,
     tokens: int,
+    log: str | Path,
 ) -> list[CaseRecord]:
     """Solve every n-th case of a design, starting at the batch's own number.
 
@@ -40,6 +42,8 @@ def solve_batch(
         Cases that were solved before are taken from it, those solved now are kept in it.
     cores, tokens : int
         Cores and licence tokens that the batch was given; they decide how many cases run at a time.
+    log : str or Path
+        Gets a line for each case; next to it a file says how far the batch is.
 
     Returns
     -------
@@ -51,16 +55,5 @@ def solve_batch(
     jobs = make_jobs(study, job["solver"], job["options"], tyre, cases, ply)
     options = read_options(load(module_of(job["solver"], job["options"])), job["options"])
     at_a_time = cases_side_by_side(cores, tokens, options)
-    return run_cases(jobs, store, at_a_time, report_progress)
-
-
-def report_progress(record: CaseRecord, reused: bool, done: int, total: int) -> None:
-    """Write one line per finished case to the log."""
-    how = "known" if reused else f"{record.wall_time_s:.2f} s"
-    status, message = record.result.status, record.result.message
-    why = "" if status.solved else f": {message}"
-    print(
-        f"{record.study}/{record.solver} {done}/{total} {record.case_id} {status} ({how}){why}",
-        file=sys.stderr,
-        flush=True,
-    )
+    progress = ProgressWriter(log, study.name, job["solver"], at_a_time)
+    return run_cases(jobs, store, at_a_time, progress.case)

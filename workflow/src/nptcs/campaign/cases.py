@@ -6,8 +6,12 @@ from collections.abc import Sequence
 
 import pandas as pd
 
+from nptcs.campaign.bulk_file import read_bulk
 from nptcs.campaign.record import CaseRecord, read_records
 from nptcs.tables.cases import RESPONSES, realised_column
+
+BULK = ".npz"
+"""Ending of a file with the results of a whole table of cases."""
 
 
 def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
@@ -54,11 +58,29 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
 
 
 def read_cases(paths: Sequence[str]) -> pd.DataFrame:
-    """Read batch files as the table `Cases`.
+    """Read batch files, of records and of tables, as the table `Cases`.
 
     Raises
     ------
     InputError
         For a file that was damaged or edited.
     """
-    return cases_table(read_records(list(paths)))
+    records = read_records([path for path in paths if not path.endswith(BULK)])
+    tables = [read_bulk(path) for path in paths if path.endswith(BULK)]
+    if records or not tables:
+        tables = [cases_table(records), *tables]
+    joined = pd.concat(tables, ignore_index=True)
+    # factors of all studies come before the load and the responses, as in a table of records
+    return joined[_in_order(tables)]
+
+
+def _in_order(tables: Sequence[pd.DataFrame]) -> list[str]:
+    """Order the columns of several tables of cases: each group as in `cases_table`."""
+    groups: list[list[str]] = [[], [], []]
+    for table in tables:
+        names = [str(name) for name in table]
+        load = names.index("load_n")
+        end = names.index("wall_time_s")
+        for group, part in zip(groups, (names[:load], names[load:end], names[end:]), strict=True):
+            group += [name for name in part if name not in group]
+    return [name for group in groups for name in group]

@@ -2,19 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
 
+from nptcs.campaign.answers import (
+    Asked,
+    check_calibration_cases,
+    check_loads,
+    check_rounding,
+    check_tables,
+    check_terms,
+)
 from nptcs.config.root import Config
-from nptcs.config.study import Factor, MeasuredRubber, Study
-from nptcs.config.tyre import TyreGeometry
-from nptcs.design import build_design
+from nptcs.config.study import Study
 from nptcs.errors import InputError
-from nptcs.solvers.contract import Solver, SolverOptions
-from nptcs.solvers.registry import check_study, load, module_of, read_options
-from nptcs.surface.fit import refuse_aliased
+from nptcs.solvers.registry import check_study
 from nptcs.tables.specimens import Specimen
-from nptcs.terms import parse
 
 
 def study_faults(config: Config) -> list[InputError]:
@@ -30,7 +32,7 @@ def study_faults(config: Config) -> list[InputError]:
     list of InputError
         Each with the key at fault and a remedy: faults of `check_study`, more cases than
         ``campaign.most_cases``, more batches than cases, terms that the levels cannot tell apart,
-        a load at which a solver has no result.
+        and what `nptcs.campaign.answers` finds of each solver.
     """
     return [fault for study in config.studies for fault in _faults(study, config)]
 
@@ -72,67 +74,13 @@ def _faults(study: Study, config: Config) -> Iterator[InputError]:
             column="campaign.batches",
             value=config.campaign.batches,
         )
-    for check in (_check_terms, _check_loads):
-        try:
-            check(study, options, config.tyre)
-        except InputError as error:
-            yield error
-
-
-def solvers_of(
-    study: Study, options: Mapping[str, Mapping[str, Any]]
-) -> list[tuple[Solver, SolverOptions]]:
-    """Return the solvers of a study with their checked options."""
-    solvers = [(load(module_of(name, options[name])), options[name]) for name in study.solvers]
-    return [(solver, read_options(solver, given)) for solver, given in solvers]
-
-
-def _check_terms(study: Study, options: Mapping[str, Any], tyre: TyreGeometry) -> None:
-    """Refuse terms that this study cannot estimate, even if every case is solved."""
-    if not study.terms:
-        return
-    names = [factor.name for factor in study.factors]
-    polynomial = parse(study.terms, names)
-    numbered = study.model_copy(
-        update={"factors": tuple(map(_numbered, study.factors)), "fixed": {}}
-    )
-    x = build_design(numbered, {}, tyre)[names].to_numpy(float)
-    key = f"studies.{study.name}.terms"
-    if len(x) <= len(polynomial):
-        raise InputError(
-            f"{len(x)} cases are too few for {len(polynomial)} terms",
-            "add levels, or use fewer terms",
-            column=key,
-        )
-    middle, half = (x.max(axis=0) + x.min(axis=0)) / 2, (x.max(axis=0) - x.min(axis=0)) / 2
     try:
-        refuse_aliased(polynomial.matrix((x - middle) / half), polynomial.names)
+        asked = Asked.of(study, options, config.tyre)
     except InputError as error:
-        raise InputError(error.message, error.remedy, column=key) from None
-
-
-def _numbered(factor: Factor) -> Factor:
-    """Give tested rubbers, whose moduli are not known yet, moduli that differ from all others."""
-    numbers = [level for level in factor.levels if not isinstance(level, MeasuredRubber)]
-    above = max(numbers, default=0.0)
-    rubbers = len(factor.levels) - len(numbers)
-    levels = (*numbers, *(above + 1.0 + 1.7 * number for number in range(rubbers)))
-    return factor.model_copy(update={"levels": levels})
-
-
-def _check_loads(
-    study: Study, options: Mapping[str, Mapping[str, Any]], tyre: TyreGeometry
-) -> None:
-    """Refuse a load at which one of the solvers can solve no case."""
-    for solver, checked in solvers_of(study, options):
-        reason = checked.load_fault(study.load_n) if solver.loads_tyre else ""
-        if reason:
-            raise InputError(
-                f"solver '{solver.name}': {reason}",
-                "change the load, or leave the solver out of this study",
-                column=f"studies.{study.name}.load_n",
-                value=study.load_n,
-            )
+        yield error
+        return
+    for check in (check_terms, check_loads, check_tables, check_rounding, check_calibration_cases):
+        yield from check(asked)
 
 
 def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputError]:
@@ -143,9 +91,31 @@ def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputErro
         "study": [study.name for study in config.studies],
     }
     faults = _capitals("material", names["material"])
+    faults += [_kept("study", name) for name in names["study"] if name in KEPT_STUDIES]
+    faults += [
+        _kept(kind, name)
+        for kind, used in names.items()
+        for name in used
+        if name.partition(".")[0].lower() in KEPT_BY_WINDOWS
+    ]
     for kind, used in names.items():
         faults += [_unfit(kind, name) for name in used if len(name) > LONGEST_NAME or repeats(name)]
     return faults
+
+
+KEPT_STUDIES = frozenset({"records", "bulk", "models", "sobol"})
+"""Folders of results next to those of the studies."""
+
+KEPT_BY_WINDOWS = frozenset({"con", "prn", "aux", "nul"}) | {
+    f"{port}{number}" for port in ("com", "lpt") for number in range(1, 10)
+}
+"""Names that no file can have on Windows, whatever follows a dot in them."""
+
+
+def _kept(kind: str, name: str) -> InputError:
+    return InputError(
+        "this name is kept for another use", "choose another", column=kind, value=name
+    )
 
 
 def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:

@@ -8,7 +8,8 @@ from itertools import islice
 from pathlib import Path
 from statistics import median
 
-from nptcs.campaign.checks import solvers_of
+from nptcs.campaign.answers import Asked, rounding_notes, solvers_of
+from nptcs.campaign.bulk import in_bulk, known_in_bulk
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.schedule import batch_cores
@@ -23,13 +24,21 @@ SAMPLE = 300
 """Newest stored records from which the cost of a case is estimated."""
 
 
+RECORD_MB = 0.03
+"""Size of a record where none is stored: a tyre's curve and its neutral line."""
+
+BULK_RECORD_MB = 2.5e-4
+"""Size of a case among results in bulk: in the store, and in the file of its batch."""
+
+
 @dataclass(frozen=True)
 class Costs:
-    """Median cost of the stored cases of one solver."""
+    """Median cost of the stored cases of one solver, or what it states of itself."""
 
     seconds: float
     memory_mb: float | None
     record_mb: float
+    measured: bool = True
 
 
 def costs_by_solver(store: RecordStore) -> dict[str, Costs]:
@@ -73,6 +82,10 @@ def known_cases(
         ply = next(iter(plies.values())).values() if solver.needs_ply else None
         given = options[solver.name]
         design = build_design(study, c10, config.tyre)
+        if in_bulk(solver, len(design), config.campaign.bulk_from):
+            given_table = (study, solver.name, given, config.tyre, design, ply)
+            known[solver.name] = known_in_bulk(*given_table, store.folder)
+            continue
         jobs = make_jobs(study, solver.name, given, config.tyre, design, ply)
         known[solver.name] = sum(store.read(job) is not None for job in jobs)
     return known
@@ -97,19 +110,26 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
         known, solvers = known_cases(study, config, card, store), ", ".join(study.solvers)
         cases = f"{study.number_of_cases():,} cases ({study.design.kind})"
         lines.append(f"study {study.name}: {cases} by {solvers}")
+        rounded = rounding_notes(Asked.of(study, config.solver_options(study), config.tyre))
         for solver, checked in solvers_of(study, config.solver_options(study)):
             cores = batch_cores(config.campaign.cores_per_batch, checked)
             at_a_time = max(1, cores // checked.cores_per_case())
-            cost = costs.get(solver.name)
+            stated = Costs(checked.case_s, checked.case_memory_mb, RECORD_MB, measured=False)
+            cost = costs.get(solver.name, stated)
+            if in_bulk(solver, study.number_of_cases(), config.campaign.bulk_from):
+                seconds = solver.table_case_s or checked.case_s
+                cost = Costs(seconds, checked.case_memory_mb, BULK_RECORD_MB, measured=False)
             words, needed_mb = _words(study.number_of_cases(), known[solver.name], cost, at_a_time)
             lines.append(f"  {solver.name}: {words}")
+            if solver.name in rounded:
+                lines.append(f"    it rounds: {rounded[solver.name]}")
             disk_mb += needed_mb
     free = shutil.disk_usage(Path(results) if Path(results).is_dir() else Path()).free / 1e6
     lines.append(f"disk: about {disk_mb:.3g} MB for new records, {free:,.0f} MB are free")
     return lines
 
 
-def _words(cases: int, known: int | None, cost: Costs | None, at_a_time: int) -> tuple[str, float]:
+def _words(cases: int, known: int | None, cost: Costs, at_a_time: int) -> tuple[str, float]:
     """Describe what one solver has to do; also the space of its records in MB."""
     if known is None:
         new, how_many = cases, "known cases are counted once the materials are calibrated"
@@ -117,9 +137,9 @@ def _words(cases: int, known: int | None, cost: Costs | None, at_a_time: int) ->
         new, how_many = cases - known, f"{known:,} known, {cases - known:,} to solve"
     if new == 0:
         return how_many, 0.0
-    if cost is None:
-        return f"{how_many}; time not known, no case of it is stored", 0.0
     seconds = new * cost.seconds / at_a_time
     time = f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:,.0f} min"
     memory = "" if cost.memory_mb is None else f", {cost.memory_mb * at_a_time:,.0f} MB of memory"
-    return f"{how_many}; about {time} with {at_a_time} at a time{memory}", new * cost.record_mb
+    source = "" if cost.measured else " (as the solver states; no case of it is stored)"
+    words = f"{how_many}; about {time} with {at_a_time} at a time{memory}{source}"
+    return words, new * cost.record_mb

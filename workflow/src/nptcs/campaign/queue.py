@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from math import ceil
+from typing import Protocol
 
+from nptcs.campaign.schedule import Needs
 from nptcs.config.root import Campaign
-from nptcs.solvers.contract import SolverOptions
 
 JOB_MEMORY_MB = 600.0
 """Memory of a job besides its cases: Snakemake, the script and the server that starts the cases."""
@@ -15,12 +16,28 @@ MARGIN = 2.0
 """Factor on the usual time of cases: a node may be slower, and half of the cases take longer."""
 
 
-def cases_at_a_time(cores: int, options: SolverOptions) -> int:
+class JobNeeds(Needs, Protocol):
+    """What a job asks a queue for: options of a solver, or `nptcs.start.facts.SolverFacts`."""
+
+    @property
+    def case_s(self) -> float:
+        """Wall time that a case usually takes."""
+
+    @property
+    def case_memory_mb(self) -> float:
+        """Memory that a case may need."""
+
+    @property
+    def timeout_s(self) -> float:
+        """Wall time after which a case is stopped."""
+
+
+def cases_at_a_time(cores: int, options: JobNeeds) -> int:
     """Return the cases that run side by side on these cores."""
     return max(1, cores // options.cores_per_case())
 
 
-def batch_count(cases: int, campaign: Campaign, options: SolverOptions) -> int:
+def batch_count(cases: int, campaign: Campaign, options: JobNeeds) -> int:
     """Return the jobs into which the cases of a study are divided for one solver.
 
     Parameters
@@ -29,11 +46,12 @@ def batch_count(cases: int, campaign: Campaign, options: SolverOptions) -> int:
         Cases of the study.
     campaign : Campaign
         `minutes_per_batch` decides where it is given, otherwise `batches`.
-    options : SolverOptions
+    options : JobNeeds
         Of the solver.
 
     Examples
     --------
+    >>> from nptcs.solvers.contract import SolverOptions
     >>> options = SolverOptions(case_s=20.0)
     >>> batch_count(78, Campaign(batches=3), options)
     3
@@ -49,11 +67,12 @@ def batch_count(cases: int, campaign: Campaign, options: SolverOptions) -> int:
     return min(cases, max(1, ceil(minutes / campaign.minutes_per_batch)))
 
 
-def batch_memory_mb(cores: int, options: SolverOptions, attempt: int = 1) -> int:
+def batch_memory_mb(cores: int, options: JobNeeds, attempt: int = 1) -> int:
     """Return the memory that a job asks for, in MB: its cases' times the attempt, and its own.
 
     Examples
     --------
+    >>> from nptcs.solvers.contract import SolverOptions
     >>> batch_memory_mb(2, SolverOptions(case_memory_mb=300.0))
     1200
     """
@@ -61,9 +80,7 @@ def batch_memory_mb(cores: int, options: SolverOptions, attempt: int = 1) -> int
     return ceil(JOB_MEMORY_MB + cases * attempt)
 
 
-def batch_minutes(
-    cases: int, batches: int, cores: int, options: SolverOptions, attempt: int = 1
-) -> int:
+def batch_minutes(cases: int, batches: int, cores: int, options: JobNeeds, attempt: int = 1) -> int:
     """Return the wall time that a job asks for, in minutes.
 
     Twice the usual time of its cases, times the attempt, and one case more that runs into its
@@ -71,6 +88,7 @@ def batch_minutes(
 
     Examples
     --------
+    >>> from nptcs.solvers.contract import SolverOptions
     >>> batch_minutes(78, 3, 2, SolverOptions(case_s=20.0, timeout_s=600.0))
     21
     """

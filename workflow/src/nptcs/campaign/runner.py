@@ -4,17 +4,22 @@ from __future__ import annotations
 
 import multiprocessing
 import os
+import shutil
 import signal
 import sys
+import tempfile
 import time
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from multiprocessing.connection import Connection, wait
 from multiprocessing.process import BaseProcess
+from pathlib import Path
 
 from nptcs.campaign import worker
 from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
+from nptcs.processes.marked import MARK, end_marked
+from nptcs.processes.scratch import scratch_folder
 from nptcs.solvers.contract import SolverResult, Status
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -39,6 +44,7 @@ class _Running:
     job: CaseJob
     process: BaseProcess
     channel: Connection
+    folder: Path
     started: float
 
 
@@ -108,18 +114,21 @@ def _solve_all(
                 yield position, _collect(case)
     finally:
         for case in running.values():
-            _stop(case.process)
+            case.process.terminate()
+        for case in running.values():
+            stop(case.process, case.folder)
 
 
 def _start(job: CaseJob) -> _Running:
     """Start the process of a case."""
     context = multiprocessing.get_context("forkserver")
     receive, send = context.Pipe(duplex=False)
-    process = context.Process(target=worker.run, args=(job, send), name=job.case_id)
-    with _without_main_file(), _one_thread():
+    folder = case_folder()
+    process = context.Process(target=worker.run, args=(job, send, str(folder)), name=job.case_id)
+    with without_main_file(), case_environment():
         process.start()
     send.close()
-    return _Running(job, process, receive, time.monotonic())
+    return _Running(job, process, receive, folder, time.monotonic())
 
 
 def _ended(running: dict[int, _Running]) -> list[int]:
@@ -148,22 +157,27 @@ def _collect(case: _Running) -> Outcome:
         case.process.join(KILL_AFTER_S)
         code = case.process.exitcode
         died = code is not None and -code in SENT_FROM_OUTSIDE
-        message = _cause_of_death(code)
+        message = cause_of_death(code)
         return SolverResult(status=Status.ERROR, message=message, died=died), seconds, None
     finally:
         case.channel.close()
-        _stop(case.process)
+        stop(case.process, case.folder)
 
 
-def _cause_of_death(exit_code: int | None) -> str:
+def cause_of_death(exit_code: int | None) -> str:
     """Describe how a process ended that sent no result."""
     if exit_code is not None and exit_code < 0:
         return f"the solver's process was killed by signal {signal.Signals(-exit_code).name}"
     return f"the solver's process ended without a result (exit code {exit_code})"
 
 
-def _stop(process: BaseProcess) -> None:
-    """End a process, politely first, and free it."""
+def case_folder() -> Path:
+    """Make the folder in which a process that solves cases has its temporary files."""
+    return Path(tempfile.mkdtemp(dir=scratch_folder(), prefix="case-"))
+
+
+def stop(process: BaseProcess, folder: Path) -> None:
+    """End a process, politely first, and whatever it has left; remove its folder."""
     process.join(0.1)
     if process.is_alive():
         process.terminate()
@@ -171,14 +185,18 @@ def _stop(process: BaseProcess) -> None:
     if process.is_alive():
         process.kill()
         process.join()
+    if process.exitcode != 0:  # it may have had no time to end its commands
+        end_marked(str(folder))
     process.close()
+    shutil.rmtree(folder, ignore_errors=True)
 
 
 @contextmanager
-def _one_thread() -> Iterator[None]:
-    """Limit numerical libraries to one thread in the fork server, which the first case starts."""
-    before = {name: os.environ.get(name) for name in THREAD_LIMITS}
-    os.environ.update(dict.fromkeys(THREAD_LIMITS, "1"))
+def case_environment() -> Iterator[None]:
+    """Start the fork server, and so all cases, with one thread and the mark of this process."""
+    changes = {**dict.fromkeys(THREAD_LIMITS, "1"), MARK: str(scratch_folder())}
+    before = {name: os.environ.get(name) for name in changes}
+    os.environ.update(changes)
     try:
         yield
     finally:
@@ -190,7 +208,7 @@ def _one_thread() -> Iterator[None]:
 
 
 @contextmanager
-def _without_main_file() -> Iterator[None]:
+def without_main_file() -> Iterator[None]:
     """Keep a new process from running the caller's main script a second time.
 
     multiprocessing imports the parent's ``__main__`` in each child when it has a file. Here that

@@ -2,21 +2,32 @@
 
 from __future__ import annotations
 
+from typing import Protocol
+
 from nptcs.errors import InputError
-from nptcs.solvers.contract import SolverOptions
 
 
-def batch_cores(cores_per_batch: int, options: SolverOptions) -> int:
+class Needs(Protocol):
+    """What a case needs: options of a solver, or `nptcs.start.facts.SolverFacts`."""
+
+    def cores_per_case(self) -> int:
+        """Return the cores that one case keeps busy."""
+
+    def tokens_per_case(self) -> int:
+        """Return the licence tokens that one case takes."""
+
+
+def batch_cores(cores_per_batch: int, options: Needs) -> int:
     """Return the cores that a batch asks for: at least those of one case."""
     return max(cores_per_batch, options.cores_per_case())
 
 
-def batch_tokens(cores: int, options: SolverOptions) -> int:
+def batch_tokens(cores: int, options: Needs) -> int:
     """Return the licence tokens of all cases that a batch runs side by side on its cores."""
     return options.tokens_per_case() * max(1, cores // options.cores_per_case())
 
 
-def cases_side_by_side(cores: int, tokens: int, options: SolverOptions) -> int:
+def cases_side_by_side(cores: int, tokens: int, options: Needs) -> int:
     """Return the cases that a batch may run at a time.
 
     Parameters
@@ -26,7 +37,7 @@ def cases_side_by_side(cores: int, tokens: int, options: SolverOptions) -> int:
     tokens : int
         Licence tokens that it was given; Snakemake cuts what a job asks for to the limit of
         ``--resources licence_tokens=N``.
-    options : SolverOptions
+    options : Needs
 
     Raises
     ------

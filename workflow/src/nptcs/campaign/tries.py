@@ -8,9 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from nptcs.campaign.record import CaseRecord
 from nptcs.files import write_text
+
+if TYPE_CHECKING:
+    from nptcs.campaign.record import CaseRecord
 
 
 def ended_from_outside(record: CaseRecord) -> bool:

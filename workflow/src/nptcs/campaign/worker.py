@@ -7,15 +7,18 @@ import os
 import resource
 import signal
 import sys
+import tempfile
 import threading
 import time
 import traceback
 from multiprocessing import parent_process
 from multiprocessing.connection import Connection
-from types import FrameType
 
 from nptcs.campaign.record import CaseJob
 from nptcs.config.tyre import TyreGeometry
+from nptcs.errors import SHORTAGES
+from nptcs.processes.marked import MARK
+from nptcs.processes.stops import leave_in_order
 from nptcs.solvers.contract import CaseInputs, SolverResult, Status
 from nptcs.solvers.external import end_all
 from nptcs.solvers.registry import load, read_options
@@ -47,33 +50,47 @@ def solve(job: CaseJob) -> SolverResult:
     except MemoryError as error:
         return SolverResult(status=Status.ERROR, message=f"out of memory: {error}", died=True)
     except Exception as error:  # noqa: BLE001 - any fault of a solver is a row, not a crash
-        where = traceback.extract_tb(error.__traceback__)[-1]
-        file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
         return SolverResult(
-            status=Status.ERROR,
-            message=f"{type(error).__name__}: {error} ({file}, line {where.lineno})",
+            status=Status.ERROR, message=message_of(error), died=of_the_machine(error)
         )
 
 
-def run(job: CaseJob, channel: Connection) -> None:
+def message_of(error: Exception) -> str:
+    """Name an exception and where it was raised, in one line."""
+    where = traceback.extract_tb(error.__traceback__)[-1]
+    file = os.path.basename(where.filename)  # noqa: PTH119 - a name, not a path to open
+    return f"{type(error).__name__}: {error} ({file}, line {where.lineno})"
+
+
+def of_the_machine(error: Exception) -> bool:
+    """Tell whether an error says that the machine lacked something: disk space, open files."""
+    return isinstance(error, OSError) and error.errno in SHORTAGES
+
+
+def run(job: CaseJob, channel: Connection, folder: str) -> None:
     """Solve a case and send ``(result, wall time in s, memory in MB)`` back through the pipe."""
-    signal.signal(signal.SIGTERM, _leave)
-    threading.Thread(target=_leave_with_parent, daemon=True).start()
+    begin_in(folder)
     start = time.perf_counter()
     result = solve(job)
-    channel.send((result.model_dump_json(), time.perf_counter() - start, _peak_memory_mb()))
+    channel.send((result.model_dump_json(), time.perf_counter() - start, peak_memory_mb()))
     channel.close()
 
 
-def _peak_memory_mb() -> float:
+def begin_in(folder: str) -> None:
+    """Let this process end in order on SIGTERM, and when the campaign that started it is gone.
+
+    Temporary files of a solver go to `folder`, and its commands carry the mark of it; the campaign
+    removes both when the process has ended.
+    """
+    tempfile.tempdir = os.environ["TMPDIR"] = os.environ[MARK] = folder
+    signal.signal(signal.SIGTERM, leave_in_order)
+    threading.Thread(target=_leave_with_parent, daemon=True).start()
+
+
+def peak_memory_mb() -> float:
     """Return the largest memory of this process so far, in MB."""
     peak = resource.getrusage(resource.RUSAGE_SELF).ru_maxrss
     return peak / (1e6 if sys.platform == "darwin" else 1e3)
-
-
-def _leave(number: int, frame: FrameType | None) -> None:
-    """Leave in order, so that a solver can end the commands that it has started."""
-    raise SystemExit(128 + number)
 
 
 def _leave_with_parent() -> None:

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
-from nptcs.config.fe import RingKind
+from nptcs.config.fe import AxialFreedom, RingKind
 
 if TYPE_CHECKING:
     import pandas
@@ -70,6 +70,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "%(default)s)",
     )
     parser.add_argument(
+        "--axial",
+        choices=get_args(AxialFreedom),
+        help="freedom of band and tread along the axis (default: that of the ring)",
+    )
+    parser.add_argument(
         "--spoke-cache", type=Path, help="folder in which runs share the tables of equal spokes"
     )
     parser.set_defaults(run=run)
@@ -126,8 +131,11 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     k_t, k_c = (spokes[name].astype(float).to_dict() for name in COLUMNS["table10"][1:])
     rubbers = {"shear_band_c10_mpa": arguments.band_c10, "spoke_c10_mpa": arguments.spoke_c10}
     start = START.model_copy(update={"calibrated_with": arguments.ring})
+    options = {"ring": arguments.ring}
+    if arguments.axial is not None:
+        options["axial"] = arguments.axial
     return Problem(
-        FeModel(ring=arguments.ring).model_copy(update={"geometry": start}),
+        FeModel(**options).model_copy(update={"geometry": start}),
         TyreGeometry(),
         PUBLISHED_PLY,
         tuple(

@@ -13,7 +13,7 @@ from nptcs.errors import InputError
 
 
 class Decision(Strict):
-    """A question to a study: which design meets these goals?
+    """A question to a study: which of its designs meets these goals.
 
     Goals are written as on the command line of ``nptcs design``: ``K=300±5@5000`` is the secant
     stiffness at 5000 N, in N/mm; other names are those of the column `response` in

@@ -165,9 +165,7 @@ class EnergyTableOptions(Strict):
         ge=1e-12,
         le=1e-6,
         description="A state is accepted when the work of the next Newton step is below this part "
-        "of its energy. It bounds what the order of the cases, and so the guesses with the help "
-        "of spokes that are there already, can change: the tangents are right to its root only, "
-        "and 1e-6 changes a tyre's stiffness by 0.1 to 0.2 %",
+        "of its energy; its tangent is right to the root of this only",
     )
     degrees: tuple[int, int] = Field(
         (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"

@@ -5,9 +5,11 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable
 from dataclasses import dataclass
+from difflib import get_close_matches
 from enum import StrEnum
 from math import isfinite
 
+from nptcs.config.response import RESPONSE_KINDS, Taken
 from nptcs.errors import InputError
 
 NUMBER = r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?"
@@ -131,6 +133,8 @@ def read_goal(kind: GoalKind, text: str) -> Goal:
     found = GOAL.match(text)
     if found is None:
         raise _fault(kind, text, "is not a goal that can be read")
+    name = ALIASES.get(found["name"], found["name"])
+    _check_response(name, found["at"] is not None, text)
     value, plus_minus, at, weight = (
         _number(found[name]) for name in ("value", "plus_minus", "at", "weight")
     )
@@ -142,16 +146,16 @@ def read_goal(kind: GoalKind, text: str) -> Goal:
         raise _fault(kind, text, "has no half width after ±")
     if kind is not GoalKind.TARGET and plus_minus is not None:
         raise _fault(kind, text, "has a half width, which only a target has")
-    for name, number in (("half width", plus_minus), ("load or displacement", at)):
+    for what, number in (("half width", plus_minus), ("load or displacement", at)):
         if number is not None and not number > 0:
-            raise _fault(kind, text, f"has a {name} that is not above zero")
+            raise _fault(kind, text, f"has a {what} that is not above zero")
     if weight is not None and weight < 0:
         raise _fault(kind, text, "has a negative weight")
     default_weight = 0.0 if kind in NEEDS_VALUE else 1.0
     return Goal(
         kind=kind,
         response=ResponseName(
-            ALIASES.get(found["name"], found["name"]),
+            name,
             "" if at is None else f"{at:g} {found['unit'] or 'N'}",
         ),
         value=float("nan") if value is None else value,
@@ -189,6 +193,27 @@ def read_goals(texts: Iterable[tuple[GoalKind, str]]) -> tuple[Goal, ...]:
             )
         seen[key] = goal.text
     return goals
+
+
+def _check_response(name: str, placed: bool, text: str) -> None:
+    """Refuse a response that no tyre has, or a load where it is not taken at any load."""
+    kind = RESPONSE_KINDS.get(name)
+    if kind is None:
+        near = get_close_matches(name, [*RESPONSE_KINDS, *ALIASES], 1)
+        guess = f"did you mean {near[0]}? " if near else ""
+        raise InputError(
+            f"unknown response {name!r}",
+            column="decisions",
+            value=text,
+            remedy=f"{guess}known responses: K, {', '.join(RESPONSE_KINDS)}",
+        )
+    if placed and kind.taken is not Taken.ANYWHERE:
+        raise InputError(
+            f"{name} is taken {kind.taken.value}",
+            column="decisions",
+            value=text,
+            remedy="leave out what follows @",
+        )
 
 
 def _number(text: str | None) -> float | None:

@@ -9,13 +9,16 @@ from pydantic import Field, ValidationError, model_validator
 
 from nptcs.config.base import Strict
 from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.decisions import Decision
 from nptcs.config.explain import describe
 from nptcs.config.ingest import IngestSettings
 from nptcs.config.reduction import ReductionSettings
 from nptcs.config.responses import TyreResponseSettings
 from nptcs.config.sensitivity import Sensitivity
 from nptcs.config.study import Study
+from nptcs.config.surface import GaussianProcessModel, name_of
 from nptcs.config.tyre import TyreGeometry
+from nptcs.config.uncertainty import Uncertainty
 from nptcs.errors import InputError
 
 
@@ -38,6 +41,12 @@ class Campaign(Strict):
         2000,
         ge=1,
         description="Cases of a study above which a run is refused; raise it to ask for more",
+    )
+    bulk_from: int = Field(
+        1000,
+        ge=1,
+        description="Cases of a study from which solvers that can solve a table of cases do so: "
+        "minutes instead of hours, one file of columns, but no curves and no neutral lines",
     )
     batches: int = Field(
         1,
@@ -112,6 +121,10 @@ class Config(Strict):
     )
     campaign: Campaign = Campaign()
     sensitivity: Sensitivity = Sensitivity()
+    uncertainty: Uncertainty = Uncertainty()
+    decisions: tuple[Decision, ...] = Field(
+        (), description="Questions to studies: which design meets these goals"
+    )
     tyre_responses: TyreResponseSettings = TyreResponseSettings()
     lca_validation: LcaValidation = LcaValidation()
     report: ReportSettings = ReportSettings()
@@ -137,6 +150,63 @@ class Config(Strict):
         if stray := sorted(set(self.sensitivity.distributions) - factors):
             raise ValueError(f"sensitivity.distributions: not a factor of any study: {stray}")
         return self
+
+    @model_validator(mode="after")
+    def _uncertainty_is_of_studies(self) -> Self:
+        varied = {factor.name for study in self.studies for factor in study.factors}
+        held = {name for study in self.studies for name in study.fixed}
+        if stray := sorted(set(self.uncertainty.tolerances) - varied - held):
+            raise ValueError(f"uncertainty.tolerances: not a factor of any study: {stray}")
+        if stray := sorted(set(self.uncertainty.rubbers) - varied - held):
+            raise ValueError(f"uncertainty.rubbers: no study has {stray}")
+        name = self.uncertainty.rubber_study
+        if name is not None and name not in {study.name for study in self.studies}:
+            raise ValueError(f"uncertainty.rubber_study: there is no study {name!r}")
+        return self
+
+    @model_validator(mode="after")
+    def _decisions_are_of_studies(self) -> Self:
+        names = [decision.name for decision in self.decisions]
+        if len(set(names)) < len(names):
+            raise ValueError(f"decisions: a name is used twice: {names}")
+        if "reference" in names:
+            raise ValueError("decisions: the name 'reference' is that of the reference design")
+        studies = {study.name: study for study in self.studies}
+        for decision in self.decisions:
+            if decision.study not in studies:
+                raise ValueError(
+                    f"decisions.{decision.name}.study: there is no study {decision.study!r}"
+                )
+            self.check_decision(decision)
+        return self
+
+    def check_decision(self, decision: Decision) -> None:
+        """Refuse a decision that its study cannot answer, whatever its cases give.
+
+        Raises
+        ------
+        ValueError
+            For a solver, a surface or a factor that the study does not have.
+        """
+        study = self.study(decision.study)
+        key = f"decisions.{decision.name}"
+        if not study.terms:
+            raise ValueError(f"{key}.study: study {study.name} has no surface: it has no terms")
+        if decision.solver not in study.solvers:
+            raise ValueError(
+                f"{key}.solver: study {study.name} is solved by {', '.join(study.solvers)}, not by "
+                f"{decision.solver!r}"
+            )
+        process = name_of(GaussianProcessModel(kind="gaussian_process"))
+        known = ["polynomial", *map(name_of, study.surfaces), process]
+        if decision.surface not in known:
+            raise ValueError(
+                f"{key}.surface: no surface {decision.surface!r} in study {study.name}; it has "
+                f"{', '.join(dict.fromkeys(known))}"
+            )
+        factors = [factor.name for factor in study.factors]
+        if stray := sorted({*decision.hold, *decision.steps} - set(factors)):
+            raise ValueError(f"{key}: not a factor of study {study.name}: {stray}")
 
     def study(self, name: str) -> Study:
         """Return the study of that name."""

@@ -66,6 +66,11 @@ class Study(Strict):
         description="Cases in addition to those of the design, each with a value for every factor; "
         "`nptcs augment` proposes some",
     )
+    reference: dict[Name, float] = Field(
+        default_factory=dict,
+        description="Reference design, a value for each factor: how uncertain its responses are "
+        "is reported; empty: none",
+    )
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
     )
@@ -130,6 +135,7 @@ class Study(Strict):
 
     AFTERWARDS: ClassVar[frozenset[str]] = frozenset(
         {
+            "reference",
             "terms",
             "least_cases",
             "surfaces",
@@ -173,6 +179,10 @@ class Study(Strict):
     @model_validator(mode="after")
     def _further_cases_are_complete(self) -> Self:
         names = {factor.name for factor in self.factors}
+        if self.reference and set(self.reference) != names:
+            raise ValueError(
+                f"study {self.name}: reference: give {sorted(names)}, got {sorted(self.reference)}"
+            )
         for number, case in enumerate(self.further_cases, start=1):
             if set(case) != names:
                 raise ValueError(

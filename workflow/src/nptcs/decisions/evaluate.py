@@ -10,7 +10,7 @@ from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.config.goals import Goal, GoalKind, ResponseName
-from nptcs.decisions.fitted import FittedResponse
+from nptcs.uncertainty.fitted import FittedResponse
 from nptcs.uncertainty.inputs import UncertainInput
 from nptcs.uncertainty.propagate import assessed, distribution, moments
 

@@ -132,7 +132,7 @@ Mapper = Callable[[Callable[..., Any], Iterable[Any]], Iterable[Any]]
 
 
 def _computed(problem: Problem, points: list[Array], mapper: Mapper) -> Array:
-    """Logarithms of all stiffnesses at each point: array (points, 2 spokes + tyres).
+    """Logarithms of all stiffnesses at each point: array (points, 2 × spokes + tyres).
 
     Raises
     ------
@@ -211,8 +211,10 @@ def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[
 def _slopes(problem: Problem, free: Array, mapper: Mapper) -> Array:
     """∂ ln (stiffness) / ∂ ln (dimension): array (stiffnesses, dimensions).
 
-    Those of the tyres by `TYRE_EXPONENTS` from their spokes': a step's own round says how good they
-    were. Differences go away from a limit that is near, so that no section is out of order.
+    The first tyre is solved for each dimension. The others follow from their spokes by
+    `TYRE_EXPONENTS`, plus what this law has missed in the first: a dimension may change how a
+    spoke resists a shear or a turn of the band, which its two stiffnesses do not tell. Differences
+    go away from a limit that is near, so that no section is out of order.
     """
     _, high = _limits()
     steps = np.where(free + STEP > high, -STEP, STEP)
@@ -223,7 +225,12 @@ def _slopes(problem: Problem, free: Array, mapper: Mapper) -> Array:
     found = found.reshape(len(targets), len(points), 2)
     slopes = (found[:, 1:] - found[:, :1]) / steps[:, None]
     spokes, tyres = np.split(slopes, [len(problem.spokes)])
-    return np.concatenate([spokes.swapaxes(1, 2).reshape(-1, len(FREE)), tyres @ TYRE_EXPONENTS])
+    by_law = tyres @ TYRE_EXPONENTS
+    solved = np.array(
+        list(mapper(partial(_job, problem), [(point, problem.tyres[0]) for point in points]))
+    )
+    missed = (solved[1:, 0] - solved[0, 0]) / steps - by_law[0]
+    return np.concatenate([spokes.swapaxes(1, 2).reshape(-1, len(FREE)), by_law + missed])
 
 
 def _corrected(slopes: Array, step: Array, change: Array) -> Array:

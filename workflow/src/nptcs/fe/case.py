@@ -48,7 +48,7 @@ def spoke_design(
 @threadpool_limits.wrap(limits=1)
 def energy_table(model: FeModel, design: SpokeDesign) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
-    return computed_table(design, model.table)[0]
+    return computed_table(design, model.table)
 
 
 def tyre_model(
@@ -103,7 +103,8 @@ def path_to_displacement(
         try:
             path = assembled.load((np.arange(1, np.ceil(last / step) + 1) * step).tolist()).path
         except TyreError as error:
-            return error.path, str(error)
+            reached = error.path.rise_mm[-1] >= displacement_mm
+            return error.path, "" if reached else str(error)
     return path, ""
 
 

@@ -12,7 +12,6 @@ from threadpoolctl import threadpool_limits
 
 from nptcs.config.fe import EnergyTableOptions, FeModel
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.fe.spoke.neighbours import CorrectionsFolder
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import computed_table
 from nptcs.fe.spoke.stored import read_arrays, write_arrays
@@ -40,10 +39,8 @@ def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
 def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeEnergyTable:
     """Read a spoke's table from the folder, or compute it and leave it there.
 
-    A new table's states are guessed with the help of the spokes that are in the folder, and help
-    later ones. Files are written whole under a name made from their content's key: of two workers
-    that compute the same spoke at the same time the later one replaces the file by one that is
-    equal within the accepted work.
+    Files are written whole under a name made from the key of what they depend on: of two workers
+    that compute the same spoke at the same time the later one replaces the file by an equal one.
 
     Parameters
     ----------
@@ -53,16 +50,14 @@ def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> Sp
         None computes without keeping.
     """
     if folder is None:
-        return computed_table(design, model.table)[0]
+        return computed_table(design, model.table)
     key = table_key(design, model.table)
     path = folder / f"{key}.npz"
     known = read_table(path, key)
     if known is not None:
         return known
-    kept = CorrectionsFolder(folder, design, model.table)
-    table, corrections = computed_table(design, model.table, kept.neighbours().correction)
+    table = computed_table(design, model.table)
     write_table(path, key, table)
-    kept.keep(corrections)
     return table
 
 

@@ -5,7 +5,24 @@ The files of one specimen come in, its curve and a record of how it came about g
 properties belong to `nptcs.reduce`.
 """
 
-from nptcs.ingest.reading.profiles import load_profiles
-from nptcs.ingest.specimen import Ingested, ingest_specimen
+from importlib import import_module
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from nptcs.ingest.reading.profiles import load_profiles
+    from nptcs.ingest.specimen import Ingested, ingest_specimen
 
 __all__ = ["Ingested", "ingest_specimen", "load_profiles"]
+
+_HOMES = {
+    "load_profiles": "nptcs.ingest.reading.profiles",
+    "Ingested": "nptcs.ingest.specimen",
+    "ingest_specimen": "nptcs.ingest.specimen",
+}
+
+
+def __getattr__(name: str) -> Any:
+    """Import what is asked for when it is: the rules need the names of files, not the readers."""
+    if name not in _HOMES:
+        raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
+    return getattr(import_module(_HOMES[name]), name)

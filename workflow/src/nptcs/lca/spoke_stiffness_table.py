@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from numpy.typing import ArrayLike
 from scipy.interpolate import PchipInterpolator
 
 from nptcs.arrays import Floating
@@ -83,11 +84,16 @@ class SpokeStiffnessTable:
                 column="spoke_c10_mpa",
                 value=c10_mpa,
             )
+        tension, compression = map(float, self.stiffness(c10_mpa))
+        return LinearSpokes(tension, compression, count)
+
+    def stiffness(self, c10_mpa: ArrayLike) -> tuple[Floating, Floating]:
+        """Return the stiffness in tension and compression (N/mm) within the table's range."""
         tension, compression = (
-            float(PchipInterpolator(self.c10_mpa, values)(c10_mpa))
+            np.asarray(PchipInterpolator(self.c10_mpa, values)(c10_mpa), dtype=float)
             for values in (self.tension_n_per_mm, self.compression_n_per_mm)
         )
-        return LinearSpokes(tension, compression, count)
+        return tension, compression
 
 
 def _number(row: Mapping[Any, Any], column: str, line: int) -> float:

@@ -31,7 +31,16 @@ class Cell:
 
 @dataclass(frozen=True)
 class TableView:
-    """One table of the page."""
+    """One table of the page.
+
+    Parameters
+    ----------
+    entry, caption, headings, numeric, rows, synthetic
+        What it is, words above it, its columns and whether they hold numbers, the rows that are
+        shown with their CSS classes, and whether it rests on synthetic data.
+    all_rows : int
+        Rows of the whole table; a long one is not shown whole.
+    """
 
     entry: Entry
     caption: str
@@ -39,6 +48,7 @@ class TableView:
     numeric: tuple[bool, ...]
     rows: tuple[tuple[str, tuple[Cell, ...]], ...]
     synthetic: bool = False
+    all_rows: int = 0
 
 
 @dataclass(frozen=True)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import sys
+import time
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -39,6 +40,19 @@ def set_aside(files: Sequence[str | Path], verdict_log: str | Path, started: flo
             renamed.append(stale)
             print(f"{path} is of an earlier run; it is now {stale}", file=sys.stderr)
     return renamed
+
+
+def refused(fault: object, page: str | Path) -> str:
+    """Say why a run does not begin, and that the report on disk, if any, is of an earlier one.
+
+    A run that was refused has changed nothing: the report and its tables still belong together, so
+    they keep their names.
+    """
+    path = Path(page)
+    if not path.is_file():
+        return str(fault)
+    made = time.strftime("%Y-%m-%d %H:%M", time.localtime(path.stat().st_mtime))
+    return f"{fault}\nNothing was run: {path} is of {made}, from an earlier configuration or sheet."
 
 
 def stale_name(path: str | Path) -> Path:

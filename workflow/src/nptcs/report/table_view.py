@@ -38,6 +38,13 @@ PERCENTS = ("difference_percent", "change_percent")
 """Endings of the names of further columns that get three digits."""
 
 
+PAGE_ROWS = 30
+"""Rows of the longest table that the page shows whole; the CSV file has them all."""
+
+MOST_MARKED = 3000
+"""Rows of a long table that are looked at for marks."""
+
+
 def table_view(
     table: pd.DataFrame,
     entry: Entry,
@@ -46,6 +53,7 @@ def table_view(
     given_digits: Mapping[str, int] | None = None,
     mark: RowClass = no_row,
     synthetic: bool = False,
+    whole: bool = False,
 ) -> TableView:
     """Write a table for the page.
 
@@ -65,13 +73,16 @@ def table_view(
         Gives a row's CSS class, such as ``bad`` or ``out``.
     synthetic : bool
         Whether it shows synthetic data.
+    whole : bool
+        Whether a long table, too, is shown with all its rows.
     """
+    rows_of_table = len(table)
     shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
     digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith(PERCENTS)}}
     digits |= given_digits or {}
     numeric = tuple(_is_numeric(table[name]) for name in shown)
     rows = []
-    for record in table.to_dict("records"):
+    for record in (table if whole else on_page(table, mark)).to_dict("records"):
         cells = tuple(
             _cell(record[name], digits.get(name, DIGITS), is_number)
             for name, is_number in zip(shown, numeric, strict=True)
@@ -84,13 +95,35 @@ def table_view(
         numeric,
         tuple(rows),
         synthetic,
+        rows_of_table,
     )
+
+
+def on_page(table: pd.DataFrame, mark: RowClass) -> pd.DataFrame:
+    """Select the rows of a table that the page shows: all, or the first ones and those that failed.
+
+    Of a table with more than `PAGE_ROWS` rows these are the first `PAGE_ROWS`, then those further
+    ones that are marked as bad or flagged, again at most as many.
+    """
+    if len(table) <= PAGE_ROWS:
+        return table
+    first, rest = table.iloc[:PAGE_ROWS], table.iloc[PAGE_ROWS:]
+    if "status" in rest:
+        rest = rest[rest["status"] != "ok"]
+    records = rest.iloc[:MOST_MARKED].to_dict("records")
+    marked = [
+        place
+        for place, record in enumerate(records)
+        if mark({str(key): value for key, value in record.items()}) in ("bad", "warn")
+    ]
+    return pd.concat([first, rest.iloc[marked[:PAGE_ROWS]]])
 
 
 def sheet_view(
     sheet: Sheet,
     columns: Sequence[str] | None = None,
     given_digits: Mapping[str, int] | None = None,
+    whole: bool = False,
 ) -> TableView:
     """Write one of the workbook's tables for the page; arguments as in `table_view`."""
     return table_view(
@@ -100,6 +133,7 @@ def sheet_view(
         given_digits=given_digits,
         mark=sheet.mark,
         synthetic=sheet.synthetic,
+        whole=whole,
     )
 
 
@@ -111,7 +145,7 @@ def _is_numeric(column: pd.Series) -> bool:
 
 def _is_empty(column: pd.Series) -> bool:
     """Tell whether a column of a table with rows has no value at all."""
-    return len(column) > 0 and bool((column.isna() | (column.astype(str) == "")).all())
+    return len(column) > 0 and bool((column.isna() | (column == "")).all())
 
 
 def _cell(value: object, digits: int, is_number: bool) -> Cell:

@@ -39,6 +39,7 @@ LONGEST_TEXT = 32767
 SCIENTIFIC = "0.0000000000E+00"
 """Format of coefficients, which span many orders of magnitude."""
 ABOUT = ("sheet", "what it says", "rows", "synthetic", "file", "rule", "made from")
+LEFT_OUT = " (not a sheet of this workbook: too long, see its file)"
 FIXED_DATE = (1980, 1, 1, 0, 0, 0)
 
 
@@ -58,10 +59,11 @@ def build_workbook(results: Results) -> bytes:
     bytes
         Content of the XLSX file.
     """
-    sheets = list(sheets_of(results).values())
+    listed = list(sheets_of(results).values())
+    sheets = [sheet for sheet in listed if sheet.in_workbook]
     workbook = Workbook()
     about = workbook.active
-    _write_about(about, results, sheets)
+    _write_about(about, results, listed)
     for sheet in sheets:
         _write_table(workbook.create_sheet(_name(sheet, workbook)), sheet)
     columns = workbook.create_sheet("columns")
@@ -110,7 +112,7 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
             row,
             [
                 entry.sheet,
-                entry.title,
+                entry.title + LEFT_OUT * (not sheet.in_workbook),
                 len(sheet.table),
                 "yes" if sheet.synthetic else "no",
                 entry.file,
@@ -118,8 +120,9 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
                 entry.source,
             ],
         )
-        about.cell(row, 1).hyperlink = f"#'{entry.sheet[:31]}'!A1"
-        about.cell(row, 1).font = Font(name=FONT, color="0B4F7A", underline="single")
+        if sheet.in_workbook:
+            about.cell(row, 1).hyperlink = f"#'{entry.sheet[:31]}'!A1"
+            about.cell(row, 1).font = Font(name=FONT, color="0B4F7A", underline="single")
     _finish(about, top, freeze=False)
 
 

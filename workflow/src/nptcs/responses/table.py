@@ -23,6 +23,8 @@ AT_LOAD = {
     "largest_spoke_force_n": ("largest_spoke_force", "N", "radial, positive in tension"),
     "smallest_spoke_force_n": ("smallest_spoke_force", "N", "radial, negative in compression"),
 }
+# what needs a contact of enough points
+OF_CONTACT = {"contact_length_mm", "largest_pressure_mpa", "mean_pressure_mpa"}
 # what it reports of the most loaded spokes, solved again
 PLATE = "at the plates' faces, element centres"
 RUBBER = "at the integration points of the most loaded spokes"
@@ -131,19 +133,32 @@ def _responses(
 ) -> Iterator[Response]:
     yield from _stiffness(record, settings)
     at = f"{record.load_n:g} N"
-    for source, why in ((AT_LOAD, "the solver does not report it"), (IN_SPOKES, _why_not(record))):
+    for source in (AT_LOAD, IN_SPOKES):
         for key, (name, unit, rule) in source.items():
             if key in record.result.extra:
                 yield Response(name, at, record.result.extra[key], unit, OK, rule)
             else:
-                yield _missing(name, at, unit, why)
+                yield _missing(name, at, unit, _why_not(record, key))
     yield from _margins(record, strengths, at)
     mass = _plate_mass(record, settings)
     yield mass
     yield _plate_cost(mass, settings)
 
 
-def _why_not(record: CaseRecord) -> str:
+def _why_not(record: CaseRecord, key: str) -> str:
+    """Say why a response has no value."""
+    if key in IN_SPOKES:
+        return _why_no_stress(record)
+    across = record.result.extra.get("contact_cells")
+    if key in OF_CONTACT and across is not None:
+        return (
+            f"the contact is only {across:.1f} contact points long, too few to resolve it: "
+            "refine the ring's mesh"
+        )
+    return "the solver does not report it"
+
+
+def _why_no_stress(record: CaseRecord) -> str:
     """Say why the inside of the spokes is not known."""
     return record.result.message or "no spoke was solved again at its motion in the tyre"
 
@@ -190,7 +205,7 @@ def _margins(record: CaseRecord, strengths: PlyStrengths, at: str) -> Iterator[R
     stress = record.result.plate_stress
     for name, (rule, factor) in MARGINS.items():
         if stress is None:
-            yield _missing(name, at, "1", _why_not(record))
+            yield _missing(name, at, "1", _why_no_stress(record))
         elif strengths.missing():
             lacking = ", ".join(strengths.missing())
             yield _missing(name, at, "1", f"strengths of the ply that are not tested: {lacking}")

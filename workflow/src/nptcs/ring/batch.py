@@ -202,11 +202,12 @@ def _solve_row(
     except RingError as error:
         return {"status": "diverged", "message": str(error)}
     last = states[-1]
+    found = responses(built, last)
     return {
         "displacement_mm": last.rise_mm,
         "displacement_standard_error_mm": spokes.displacement_error_mm(row, built, states, factor),
         "vertical_stiffness_n_per_mm": load_n / last.rise_mm,
-        **responses(built, last),
+        **{name: found[name] for name in NUMBERS if name in found},
         "status": "ok",
         "message": "",
     }

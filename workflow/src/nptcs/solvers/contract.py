@@ -7,10 +7,11 @@ and name it in `nptcs.solvers.registry` (or name its file in the configuration).
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from typing import Any, ClassVar
 
 import numpy as np
+import pandas as pd
 from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
@@ -84,6 +85,39 @@ class CaseInputs:
     options: Any
     ply: Mapping[str, float] | None = None
     tables: Mapping[str, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class TableInputs:
+    """What a solver may look at when it solves a whole table of cases at once.
+
+    Parameters
+    ----------
+    cases : DataFrame
+        ``case_id``, for messages only, and a column for each value, as `CaseInputs.values`.
+    load_n, tyre, options, ply, tables
+        As in `CaseInputs`; they are the same for all cases.
+    """
+
+    cases: pd.DataFrame
+    load_n: float
+    tyre: TyreGeometry
+    options: Any
+    ply: Mapping[str, float] | None = None
+    tables: Mapping[str, Sequence[Mapping[str, Any]]] = field(default_factory=dict)
+
+    def case(self, row: int) -> CaseInputs:
+        """Return the inputs of one case, by its place in the table."""
+        values = {str(name): value for name, value in self.cases.iloc[row].items()}
+        case_id = str(values.pop("case_id"))
+        numbers = {name: float(value) for name, value in values.items()}
+        return CaseInputs(
+            case_id, numbers, self.load_n, self.tyre, self.options, self.ply, self.tables
+        )
+
+    def rows(self, start: int, stop: int) -> TableInputs:
+        """Return the same inputs with some of the cases."""
+        return replace(self, cases=self.cases.iloc[start:stop].reset_index(drop=True))
 
 
 class SolverResult(BaseModel):
@@ -204,6 +238,15 @@ class Solver:
     realise : callable, optional
         ``(values, tyre) → values`` that the solver really uses for the factors of which it can
         use some values only; the campaign records them with each solved case.
+    solve_table : callable, optional
+        ``TableInputs → DataFrame``, one row per case in their order: ``status``, ``message``,
+        `TYRE_RESPONSES` and further scalars, units in the names; ``realised_FACTOR`` for each
+        factor of which it used another value. The same numbers as `solve`, without curves. It may
+        raise: the campaign then divides the table until it has found the cases at fault.
+    table_cases : int
+        Most cases that the table function is given at once; the time limit is that of all of them.
+    table_case_s : float, optional
+        Wall time that a case of a table usually takes; without it that of a single case.
     """
 
     name: str
@@ -216,6 +259,9 @@ class Solver:
     needs_ply: bool = False
     loads_tyre: bool = True
     realise: Callable[[Mapping[str, float], TyreGeometry], dict[str, float]] | None = None
+    solve_table: Callable[[TableInputs], pd.DataFrame] | None = None
+    table_cases: int = 5000
+    table_case_s: float | None = None
 
     def missing_responses(self, result: SolverResult) -> list[str]:
         """Name the responses that a result with status ``ok`` must have and lacks."""

@@ -20,7 +20,7 @@ from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.output.loaded_spokes import loaded_spokes
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreError, TyreModel, TyreState
-from nptcs.fe.tyre.responses import contact_responses, spoke_forces
+from nptcs.fe.tyre.responses import contact_responses, spoke_forces, wire_wrinkle_mm
 from nptcs.solvers.contract import (
     CASE_MEMORY,
     CASE_S,
@@ -32,6 +32,9 @@ from nptcs.solvers.contract import (
     neutral_line_columns,
 )
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+
+# part of a wire's diameter
+LARGEST_WRINKLE = 0.25
 
 
 class FeTyreOptions(SolverOptions, FeModel):
@@ -78,7 +81,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
         return SolverResult(status=Status.DIVERGED, message=f"spoke: {error}")
     except TyreError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.path))
-    path, notes = state.path, []
+    path, notes = state.path, _wrinkles(tyre, state, inputs.tyre.wire_diameter_mm)
     if options.curve_to_mm is not None:
         target = options.curve_to_mm
         path, reason = path_to_displacement(tyre, options, inputs.load_n, path, target)
@@ -121,12 +124,24 @@ def _curve(path: LoadPath) -> dict[str, list[float]]:
     return {"displacement_mm": path.rise_mm, "force_n": path.force_n}
 
 
+def _wrinkles(tyre: TyreModel, state: TyreState, wire_mm: float) -> list[str]:
+    """Say so where membranes wrinkle: the stiffness is then one of the mesh."""
+    wave = wire_wrinkle_mm(tyre.mesh, state.displacement)
+    if wave is None or wave < LARGEST_WRINKLE * wire_mm:
+        return []
+    return [
+        f"the wires, which are membranes here, wrinkle from node to node by {wave:.2f} mm, which "
+        "makes the tyre softer: the solver fe_tyre, whose wires bend, has no such wave"
+    ]
+
+
 def _summary(tyre: TyreModel, state: TyreState) -> dict[str, float]:
     """Contact patch, spokes' motions and forces, and energies at the load."""
-    place, pressure = tyre.ground.pressure_profile(state.displacement, state.rise_mm)
     energy = tyre.energy(state)
+    wrinkle = wire_wrinkle_mm(tyre.mesh, state.displacement)
     return {
-        **contact_responses(place, pressure, tyre.ground.point_length_mm),
+        **({} if wrinkle is None else {"wire_wrinkle_mm": wrinkle}),
+        **contact_responses(tyre.ground.cells(state.displacement, state.rise_mm)),
         "smallest_u_r_mm": float(state.motion[:, 0].min()),
         "largest_u_r_mm": float(state.motion[:, 0].max()),
         **spoke_forces(tyre.table, state.motion),

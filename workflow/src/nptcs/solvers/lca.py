@@ -6,11 +6,15 @@ from collections.abc import Mapping
 from typing import Literal
 
 import numpy as np
+import pandas as pd
 from pydantic import Field
 
 from nptcs import lca
+from nptcs.arrays import Floating
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
+from nptcs.lca.section import section_stiffness
+from nptcs.lca.single import REMEDIES
 from nptcs.lca.spoke_law_table import SpokeLawTable
 from nptcs.lca.spoke_stiffness_table import OutOfRangeError, SpokeStiffnessTable
 from nptcs.lca.state import LcaState
@@ -20,10 +24,15 @@ from nptcs.solvers.contract import (
     SolverOptions,
     SolverResult,
     Status,
+    TableInputs,
     neutral_line_columns,
 )
+from nptcs.solvers.tables import one_by_one
 
 VERSION = "1"
+SECTION_STIFFNESS = ("axial_stiffness_n", "shear_stiffness_n", "bending_stiffness_n_mm2")
+SHARED = ("theta_c_deg", "theta_t_deg", "contact_force_n", "ring_force_n", "balance_residual")
+"""Results that every model of the spokes reports."""
 NEUTRAL_LINE_DEG = np.arange(-180.0, 181.0)
 """Angles of the neutral line."""
 
@@ -172,16 +181,76 @@ def _result(
         vertical_stiffness_n_per_mm=state.stiffness_n_per_mm,
         displacement_mm=state.displacement_mm,
         extra={
-            "theta_c_deg": state.theta_c_deg,
-            "theta_t_deg": state.theta_t_deg,
-            "contact_force_n": state.contact_force_n,
-            "ring_force_n": state.ring_force_n,
-            "balance_residual": state.balance_residual,
+            **{name: getattr(state, name) for name in SHARED},
             **extra,
         },
         curve={"displacement_mm": [0.0, *displacement], "force_n": [0.0, *force]},
         neutral_line=neutral_line,
     )
+
+
+def solve_table(inputs: TableInputs) -> pd.DataFrame:
+    """Solve many cases at once; spokes that follow a curve are solved case by case."""
+    options: LcaOptions = inputs.options
+    if options.spoke_law_table is not None or options.contact_spokes == "local":
+        return one_by_one(solve)(inputs)
+    band = inputs.cases["shear_band_c10_mpa"].to_numpy(float)
+    spokes = _spoke_stiffness(inputs, inputs.cases["spoke_c10_mpa"].to_numpy(float))
+    dimensions, room = inputs.tyre.model_dump(), _room_mm(inputs.tyre)
+    with np.errstate(invalid="ignore"):
+        stiffness = section_stiffness(dimensions, band, options.section)
+    designs = {
+        **dict(zip(SECTION_STIFFNESS, stiffness, strict=True)),
+        "radius_mm": inputs.tyre.band_radius_mm,
+        "width_mm": inputs.tyre.tread_width_mm,
+        **spokes,
+        "spoke_count": inputs.tyre.spoke_count,
+    }
+    batch = lca.solve_batch(designs, load_n=inputs.load_n, largest_displacement_mm=room)
+    numbers = dict(batch.columns)
+    angle = np.radians(numbers["theta_c_deg"])
+    solved = np.isin(batch.status, ("ok", "doubtful"))
+    table = pd.DataFrame(
+        {
+            "status": np.where(solved, Status.OK.value, Status.ERROR.value),
+            "message": batch.message,
+            "vertical_stiffness_n_per_mm": numbers["stiffness_n_per_mm"],
+            "displacement_mm": numbers["displacement_mm"],
+            **{name: numbers[name] for name in SHARED},
+            "tangent_stiffness_n_per_mm": numbers["tangent_stiffness_n_per_mm"],
+            "contact_length_mm": 2 * inputs.tyre.band_radius_mm * angle,
+            "mean_pressure_mpa": numbers["mean_pressure_mpa"],
+        }
+    )
+    for row in np.flatnonzero(~solved):
+        remedy = REMEDIES.get(str(batch.status[row]))
+        if remedy is None:  # a rubber outside the table, or no rubber: refused before solving
+            table.loc[row, "message"] = _refusal(inputs.case(int(row)))
+        else:
+            message = f"load-bearing model: {batch.message[row]}"
+            table.loc[row, "message"] = str(lca.ModelError(message, remedy=remedy))
+    return table
+
+
+def _spoke_stiffness(inputs: TableInputs, c10_mpa: Floating) -> dict[str, Floating]:
+    """Stiffness of the spokes of each case; not a number where the table has no such rubber."""
+    key = next(iter(inputs.options.tables()))
+    table = SpokeStiffnessTable.from_rows(inputs.tables[key])
+    outside = ~((c10_mpa >= table.c10_mpa[0]) & (c10_mpa <= table.c10_mpa[-1]))
+    within = np.where(outside, table.c10_mpa[0], c10_mpa)
+    tension, compression = table.stiffness(within)
+    return {
+        "tension_n_per_mm": np.where(outside, np.nan, tension),
+        "compression_n_per_mm": np.where(outside, np.nan, compression),
+    }
+
+
+def _refusal(inputs: CaseInputs) -> str:
+    """Say why a case is not solved, in the words of a single one."""
+    try:
+        return solve(inputs).message
+    except InputError as error:
+        return str(error)
 
 
 SOLVER = Solver(
@@ -192,4 +261,6 @@ SOLVER = Solver(
     about="the load-bearing analysis model, which sees the two rubbers and nothing else",
     required=frozenset({"shear_band_c10_mpa", "spoke_c10_mpa"}),
     options=LcaOptions,
+    solve_table=solve_table,
+    table_case_s=1e-4,
 )

@@ -8,13 +8,16 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
+from nptcs.arrays import Array
 from nptcs.config.fe import FeModel
 from nptcs.config.ring import RingModel
 from nptcs.errors import InputError
 from nptcs.fe.case import plate_volume_mm3, spoke_design
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.output.loaded_spokes import loaded_spokes
+from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.responses import spoke_forces
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, RingState, load
@@ -30,6 +33,7 @@ from nptcs.solvers.contract import (
     neutral_line_columns,
 )
 from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.tables import one_by_one
 
 
 class RingSolverOptions(SolverOptions, RingModel):
@@ -85,33 +89,36 @@ def solve(inputs: CaseInputs) -> SolverResult:
     except RingError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
-    found = responses(tyre, last)
-    area = found["contact_length_mm"] * inputs.tyre.tread_width_mm
-    motion = tyre.spoke_motion(last.u)
-    plates, rubber, notes = None, {}, ""
-    if options.plate_stress == "all":
-        try:
-            plates, rubber = loaded_spokes(SpokeModel(design), table, motion)
-        except SpokeError as error:
-            notes = f"stress of plates and spokes' rubber not assessed: {error}"
+    plates, rubber, note = _inside(options, design, table, tyre.spoke_motion(last.u))
     return SolverResult(
         status=Status.OK,
-        message=notes,
+        message=note,
         vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
         displacement_mm=last.rise_mm,
         extra={
             "table_force_residual_n": table.force_residual_n,
-            **found,
-            "mean_pressure_mpa": inputs.load_n / area,
-            **spoke_forces(table, motion),
-            **rubber,
             "plate_volume_mm3": plate_volume_mm3(design, inputs.tyre.spoke_count),
+            **responses(tyre, last),
+            **spoke_forces(table, tyre.spoke_motion(last.u)),
+            **rubber,
             "iterations": float(sum(state.iterations for state in states)),
         },
         curve=_curve(states),
         plate_stress=plates,
         neutral_line=_neutral_line(tyre, last),
     )
+
+
+def _inside(
+    options: RingSolverOptions, design: SpokeDesign, table: SpokeEnergyTable, motion: Array
+) -> tuple[dict[str, list[float]] | None, dict[str, float], str]:
+    """Stress of the plates, responses of the spokes' rubber, and why there are none."""
+    if options.plate_stress == "off":
+        return None, {}, ""
+    try:
+        return *loaded_spokes(SpokeModel(design), table, motion), ""
+    except SpokeError as error:
+        return None, {}, f"stress of plates and spokes' rubber not assessed: {error}"
 
 
 def _curve(states: list[RingState]) -> dict[str, list[float]]:
@@ -136,4 +143,6 @@ SOLVER = Solver(
     needs_ply=True,
     realise=realised_spacing,
     about="the tyre as a sandwich ring on the energies of finite element spokes",
+    solve_table=one_by_one(solve),
+    table_cases=10,
 )

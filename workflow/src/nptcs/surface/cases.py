@@ -57,8 +57,9 @@ def solved_cases(cases: pd.DataFrame, solver: str, factors: Sequence[str]) -> So
     solved = rows[has_result(rows["status"])]
     used = as_realised(solved, factors)
     names = list(factors)
-    given = solved[names].apply(tuple, axis=1)
-    first_given = given.groupby([used[name] for name in names]).transform("first")
+    # the given values of a case as one number: equal numbers, equal values
+    given = solved.groupby(names, sort=False).ngroup()
+    first_given = given.groupby([used[name] for name in names], sort=False).transform("first")
     kept = given == first_given if len(solved) else pd.Series(dtype=bool)
     return SolvedCases(
         table=used[kept.to_numpy(bool)],

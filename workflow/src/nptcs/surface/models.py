@@ -16,6 +16,7 @@ from nptcs.config.surface import (
     SurfaceModel,
     name_of,
 )
+from nptcs.errors import InputError
 from nptcs.surface.fit import Surface, fit_points
 from nptcs.surface.gaussian_process import GaussianProcess, fit_process
 from nptcs.surface.lamination import Lamination, fit_lamination
@@ -24,6 +25,9 @@ from nptcs.surface.response_surface import ResponseSurface
 from nptcs.surface.selection import chosen_terms
 from nptcs.surface.spoke_process import fit_spoke_process
 from nptcs.terms import parse
+
+MOST_PROCESS_CASES = 2000
+"""Cases of the largest Gaussian process."""
 
 
 @dataclass(frozen=True)
@@ -91,6 +95,13 @@ def _lamination(model: LaminationModel, cases: Cases) -> Lamination:
 
 
 def _process(model: GaussianProcessModel, cases: Cases) -> GaussianProcess:
+    if len(cases.y) > MOST_PROCESS_CASES:
+        raise InputError(
+            f"a Gaussian process is not fitted to {len(cases.y):,} cases: its time grows with the "
+            f"cube of their number, its memory with the square (at most {MOST_PROCESS_CASES:,})",
+            "leave it out of this study's surfaces, or take fewer levels",
+            column="surfaces",
+        )
     mean = model.mean
     fit_mean = None if mean is None else (lambda: fit_model(mean, cases))
     return fit_process(cases.x, cases.y, tuple(cases.factors), fit_mean)

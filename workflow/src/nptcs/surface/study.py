@@ -151,9 +151,14 @@ def fit_study(
     fits: list[Fit] = []
     problems: list[tuple[str, ...]] = []
     for response in [RESPONSE, *responses_of(study)]:
-        for solver in study.solvers:
-            found = _values(response, solved[solver].table, solver, values)
-            wanted = _Wanted(study, solver, response, solved[solver], found, ply)
+        by_solver = {
+            solver: _values(response, solved[solver].table, solver, values)
+            for solver in study.solvers
+        }
+        having = [solver for solver, found in by_solver.items() if found.notna().any()]
+        # an archive of stiffness has no stress: only what no solver has is a problem
+        for solver in having or study.solvers:
+            wanted = _Wanted(study, solver, response, solved[solver], by_solver[solver], ply)
             for fitted in _fits(wanted):
                 if isinstance(fitted, Fit):
                     fits.append(fitted)

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from nptcs.surface.comparison import LevelError, directions, leave_one_level_out
+from nptcs.surface.comparison import MOST_REFITS, LevelError, directions, leave_one_level_out
 from nptcs.surface.fit import Surface
 from nptcs.surface.gaussian_process import GaussianProcess
 from nptcs.surface.lamination import Lamination
@@ -29,6 +29,10 @@ COMPARISON_RULE: Mapping[type[ResponseSurface], str] = {
     GaussianProcess: ALL_ANEW,
     SpokeProcess: "hyperparameters kept, all else fitted anew without each spoke or level",
 }
+
+NOT_LEFT_OUT = (
+    f"levels left out; no case left out alone: there are more than {MOST_REFITS:,} of them"
+)
 
 
 def surface_table(
@@ -120,14 +124,16 @@ def _compared(fit: Fit, levels: list[LevelError]) -> dict[str, object]:
         **fit_measures(surface),
         "leave_one_out_largest": left_out.largest,
         "leave_one_out_rms": left_out.rms,
-        "leave_one_out_not_fitted": len(surface.y) - len(left_out.known),
+        "leave_one_out_not_fitted": (
+            len(surface.y) - len(left_out.known) if left_out.assessed else 0
+        ),
         "coverage_percent": left_out.coverage_percent,
         "level_out_largest": max(worst, default=np.nan),
         "level_out_not_fitted": ", ".join(name for name, level in names if level.refused),
         "outside_the_box": surface.outside.value,
         "fit_cpu_s": fit.cpu_s,
         "leave_one_out_cpu_s": left_out.cpu_s,
-        "rule": COMPARISON_RULE[type(surface)],
+        "rule": COMPARISON_RULE[type(surface)] if left_out.assessed else NOT_LEFT_OUT,
     }
 
 

@@ -11,6 +11,12 @@ import pandera.pandas as pa
 from nptcs.tables import column_headings as headings
 from nptcs.tables.cases import Cases
 from nptcs.tables.coverage import CaseCoverage
+from nptcs.tables.decisions import (
+    DecisionConfirmation,
+    DecisionDesigns,
+    DecisionFront,
+    Decisions,
+)
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -29,6 +35,7 @@ from nptcs.tables.published_stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
+    StiffnessExponents,
 )
 from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.result_table import (
@@ -48,6 +55,7 @@ from nptcs.tables.surface import (
     SurfaceTable,
 )
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
+from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
 
 TABLES: dict[str, ResultTable] = {
     "problems.csv": ResultTable(
@@ -245,6 +253,61 @@ TABLES: dict[str, ResultTable] = {
         headings=headings.RESPONSE_IMPACT,
         synthetic=SyntheticBy.ROWS,
     ),
+    "uncertainty.csv": ResultTable(
+        ResponseUncertainty,
+        "Responses of reference and chosen designs with their uncertainty",
+        "decide",
+        "the surfaces, sampled over the card's uncertainty, stated rubbers and tolerances; the "
+        "solver's bias is next to the interval, not in it",
+        section=ReportSection.UNCERTAINTY,
+        headings=headings.of(headings.UNCERTAINTY, ResponseUncertainty),
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "uncertainty_shares.csv": ResultTable(
+        UncertaintyShares,
+        "Which test or tolerance the uncertainty comes from",
+        "decide",
+        "the same models, each source alone (three-point Gauss rule)",
+        section=ReportSection.UNCERTAINTY,
+        headings=headings.of(headings.UNCERTAINTY, UncertaintyShares),
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "decisions.csv": ResultTable(
+        Decisions,
+        "Decisions: what was asked, the chosen design and whether it was confirmed",
+        "decide",
+        "the surfaces of the study, its uncertainties, and the solver for the confirmation",
+        section=ReportSection.DECISION,
+        headings=headings.of(headings.DECISION, Decisions),
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "decision_designs.csv": ResultTable(
+        DecisionDesigns,
+        "The best designs of each decision, goal by goal",
+        "decide",
+        "as decisions.csv; low and high are quantiles of the samples",
+        section=ReportSection.DECISION,
+        headings=headings.of(headings.DECISION, DecisionDesigns),
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "decision_front.csv": ResultTable(
+        DecisionFront,
+        "Pareto front of decisions with two objectives or more",
+        "decide",
+        "as decisions.csv; acceptable candidates and designs that none betters",
+        section=ReportSection.DECISION,
+        headings=headings.of(headings.DECISION, DecisionFront),
+        synthetic=SyntheticBy.STUDIES,
+    ),
+    "decision_confirmation.csv": ResultTable(
+        DecisionConfirmation,
+        "Chosen designs solved: inside or outside the prediction interval",
+        "decide",
+        "the study's solver at the chosen design; the interval is that of the surface alone",
+        section=ReportSection.DECISION,
+        headings=headings.of(headings.DECISION, DecisionConfirmation),
+        synthetic=SyntheticBy.ROWS,
+    ),
     "spoke_stiffness.csv": ResultTable(
         SpokeLines,
         "Stiffness of single spokes, computed and table 10",
@@ -314,6 +377,15 @@ TABLES: dict[str, ResultTable] = {
         "stiffness_against_published.csv, averaged over the cases at each level",
         section=ReportSection.PUBLISHED_STIFFNESS,
         headings=headings.LEVELS,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "stiffness_exponents.csv": ResultTable(
+        StiffnessExponents,
+        "Exponents of the stiffness by each modulus, computed and published",
+        "compare_published",
+        "stiffness_against_published.csv, logarithms of stiffness by those of each modulus",
+        section=ReportSection.PUBLISHED_STIFFNESS,
+        headings=headings.EXPONENTS,
         synthetic=SyntheticBy.ROWS,
     ),
     "neutral_line.csv": ResultTable(

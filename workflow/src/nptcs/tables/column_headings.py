@@ -42,6 +42,13 @@ LEVELS = {
     "level": Heading("level", "unit of the factor"),
     "compared": Heading("cases compared"),
 }
+EXPONENTS = {
+    "held": Heading("other factors at"),
+    "levels": Heading("levels"),
+    "computed_exponent": Heading("computed"),
+    "published_exponent": Heading("published"),
+    "exponent_difference": Heading("computed − published"),
+}
 QUALITY = {
     "press": Heading("PRESS", "(N/mm)²"),
     "residual_sd": Heading("residual SD", "N/mm"),
@@ -106,6 +113,30 @@ SOBOL = {
     "total_confidence": Heading("± total"),
     "value": Heading("value", "unit of the factor"),
     "effect_n_per_mm": Heading("effect", "N/mm"),
+}
+UNCERTAINTY = {
+    name: Heading(words, "unit of the row")
+    for name, words in {
+        "nominal": "nominal",
+        "mean": "mean",
+        "sd": "SD",
+        "low": "interval from",
+        "high": "interval to",
+        "effect_sd": "SD by this source",
+    }.items()
+}
+DECISION = {
+    "with_probability": Heading("probability asked for"),
+    "search_cpu_s": Heading("fit and search, CPU", "s"),
+    "mean": Heading("mean", "unit of the row"),
+    "sd": Heading("SD", "unit of the row"),
+    "low": Heading("interval from", "unit of the row"),
+    "high": Heading("interval to", "unit of the row"),
+    "smallest_accepted": Heading("smallest accepted", "unit of the row"),
+    "largest_accepted": Heading("largest accepted", "unit of the row"),
+    "predicted": Heading("predicted", "unit of the row"),
+    "solved": Heading("solved", "unit of the row"),
+    "difference": Heading("difference", "unit of the row"),
 }
 
 

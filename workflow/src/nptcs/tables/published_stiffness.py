@@ -5,10 +5,8 @@ from __future__ import annotations
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+from nptcs.tables.solver_names import PUBLISHED as PUBLISHED
 from nptcs.tables.status import Status
-
-PUBLISHED = "published"
-"""The solver with whose results the others are compared."""
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
 COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS, DIFFERENCE = (
@@ -96,6 +94,33 @@ class StiffnessByLevel(pa.DataFrameModel):
     mean_difference_percent: Series[float] = pa.Field(description="Mean of the cases' differences")
     lowest_difference_percent: Series[float]
     highest_difference_percent: Series[float]
+
+    class Config:
+        """Exactly these columns, in this order."""
+
+        strict = True
+        coerce = True
+        ordered = True
+
+
+class StiffnessExponents(pa.DataFrameModel):
+    """Exponents of the stiffness by each modulus, d ln K / d ln C10, computed and published.
+
+    One row over all levels of the factor, by least squares, and one for each step between two
+    levels, at each combination of the other factors. Of a tyre made of rubbers alone the exponents
+    of all moduli add up to 1.
+    """
+
+    study: Series[str]
+    solver: Series[str]
+    factor: Series[str] = pa.Field(description="A modulus: its name ends in _mpa")
+    held: Series[str] = pa.Field(description="Levels of the other factors")
+    low_mpa: Series[float] = pa.Field(gt=0, description="Lowest level")
+    high_mpa: Series[float] = pa.Field(gt=0, description="Highest level")
+    levels: Series[int] = pa.Field(ge=2, description="Levels that the exponent is over")
+    computed_exponent: Series[float]
+    published_exponent: Series[float]
+    exponent_difference: Series[float] = pa.Field(description="Computed - published")
 
     class Config:
         """Exactly these columns, in this order."""

@@ -33,6 +33,8 @@ class ReportSection(StrEnum):
     CASES = "cases"
     SURFACES = "surfaces"
     SENSITIVITY = "sensitivity"
+    UNCERTAINTY = "uncertainty"
+    DECISION = "decision"
     SPOKE = "spoke"
     TYRE = "tyre"
     PUBLISHED_STIFFNESS = "published_stiffness"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from enum import StrEnum
 from typing import Literal, assert_never
 
@@ -49,6 +49,8 @@ class UncertainInput:
         Unit of each quantity. Normal z have the standard deviation 1, uniform z lie in [-1, 1].
     shape : str
         Distribution of each z.
+    relative : bool
+        Whether `root` is a share of the design's own value, for a rubber that is a factor.
     """
 
     name: str
@@ -57,10 +59,11 @@ class UncertainInput:
     quantities: tuple[str, ...]
     root: Array
     shape: Literal["normal", "uniform"] = "normal"
+    relative: bool = False
 
     @property
     def standard_deviations(self) -> Array:
-        """Standard deviation of each quantity."""
+        """Standard deviation of each quantity, or its share of the value."""
         spread = np.sqrt((self.root**2).sum(axis=1))
         return spread if self.shape == "normal" else spread / np.sqrt(3.0)
 
@@ -78,8 +81,9 @@ def uncertain_inputs(
     card: MaterialCard,
     ply: PlyCard | None,
     values: Mapping[str, float],
+    factors: Sequence[str],
 ) -> Inputs:
-    """List what is uncertain of a design.
+    """List what is uncertain of the designs of a study.
 
     Parameters
     ----------
@@ -89,7 +93,9 @@ def uncertain_inputs(
     ply : PlyCard or None
         Of the plates; None where the solver does not use the constants of a ply.
     values : mapping of str to float
-        Factors of the design and fixed values of the study.
+        Factors and fixed values of the study; of the factors the names count alone.
+    factors : sequence of str
+        Names of the factors: rubbers among them scatter in proportion to their value.
 
     Returns
     -------
@@ -110,7 +116,10 @@ def uncertain_inputs(
         if name not in values:
             continue
         if name in settings.rubbers:
-            found.append(_rubber(name, settings.rubbers[name], values[name], card, settings.card))
+            one = _rubber(name, settings.rubbers[name], card, settings.card)
+            varied = name in factors
+            root = one.root if varied else one.root * values[name]
+            found.append(replace(one, root=root, relative=varied))
         else:
             missing[name] = f"no entry in uncertainty.rubbers for {name}"
     return Inputs(tuple(found), missing)
@@ -186,17 +195,17 @@ def _tolerances(
 def _rubber(
     name: str,
     given: RubberUncertainty,
-    c10_mpa: float,
     card: MaterialCard,
     choice: CardUncertainty,
 ) -> UncertainInput:
+    """Return the input with its root as a share of C10."""
     if given.sd_percent is not None:
         return UncertainInput(
             name=name,
             kind=SourceKind.STATED,
             source=f"stated, not tested: {given.sd_percent:g} %",
             quantities=(name,),
-            root=np.array([[given.sd_percent / 100 * c10_mpa]]),
+            root=np.array([[given.sd_percent / 100]]),
         )
     rubber = card.rubbers.get(given.rubber or "")
     if rubber is None:
@@ -214,7 +223,7 @@ def _rubber(
         kind=SourceKind.TEST,
         source=f"{rubber.name} ({own:.4g} MPa): {_listed(specimens)}",
         quantities=(name,),
-        root=np.array([[relative * c10_mpa]]),
+        root=np.array([[relative]]),
     )
 
 

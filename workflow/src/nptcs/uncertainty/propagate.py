@@ -11,7 +11,7 @@ from scipy.stats import qmc
 
 from nptcs.arrays import Array
 from nptcs.uncertainty.inputs import SourceKind, UncertainInput
-from nptcs.uncertainty.response_model import Changes, ResponseModel
+from nptcs.uncertainty.response_model import ResponseModel
 
 NODES = {"normal": (np.sqrt(3.0), 1 / 6), "uniform": (np.sqrt(0.6), 5 / 18)}
 """Outer node and its weight of the three-point Gauss rule; the rest of the weight is in between.
@@ -19,6 +19,9 @@ NODES = {"normal": (np.sqrt(3.0), 1 / 6), "uniform": (np.sqrt(0.6), 5 / 18)}
 Gauss–Hermite for a standard normal, Gauss–Legendre for a uniform on [-1, 1]: exact for
 polynomials of the fifth degree.
 """
+
+MOST_DESIGNS = 1000
+"""Designs whose nodes are evaluated at a time."""
 
 SURFACE = UncertainInput(
     name="surface",
@@ -81,21 +84,46 @@ def moments(model: ResponseModel, inputs: Sequence[UncertainInput], x: Array) ->
     -------
     Moments
     """
-    nominal = model.value(x, {})
-    mean = nominal.copy()
-    variances = []
-    for one in inputs:
-        node, weight = NODES[one.shape]
-        variance = np.zeros(len(x))
-        for column in one.root.T:
-            above = model.value(x, _changes(one, column * node, len(x))) - nominal
-            below = model.value(x, _changes(one, -column * node, len(x))) - nominal
-            shift = weight * (above + below)
-            mean += shift
-            variance += weight * (above**2 + below**2) - shift**2
-        variances.append(variance)
-    variances.append(model.own_sd(x) ** 2)
-    return Moments(nominal, mean, np.column_stack(variances))
+    parts = [x[start : start + MOST_DESIGNS] for start in range(0, len(x), MOST_DESIGNS)]
+    found = [_moments(model, inputs, part) for part in parts]
+    return Moments(
+        np.concatenate([part.nominal for part in found]),
+        np.concatenate([part.mean for part in found]),
+        np.vstack([part.variances for part in found]),
+    )
+
+
+def _moments(model: ResponseModel, inputs: Sequence[UncertainInput], x: Array) -> Moments:
+    """Evaluate the model once, at all nodes of all designs together."""
+    columns = [(one, column) for one in inputs for column in one.root.T]
+    blocks = 1 + 2 * len(columns)
+    changes = {name: np.zeros((blocks, len(x))) for one in inputs for name in one.quantities}
+    for place, (one, column) in enumerate(columns):
+        node = NODES[one.shape][0]
+        for name, step in zip(one.quantities, column, strict=True):
+            scale = x[:, model.factors.index(name)] if one.relative else 1.0
+            changes[name][1 + 2 * place] = node * step * scale
+            changes[name][2 + 2 * place] = -node * step * scale
+    flat = {name: steps.ravel() for name, steps in changes.items()}
+    values = model.value(np.tile(x, (blocks, 1)), flat).reshape(blocks, len(x))
+    nominal = values[0]
+    shifts, variances = [], []
+    for place, (one, _) in enumerate(columns):
+        above, below = values[1 + 2 * place] - nominal, values[2 + 2 * place] - nominal
+        weight = NODES[one.shape][1]
+        shifts.append(weight * (above + below))
+        variances.append(weight * (above**2 + below**2) - shifts[-1] ** 2)
+    by_input = [
+        np.sum(
+            [v for v, (other, _) in zip(variances, columns, strict=True) if other is one], axis=0
+        )
+        for one in inputs
+    ]
+    return Moments(
+        nominal,
+        nominal + np.sum(shifts, axis=0) if shifts else nominal.copy(),
+        np.column_stack([*by_input, model.own_sd(x) ** 2]),
+    )
 
 
 def distribution(
@@ -113,6 +141,7 @@ def distribution(
     Parameters
     ----------
     models : sequence of ResponseModel
+        Of the same factors.
     inputs : sequence of UncertainInput
         A model ignores an input that it cannot follow.
     x : ndarray of shape (n,)
@@ -137,7 +166,8 @@ def distribution(
         start += size
         z = stats.norm.ppf(part) if one.shape == "normal" else 2 * part - 1
         for name, row in zip(one.quantities, one.root, strict=True):
-            changes[name] = changes.get(name, 0.0) + z @ row
+            scale = x[models[0].factors.index(name)] if one.relative else 1.0
+            changes[name] = changes.get(name, 0.0) + scale * (z @ row)
     points = np.repeat(x[None, :], samples, axis=0)
     own = stats.norm.ppf(unit[:, start:])
     return np.column_stack(
@@ -146,7 +176,3 @@ def distribution(
             for place, model in enumerate(models)
         ]
     )
-
-
-def _changes(one: UncertainInput, steps: Array, points: int) -> Changes:
-    return {name: np.full(points, step) for name, step in zip(one.quantities, steps, strict=True)}

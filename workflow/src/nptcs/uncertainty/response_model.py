@@ -147,7 +147,7 @@ class SurfaceResponse:
         return response
 
     def own_sd(self, x: Array) -> Array:
-        """Standard deviation of the prediction interval, at least that of left-out cases."""
+        """Return half the 68 % prediction interval, at least the error at left-out cases."""
         low, high = self.surface.interval(x, ONE_SD)
         return np.maximum((high - low) / 2, self.least_sd)
 

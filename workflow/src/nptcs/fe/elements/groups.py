@@ -49,6 +49,35 @@ class ElementGroup(Protocol):
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
         ...
 
+    def forces(self, displacement: Array) -> tuple[float, Array]:
+        """Energy and forces alone, for a step with the tangents of the last `respond`."""
+        ...
+
+
+class MixedGroup(ElementGroup, Protocol):
+    """Elements whose stresses are unknowns of Newton's method, eliminated in each element.
+
+    They are pressures (elements, modes) of rubber, stresses (elements, points, 6) of stiff parts,
+    MPa. A guess of displacements that stretches what is stiff then spoils neither the tangents nor
+    the steps that follow.
+    """
+
+    def follow(self, step: Array, part: float = 1.0) -> None:
+        """Follow part of a Newton step (nodes, dim) from the last state."""
+        ...
+
+    def inner(self) -> Array:
+        """Return the stresses."""
+        ...
+
+    def put_inner(self, stresses: Array) -> None:
+        """Take stresses that `inner` returned."""
+        ...
+
+    def release(self) -> None:
+        """Forget the stresses: the body is unloaded again."""
+        ...
+
 
 def element_dofs(nodes: Index, dim: int) -> Index:
     """Degrees of freedom (elements, nodes × dim) of elements' nodes."""
@@ -65,17 +94,27 @@ def deformation_gradient(gradient: Array, displacement: Array, frame: Array | No
     frame : array (elements, points, 3, 3) or None
         Q: axes of the local frame in which `gradient` is given, as columns; none for the identity.
     """
-    elements, points, nodes, directions = gradient.shape
-    dim = displacement.shape[2]
-    flat = gradient.transpose(0, 1, 3, 2).reshape(elements, -1, nodes)
-    part = np.matmul(flat, displacement).reshape(elements, points, directions, dim)
+    return _deformation(_by_node(gradient), gradient.shape[3], displacement, frame)
+
+
+def _deformation(left: Array, directions: int, displacement: Array, frame: Array | None) -> Array:
+    """`deformation_gradient` from the gradients by node."""
+    part = _gradients(left, directions, displacement)
+    dim = part.shape[2]
     if frame is None:
-        whole = np.zeros((elements, points, 3, 3))
+        whole = np.zeros((*part.shape[:2], 3, 3))
         whole[..., [0, 1, 2], [0, 1, 2]] = 1.0
     else:
         whole = frame.copy()
-    whole[..., :dim, :directions] += part.swapaxes(2, 3)
+    whole[..., :dim, :directions] += part
     return whole
+
+
+def _gradients(left: Array, directions: int, displacement: Array) -> Array:
+    """Σ u_a ⊗ ∂N_a/∂X, array (elements, points, dim, directions)."""
+    elements, _, dim = displacement.shape
+    part = np.matmul(displacement.swapaxes(1, 2), left).reshape(elements, dim, -1, directions)
+    return part.swapaxes(1, 2)
 
 
 def _by_node(gradient: Array) -> Array:
@@ -156,6 +195,7 @@ class LinearGroup:
     weight: Array
     stiffness: Array
     frame: Array | None = None
+    stress: Array | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
         self._left = _by_node(self.gradient)
@@ -166,28 +206,75 @@ class LinearGroup:
 
     def strain(self, displacement: Array) -> Array:
         """Green–Lagrange strain (elements, points, 6) in the local frame."""
-        return green_strain(
-            deformation_gradient(self.gradient, displacement[self.nodes], self.frame)
-        )
+        return green_strain(self._deformed(displacement))
+
+    def _deformed(self, displacement: Array) -> Array:
+        directions = self.gradient.shape[3]
+        return _deformation(self._left, directions, displacement[self.nodes], self.frame)
+
+    def _of_strain(self, strain: Array) -> Array:
+        return np.matmul(self.stiffness, strain[..., None])[..., 0]
 
     def respond(self, displacement: Array) -> Response:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
         dim, directions = displacement.shape[1], self.gradient.shape[3]
-        deformation = deformation_gradient(self.gradient, displacement[self.nodes], self.frame)
-        strain = green_strain(deformation)
-        stress = np.matmul(self.stiffness, strain[..., None])[..., 0] * self.weight[..., None]
-        energy = 0.5 * float(np.sum(stress * strain))
-        full = stress[..., VOIGT]
-        piola = np.matmul(deformation, full)[..., :dim, :directions]
+        self._last = self._deformed(displacement)
+        self._strain = green_strain(self._last)
+        weight = self.weight[..., None, None]
+        stress = self._of_strain(self._strain)
+        energy = 0.5 * float(np.sum(self.weight[..., None] * stress * self._strain))
+        piola = weight * np.matmul(self._last, stress[..., VOIGT])
+        force = _internal_force(self._left, piola[..., :dim, :directions])
         # A_iJjL = F_iM C_MJNL F_jN + δ_ij S_JL, kept in the order J, i, j, L
-        rows = deformation[..., :dim, :]
+        rows = self._last[..., :dim, :]
         half = np.einsum("egiM,gMJNL->egiJNL", rows, self._material)
         moduli = np.einsum("egiJNL,egjN->egJijL", half, rows, optimize=True)
-        moduli *= self.weight[..., None, None, None, None]
+        carried = (stress if self.stress is None else self.stress)[..., VOIGT]
         for i in range(dim):
-            moduli[:, :, :, i, i, :] += full[..., :directions, :directions]
-        tangent = _tangent(self._left, self._columns, moduli)
-        return Response(energy, _internal_force(self._left, piola), tangent)
+            moduli[:, :, :, i, i, :] += carried[..., :directions, :directions]
+        moduli *= weight[..., None, None]
+        return Response(energy, force, _tangent(self._left, self._columns, moduli))
+
+    def forces(self, displacement: Array) -> tuple[float, Array]:
+        """Energy and forces, the stresses eliminated as in the last `respond`."""
+        dim, directions = displacement.shape[1], self.gradient.shape[3]
+        deformation = self._deformed(displacement)
+        self._strain = green_strain(deformation)
+        stress = self._of_strain(self._strain)
+        energy = 0.5 * float(np.sum(self.weight[..., None] * stress * self._strain))
+        own = stress if self.stress is None else self.stress
+        piola = np.matmul(deformation, own[..., VOIGT])
+        piola += np.matmul(self._last, (stress - own)[..., VOIGT])
+        piola *= self.weight[..., None, None]
+        return energy, _internal_force(self._left, piola[..., :dim, :directions])
+
+    def follow(self, step: Array, part: float = 1.0) -> None:
+        """Follow part of a Newton step (nodes, dim) from the last state: S = C (E + B du)."""
+        directions = self.gradient.shape[3]
+        change = _gradients(self._left, directions, step[self.nodes])
+        dim = change.shape[2]
+        both = np.matmul(self._last[..., :dim, :].swapaxes(-1, -2), change)
+        added = np.zeros_like(self._strain)
+        for place, (i, j) in enumerate(zip(_I, _J, strict=True)):
+            if j < directions:
+                added[..., place] += both[..., i, j]
+                if i != j:
+                    added[..., place] += both[..., j, i]
+        reached = self._of_strain(self._strain + added)
+        own = self.inner()
+        self.stress = own + part * (reached - own)
+
+    def inner(self) -> Array:
+        """Return the stresses of the points, MPa; before a step those of the displacements."""
+        return self._of_strain(self._strain) if self.stress is None else self.stress
+
+    def put_inner(self, stresses: Array) -> None:
+        """Take stresses that `inner` returned."""
+        self.stress = stresses
+
+    def release(self) -> None:
+        """Forget the stresses: they are those of the displacements again."""
+        self.stress = None
 
 
 @dataclass
@@ -231,6 +318,7 @@ class RubberGroup:
         elements, points, nodes, _ = self.gradient.shape
         size, modes = nodes * displacement.shape[1], self.pressure.shape[1]
         self._coupling = np.empty((elements, size, modes))
+        self._lift = np.empty((elements, size, modes))
         self._mismatch = np.empty((elements, modes))
         whole = Response(0.0, np.empty((elements, size)), np.empty((elements, size, size)))
         few = max(1, CACHE_BYTES // (8 * points * size))
@@ -238,11 +326,31 @@ class RubberGroup:
             self._respond(slice(first, first + few), displacement, whole)
         return whole
 
+    def forces(self, displacement: Array) -> tuple[float, Array]:
+        """Energy and forces, the pressures eliminated as in the last `respond`.
+
+        A step solved with the tangents of that `respond` goes with these forces: Newton's method
+        with an older matrix, for displacements and pressures.
+        """
+        dim, directions = displacement.shape[1], self.gradient.shape[3]
+        deformation = _deformation(self._left, directions, displacement[self.nodes], None)
+        law = neo_hookean(self.c10_mpa, deformation, self.pressure @ self.pressure_shape.T)
+        opened = (self.weight * (law.volume - 1.0)) @ self.pressure_shape
+        taken = np.einsum("emk,ek->em", self._mass, self.pressure) / self.bulk_mpa
+        self._mismatch = opened - taken
+        energy = float(np.sum(self.weight * law.energy))
+        energy += float(np.sum(self.pressure * (opened - 0.5 * taken)))
+        scale, across = self.weight * law.scale, self.weight * (law.pull - law.third)
+        stress = scale[..., None, None] * deformation + across[..., None, None] * law.inverse
+        force = _internal_force(self._left, stress[..., :dim, :directions])
+        return energy, force + np.matmul(self._lift, self._mismatch[..., None])[..., 0]
+
     def _respond(self, part: slice, displacement: Array, whole: Response) -> None:
         """Fill in the response of some elements."""
         gradient, weight, own = self.gradient[part], self.weight[part], self.pressure[part]
         dim, directions = displacement.shape[1], gradient.shape[3]
-        deformation = deformation_gradient(gradient, displacement[self.nodes[part]], None)
+        local = displacement[self.nodes[part]]
+        deformation = _deformation(self._left[part], directions, local, None)
         law = neo_hookean(self.c10_mpa, deformation, own @ self.pressure_shape.T)
         turned = _products(gradient, law.inverse[..., :dim, :directions])
         moved = _products(gradient, deformation[..., :dim, :directions])
@@ -256,7 +364,7 @@ class RubberGroup:
         self._coupling[part], self._mismatch[part] = coupling, opened - taken
         whole.energy += float(np.sum(weight * law.energy))
         whole.energy += float(np.sum(own * (opened - 0.5 * taken)))
-        lift = np.matmul(coupling, self._inverse_mass[part])
+        lift = np.matmul(coupling, self._inverse_mass[part], out=self._lift[part])
         force = np.sum(scale * moved + (pull - third) * turned, axis=1)
         whole.force[part] = force + np.einsum("enm,em->en", lift, opened - taken)
         # half of what is symmetric under the exchange of the two unknowns
@@ -269,8 +377,20 @@ class RubberGroup:
         along = np.repeat(weighted[0], directions, axis=1)
         _add_isotropic(tangent, self._left[part], along, dim)
 
-    def update_pressure(self, step: Array, part: float = 1.0) -> None:
+    def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: κ M⁻¹ (r_p + Gᵀ du)."""
         local = step[self.nodes].reshape(len(self.nodes), -1)
         rhs = self._mismatch + np.einsum("enm,en->em", self._coupling, local)
         self.pressure = self.pressure + part * np.einsum("emk,ek->em", self._inverse_mass, rhs)
+
+    def inner(self) -> Array:
+        """Return the pressures."""
+        return self.pressure
+
+    def put_inner(self, stresses: Array) -> None:
+        """Take pressures that `inner` returned."""
+        self.pressure = stresses
+
+    def release(self) -> None:
+        """Forget the pressures."""
+        self.pressure = np.zeros_like(self.pressure)

@@ -48,19 +48,20 @@ class StraightGroup:
         energy: Array = 0.5 * np.einsum("rb,rbi->r", self.spring, bowed**2)
         return energy
 
+    def forces(self, displacement: Array) -> tuple[float, Array]:
+        """Energy and forces for nodal displacements (nodes, 3)."""
+        pull = self.spring[..., None] * np.matmul(self.bow, displacement[self.nodes])
+        force = np.matmul(self.bow.T, pull).reshape(len(self.nodes), -1)
+        return float(np.sum(self.energies(displacement))), force
+
     def respond(self, displacement: Array) -> Response:
         """Energy, forces and tangents for nodal displacements (nodes, 3)."""
-        pull = self.spring[..., None] * np.matmul(self.bow, displacement[self.nodes])
         stiffness = np.matmul(self.bow.T, self.spring[..., None] * self.bow)
         rows, count = self.nodes.shape
         tangent = np.zeros((rows, count, 3, count, 3))
         for axis in range(3):
             tangent[:, :, axis, :, axis] = stiffness
-        return Response(
-            float(np.sum(self.energies(displacement))),
-            np.matmul(self.bow.T, pull).reshape(rows, -1),
-            tangent.reshape(rows, 3 * count, 3 * count),
-        )
+        return Response(*self.forces(displacement), tangent.reshape(rows, 3 * count, 3 * count))
 
 
 def straight_group(plate: ElementSet, plate_columns: int, e2_mpa: float) -> StraightGroup:

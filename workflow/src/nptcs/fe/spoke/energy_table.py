@@ -10,7 +10,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import chebyshev
 
 from nptcs.arrays import Array, Index
 from nptcs.config.fe import EnergyTableOptions
@@ -116,14 +115,25 @@ def _lines(local: Array, exponents: Index) -> list[list[Array]]:
     lines: list[list[Array]] = []
     for axis in range(3):
         degrees = exponents[:, axis]
-        unit = np.eye(int(degrees.max()) + 1)
-        axis_lines: list[Array] = []
-        for order in range(3):
-            derived = chebyshev.chebder(unit, order, axis=0) if order else unit
-            values = chebyshev.chebval(local[:, axis], derived)
-            axis_lines.append(np.atleast_2d(values).T[:, degrees].astype(float))
-        lines.append(axis_lines)
+        values = _polynomials(local[:, axis], int(degrees.max()))
+        lines.append([order[:, degrees] for order in values])
     return lines
+
+
+def _polynomials(x: Array, degree: int) -> Array:
+    """Chebyshev polynomials T_n and their first two derivatives, array (3, points, degree + 1).
+
+    T_{n+1} = 2 x T_n - T_{n-1}, differentiated once and twice.
+    """
+    values = np.zeros((degree + 1, 3, len(x)))
+    values[0, 0] = 1.0
+    if degree:
+        values[1, 0], values[1, 1] = x, 1.0
+    for n in range(1, degree):
+        values[n + 1] = 2.0 * x * values[n] - values[n - 1]
+        values[n + 1, 1] += 2.0 * values[n, 0]
+        values[n + 1, 2] += 4.0 * values[n, 1]
+    return np.moveaxis(values, 0, 2)
 
 
 def _term(lines: list[list[Array]], orders: tuple[int, int, int]) -> Array:

@@ -14,10 +14,14 @@ from nptcs.fe.spoke.period import SpokeDesign, SpokePeriod
 
 MAX_ITERATIONS = 14
 SMALLEST_CUT = 1.0 / 16.0
+LARGEST_STEP_MM = 30.0
 # work of the step that is left, in parts of the energy, unless another value is given
 STRICT_WORK = 1e-9
-# first step's work, in parts of the energy, from which a corrected guess is not worth following
-FARTHEST_WORK = 1.0
+# an older matrix is followed while each step leaves less than this part of the last one's work
+FOLLOWED = 0.25
+# work to which an older matrix is followed, in parts of the accepted work: the matrix of the state
+# itself, which is computed then, has its tangent to first order in the step that is left
+BELOW_ACCEPTED = 1e-2
 # misfit between energy and work along a row, in parts of the energy, on one equilibrium path
 SAME_PATH = 0.05
 
@@ -46,6 +50,8 @@ class SpokeState:
         Derivatives of the inner displacements with respect to the motion.
     pressures : list of arrays
         Pressures of the rubber's groups.
+    stresses : list of arrays
+        Stresses of the plates' groups.
     """
 
     motion: Array
@@ -55,22 +61,16 @@ class SpokeState:
     tangent: Array
     sensitivity: Array
     pressures: list[Array]
+    stresses: list[Array]
 
 
 @dataclass(frozen=True)
 class SpokeFields:
-    """Displacements (nodes, 3) in mm and pressures of the rubber's groups in MPa."""
+    """Displacements (nodes, 3) in mm, pressures of rubber and stresses of plates in MPa."""
 
     displacement: Array
     pressures: Sequence[Array]
-
-    def plus(self, other: SpokeFields, factor: float = 1.0) -> SpokeFields:
-        """Add other fields, or a multiple of them."""
-        pressures = zip(self.pressures, other.pressures, strict=True)
-        return SpokeFields(
-            self.displacement + factor * other.displacement,
-            [own + factor * added for own, added in pressures],
-        )
+    stresses: Sequence[Array]
 
 
 def _joined(last: SpokeState, state: SpokeState) -> bool:
@@ -106,7 +106,8 @@ class SpokeModel(SpokePeriod):
     def rest(self) -> SpokeState:
         """Return the unloaded spoke: no energy and no force, not even of rounding."""
         pressures = [np.zeros_like(group.pressure) for group in self.rubbers]
-        unloaded = SpokeFields(np.zeros_like(self.mesh.positions), pressures)
+        stresses = [np.zeros((*group.weight.shape, 6)) for group in self.plates]
+        unloaded = SpokeFields(np.zeros_like(self.mesh.positions), pressures, stresses)
         return replace(self.settle(np.zeros(3), unloaded), energy=0.0, force=np.zeros(3))
 
     def move(self, state: SpokeState, motion: Array) -> SpokeState:
@@ -146,57 +147,37 @@ class SpokeModel(SpokePeriod):
             before, last = last, self.next_state(before, last, motion)
             yield last
 
-    def next_state(
-        self,
-        before: SpokeState | None,
-        last: SpokeState,
-        motion: Array,
-        correction: SpokeFields | None = None,
-    ) -> SpokeState:
+    def next_state(self, before: SpokeState | None, last: SpokeState, motion: Array) -> SpokeState:
         """Go on along the last two states of a row.
 
-        Newton's method begins at what `extrapolated` gives, with the correction if there is one;
-        where it does not converge, `move` goes on from the last state.
+        Newton's method begins at the cubic through them; where it does not converge, or leaves
+        the equilibrium path, `move` goes on from the last state.
 
         Raises
         ------
         SpokeError
             As `move`.
         """
-        guess = self.extrapolated(before, last, motion)
-        state = None
-        if correction is not None:
-            state = self._found(motion, guess.plus(correction), FARTHEST_WORK)
-            state = state if state is not None and _joined(last, state) else None
-        if state is None and before is not None:
-            state = self._found(motion, guess)
-        return state or self.move(last, motion)
-
-    def _found(
-        self, motion: Array, guess: SpokeFields, farthest_work: float = np.inf
-    ) -> SpokeState | None:
-        """Settle from a guess, or give None where the iteration from there fails."""
-        try:
-            return self.settle(motion, guess, farthest_work)
-        except (FloatingPointError, np.linalg.LinAlgError):
-            return None
-
-    def extrapolated(
-        self, before: SpokeState | None, last: SpokeState, motion: Array
-    ) -> SpokeFields:
-        """Extrapolate the cubic through two states and their derivatives, or the line of one."""
-        if before is None:
-            return self._linear_guess(last, motion)
-        return self._cubic_guess(before, last, motion)
+        if before is not None:
+            try:
+                state = self.settle(motion, self._cubic_guess(before, last, motion))
+                if _joined(last, state):
+                    return state
+            except (FloatingPointError, np.linalg.LinAlgError):
+                pass
+        return self.move(last, motion)
 
     def _linear_guess(self, state: SpokeState, motion: Array) -> SpokeFields:
         guess = state.displacement.copy()
         guess.reshape(-1)[self._free] += state.sensitivity @ (motion - state.motion)
         guess[self.mesh.top] = self.band_motion(motion)
-        return SpokeFields(guess, state.pressures)
+        return SpokeFields(guess, state.pressures, state.stresses)
 
     def _cubic_guess(self, before: SpokeState, last: SpokeState, motion: Array) -> SpokeFields:
-        """Extrapolate the cubic through two states on the parabola through the three motions."""
+        """Extrapolate the cubic through two states on the parabola through the three motions.
+
+        Pressures and stresses follow the line through those of the two states.
+        """
         way, whole = last.motion - before.motion, motion - before.motion
         t = float(whole @ way / (way @ way))
         bend = (whole - t * way) / (t * (t - 1.0))
@@ -207,54 +188,74 @@ class SpokeModel(SpokePeriod):
         inner += slopes[0] * (before.sensitivity @ (way - bend))
         inner += slopes[1] * (last.sensitivity @ (way + bend))
         guess[self.mesh.top] = self.band_motion(motion)
-        return SpokeFields(guess, last.pressures)
+        return SpokeFields(
+            guess,
+            [
+                b + (t - 1.0) * (b - a)
+                for a, b in zip(before.pressures, last.pressures, strict=True)
+            ],
+            [b + (t - 1.0) * (b - a) for a, b in zip(before.stresses, last.stresses, strict=True)],
+        )
 
-    def settle(
-        self, motion: Array, guess: SpokeFields, farthest_work: float = np.inf
-    ) -> SpokeState:
+    def settle(self, motion: Array, guess: SpokeFields) -> SpokeState:
         """Newton's method at a fixed motion of the band.
+
+        Each matrix is used for as many steps as it is good for, each of which costs a sixth of one
+        with a new matrix. The state that is accepted has its own.
 
         Parameters
         ----------
         motion : array (3,)
         guess : SpokeFields
             Its nodes on the band have the motion.
-        farthest_work : float
-            Work of the first step, in parts of the energy, above which the guess is given up.
 
         Raises
         ------
         FloatingPointError
-            If the iteration does not converge, or the guess is too far.
+            If the iteration does not converge.
         numpy.linalg.LinAlgError
             If a state on the way is unstable.
         """
         displacement = guess.displacement
-        for group, pressure in zip(self.rubbers, guess.pressures, strict=True):
-            group.pressure = pressure
-        for count in range(MAX_ITERATIONS):
+        for group, inner in zip(self.mixed, [*guess.pressures, *guess.stresses], strict=True):
+            group.put_inner(inner)
+        for _ in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
             factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
-            free = force[self._free]
-            step = np.zeros_like(displacement)
-            step.reshape(-1)[self._free] = -factor.solve(free)
-            work = -float(step.reshape(-1)[self._free] @ free)
+            step, work = self._step(factor, force)
             energy = sum(response.energy for response in responses)
-            if not np.isfinite(work):
-                raise FloatingPointError("the iteration has left the range of numbers")
-            size = max(abs(energy), 1e-6)
-            if count == 0 and work > farthest_work * size:
-                raise FloatingPointError("the guess is too far from an equilibrium")
-            if work < self._accepted_work * size:
+            accepted = self._accepted_work * max(abs(energy), 1e-6)
+            if work < accepted:
                 energy -= 0.5 * work
                 return self._condense(motion, displacement, responses, force, factor, energy)
-            largest = float(np.abs(step).max())
-            if largest > 30.0:
-                raise FloatingPointError(f"an iteration moves a node by {largest:.0f} mm")
-            displacement = displacement + step
-            for group in self.rubbers:
-                group.update_pressure(step)
+            displacement = self._followed(displacement, factor, step, work, accepted)
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
+
+    def _step(self, factor: BlockCholesky, force: Array) -> tuple[Array, float]:
+        """Newton step (nodes, 3) in mm for these forces, and its work, N mm."""
+        free = force[self._free]
+        step = np.zeros(self._count)
+        step[self._free] = -factor.solve(free)
+        work = -float(step[self._free] @ free)
+        if not np.isfinite(work):
+            raise FloatingPointError("the iteration has left the range of numbers")
+        largest = float(np.abs(step).max())
+        if largest > LARGEST_STEP_MM:
+            raise FloatingPointError(f"an iteration moves a node by {largest:.0f} mm")
+        return step.reshape(-1, 3), work
+
+    def _followed(
+        self, displacement: Array, factor: BlockCholesky, step: Array, work: float, accepted: float
+    ) -> Array:
+        """Take a step, and more with the same matrix as long as their work shrinks."""
+        while True:
+            displacement = displacement + step
+            for group in self.mixed:
+                group.follow(step)
+            before = work
+            step, work = self._step(factor, self._forces(displacement)[1])
+            if work < BELOW_ACCEPTED * accepted or work > FOLLOWED * before:
+                return displacement
 
     def _condense(
         self,
@@ -283,4 +284,5 @@ class SpokeModel(SpokePeriod):
             tangent=self.scale * 0.5 * (tangent + tangent.T),
             sensitivity=sensitivity,
             pressures=[group.pressure.copy() for group in self.rubbers],
+            stresses=[group.inner() for group in self.plates],
         )

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import assert_never
 
@@ -10,7 +10,12 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
-from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
+from nptcs.fe.elements.groups import (
+    ElementGroup,
+    MixedGroup,
+    Response,
+    element_dofs,
+)
 from nptcs.fe.matrices.block_tridiagonal import BlockPattern
 from nptcs.fe.spoke.element_groups import plate_groups, rubber_group
 from nptcs.fe.spoke.embedded_plates import straight_group
@@ -79,6 +84,11 @@ class SpokePeriod:
         self.scale = float(design.plates)
 
     @property
+    def mixed(self) -> list[MixedGroup]:
+        """Element groups with unknown stresses of their own."""
+        return [*self.rubbers, *self.plates]
+
+    @property
     def groups(self) -> list[ElementGroup]:
         """All element groups, and what holds the plates straight."""
         return [*self.rubbers, *self.plates, *self.embedding]
@@ -105,10 +115,18 @@ class SpokePeriod:
 
     def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
         responses = [group.respond(displacement) for group in self.groups]
+        return responses, self._summed([response.force for response in responses])
+
+    def _forces(self, displacement: Array) -> tuple[float, Array]:
+        """Energy, and forces on all dofs for a step with the tangents of the last response."""
+        energies, forces = zip(*(group.forces(displacement) for group in self.groups), strict=True)
+        return sum(energies), self._summed(forces)
+
+    def _summed(self, forces: Sequence[Array]) -> Array:
         force = np.zeros(self._count)
-        for dofs, response in zip(self._dofs, responses, strict=True):
-            force += np.bincount(dofs.ravel(), response.force.ravel(), minlength=self._count)
-        return responses, force
+        for dofs, part in zip(self._dofs, forces, strict=True):
+            force += np.bincount(dofs.ravel(), part.ravel(), minlength=self._count)
+        return force
 
     def _top_product(self, responses: list[Response], slope: Array) -> Array:
         """Tangent times displacements of the top nodes (top dofs, n): array (all dofs, n)."""

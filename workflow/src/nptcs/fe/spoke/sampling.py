@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
 from itertools import product
 
 import numpy as np
@@ -18,12 +18,11 @@ from nptcs.fe.spoke.energy_table import (
     fit,
     side_part,
 )
-from nptcs.fe.spoke.equilibrium import SpokeError, SpokeFields, SpokeModel, SpokeState
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel, SpokeState
 from nptcs.fe.spoke.period import SpokeDesign
 
 # numbers of the row (β, φ) and of the level of s
 Place = tuple[int, int]
-Corrections = Callable[[Place], SpokeFields | None]
 # level of s = 0, where each row starts
 START = -1
 
@@ -79,7 +78,7 @@ class Grid:
         small = abs(beta) < 1e-12 and abs(phi) < 1e-12
         if small or self._options.side_states == "every":
             return tuple(self._levels)
-        return tuple(level for level in self._levels if (level + colour) % 2 == 0)
+        return tuple(level for level in self._levels if (level + colour) % 2)
 
     def motions(self, row: Row, levels: Sequence[int]) -> Array:
         """Motions (n, 3) of a row at these levels."""
@@ -89,21 +88,7 @@ class Grid:
         return motion_of(coordinates, self._height_mm)[0]
 
 
-def no_correction(place: Place) -> None:
-    """Leave every state to be found from its neighbours alone."""
-
-
-@dataclass
-class SampledSpoke:
-    """A spoke's states, and by what each differs from the extrapolation of those before it."""
-
-    states: dict[Place, SpokeState]
-    corrections: dict[Place, SpokeFields]
-
-
-def sampled_states(
-    model: SpokeModel, options: EnergyTableOptions, corrections: Corrections = no_correction
-) -> SampledSpoke:
+def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place, SpokeState]:
     """Compute the spoke's states on the table's grid, walking from level to level.
 
     Where a row loses its stability in compression, the states of all rows end at its last level.
@@ -112,9 +97,6 @@ def sampled_states(
     ----------
     model : SpokeModel
     options : EnergyTableOptions
-    corrections : callable
-        Gives, for a place, what is added to the extrapolation of the states before it, or None.
-        It determines where an iteration begins, not where it ends.
 
     Raises
     ------
@@ -122,7 +104,7 @@ def sampled_states(
         If a state in tension or of the unloaded radius is not found.
     """
     grid = Grid(options, model.design.geometry.height_mm)
-    walk = _Walk(model, grid, corrections, SampledSpoke({}, {}))
+    walk = _Walk(model, grid)
     start, lowest = model.rest(), 0
     for row in grid.rows():
         start = walk.along(row, start, [START])
@@ -131,10 +113,8 @@ def sampled_states(
         try:
             walk.along(row, start, [level for level in reversed(row.levels) if level not in up])
         except SpokeError:
-            lowest = max(lowest, _last_level(model, grid, row, walk.found.states))
-    states = walk.found.states.items()
-    walk.found.states = {at: state for at, state in states if not 0 <= at[1] < lowest}
-    return walk.found
+            lowest = max(lowest, _last_level(model, grid, row, walk.found))
+    return {at: state for at, state in walk.found.items() if not 0 <= at[1] < lowest}
 
 
 @dataclass(frozen=True)
@@ -143,20 +123,14 @@ class _Walk:
 
     model: SpokeModel
     grid: Grid
-    corrections: Corrections
-    found: SampledSpoke
+    found: dict[Place, SpokeState] = field(default_factory=dict)
 
     def along(self, row: Row, start: SpokeState, levels: Sequence[int]) -> SpokeState:
         """Go from a state through these levels of a row, and give the last state."""
         before, last = None, start
         for level, motion in zip(levels, self.grid.motions(row, levels), strict=True):
-            place = (row.number, level)
-            guess = self.model.extrapolated(before, last, motion)
-            state = self.model.next_state(before, last, motion, self.corrections(place))
-            self.found.states[place] = state
-            reached = SpokeFields(state.displacement, state.pressures)
-            self.found.corrections[place] = reached.plus(guess, -1.0)
-            before, last = last, state
+            before, last = last, self.model.next_state(before, last, motion)
+            self.found[row.number, level] = last
         return last
 
 
@@ -191,27 +165,10 @@ def samples_of(states: Mapping[Place, SpokeState], height_mm: float) -> SpokeSam
 
 def sample(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
     """Sample a spoke for its table, see `sampled_states`."""
-    return samples_of(sampled_states(model, options).states, model.design.geometry.height_mm)
+    return samples_of(sampled_states(model, options), model.design.geometry.height_mm)
 
 
-def computed_table(
-    design: SpokeDesign, options: EnergyTableOptions, corrections: Corrections = no_correction
-) -> tuple[SpokeEnergyTable, dict[Place, SpokeFields]]:
-    """Compute the energy table of one spoke, and what may help to compute that of another.
-
-    Parameters
-    ----------
-    design : SpokeDesign
-    options : EnergyTableOptions
-    corrections : callable
-        Of the place of a state in the table's grid, see `sampled_states`.
-
-    Returns
-    -------
-    table : SpokeEnergyTable
-    corrections : dict of place to SpokeFields
-        This spoke's own.
-    """
-    height_mm = design.geometry.height_mm
-    sampled = sampled_states(SpokeModel(design, options.accepted_work), options, corrections)
-    return fit(samples_of(sampled.states, height_mm), options, height_mm), sampled.corrections
+def computed_table(design: SpokeDesign, options: EnergyTableOptions) -> SpokeEnergyTable:
+    """Compute the energy table of one spoke."""
+    samples = sample(SpokeModel(design, options.accepted_work), options)
+    return fit(samples, options, design.geometry.height_mm)

@@ -41,6 +41,25 @@ class ContactResponse:
     reaction_slope: float
 
 
+@dataclass(frozen=True)
+class ContactCells:
+    """Parts of the tread, each with the pressure of its contact point.
+
+    Parameters
+    ----------
+    low_mm, high_mm : arrays (cells,)
+        Where each part begins and ends along the ground.
+    pressure_mpa : array (cells,)
+    length_mm : array (cells,)
+        Unloaded length, on which the pressure acts.
+    """
+
+    low_mm: Array
+    high_mm: Array
+    pressure_mpa: Array
+    length_mm: Array
+
+
 class Ground:
     """The rigid plane y = -R + δ under the tread's outer edges.
 
@@ -71,7 +90,12 @@ class Ground:
         self._shape, slope = line_shape(edges.shape[1] - 1, points)
         tangent = np.einsum("gn,eni->egi", slope, positions[edges])
         length = np.linalg.norm(tangent, axis=2) * weights
-        self.point_length_mm = length.ravel()
+        self._length = length
+        # where the parts of an edge that its points stand for begin and end
+        ends = np.clip(np.cumsum([-1.0, *weights]), -1.0, 1.0)
+        self._end_shape, _ = line_shape(edges.shape[1] - 1, ends)
+        self._at_nodes = np.array_equal(points, [-1.0, 1.0])
+        self._positions = positions
         self._area = length * width_mm
         self._edges = edges
         self._options = options
@@ -155,6 +179,21 @@ class Ground:
         """Place x (mm) and pressure (MPa) of all contact points, in the order of θ."""
         along, pressure, *_ = self._state(displacement, rise_mm)
         return (self._place[..., 0] + along).ravel(), pressure.ravel()
+
+    def cells(self, displacement: Array, rise_mm: float) -> ContactCells:
+        """Parts of the tread that the contact points stand for, in the order of θ."""
+        x = (self._positions + displacement)[self._edges][..., 0]
+        ends = np.einsum("gn,en->eg", self._end_shape, x)
+        _, pressure, *_ = self._state(displacement, rise_mm)
+        if self._at_nodes:
+            # a node stands for half of the edges on both sides of it
+            half, length = ends[:, 1], self._length
+            return ContactCells(
+                half, np.roll(half, -1), pressure[:, 1], length[:, 1] + np.roll(length[:, 0], -1)
+            )
+        return ContactCells(
+            ends[:, :-1].ravel(), ends[:, 1:].ravel(), pressure.ravel(), self._length.ravel()
+        )
 
     def energy(self, displacement: Array, rise_mm: float) -> float:
         """Energy stored in the normal penalty, N mm."""

@@ -8,7 +8,7 @@ from nptcs.arrays import Array, Index
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
-from nptcs.fe.tyre.mesh import Orders, RingMesh
+from nptcs.fe.tyre.mesh import MEMBRANES, Orders, RingMesh
 
 Rule = tuple[Array, Array]
 
@@ -48,7 +48,7 @@ def wire_groups(ring: RingMesh, tyre: TyreGeometry) -> list[LinearGroup]:
         for nodes, place in zip(ring.wire_elements, ring.wire_places, strict=True)
         for group in (
             _membrane(ring, nodes, place, tyre.wire_modulus_mpa, area)
-            if ring.wire_orders == (1, 1)
+            if ring.wire_orders == MEMBRANES
             else _beam(ring, nodes, tyre, area)
         )
     ]

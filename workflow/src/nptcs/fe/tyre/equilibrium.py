@@ -10,7 +10,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.fe import GroundContact, PaperMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
-from nptcs.fe.elements.groups import ElementGroup, Response, element_dofs
+from nptcs.fe.elements.groups import MixedGroup, Response, element_dofs
 from nptcs.fe.matrices.cyclic import BandedPattern, folded_order
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable, TableRangeError
 from nptcs.fe.tyre.contact import Ground
@@ -24,6 +24,8 @@ CALM_ITERATIONS = 6
 # a soft ground hardens when the steps are this small
 SETTLED_MM = 0.05
 LARGEST_STEP_MM = 6.0
+# last step, after which Newton's method is right to the square of it
+CONVERGED_MM = 1e-5
 SMALLEST_STEP_N = 2.0
 # a step may be this much softer than the last one: beyond that it is another equilibrium
 LARGEST_SOFTENING = 1.4
@@ -75,6 +77,27 @@ class _Trial:
     internal: Array
 
 
+@dataclass(frozen=True)
+class _Point:
+    """A loaded tyre on its path: ring displacements (nodes, 2) mm, ground's rise, stresses MPa."""
+
+    force_n: float
+    displacement: Array
+    rise_mm: float
+    stresses: list[Array]
+
+
+def _extrapolated(before: _Point, last: _Point, force_n: float) -> _Point:
+    """Extrapolate the line of the load through two points."""
+    part = (force_n - last.force_n) / (last.force_n - before.force_n)
+    return _Point(
+        force_n,
+        last.displacement + part * (last.displacement - before.displacement),
+        last.rise_mm + part * (last.rise_mm - before.rise_mm),
+        [b + part * (b - a) for a, b in zip(before.stresses, last.stresses, strict=True)],
+    )
+
+
 def _check_branch(path: LoadPath, force_n: float, rise_mm: float) -> None:
     """Refuse a step that has left for another equilibrium, in which wires have buckled.
 
@@ -121,7 +144,7 @@ class TyreModel:
         ring = self.mesh
         self.rubbers = ring_rubbers(ring, tyre.tread_width_mm, c10_mpa, bulk_to_shear_ratio)
         self.wires = wire_groups(ring, tyre)
-        self._bodies: list[ElementGroup] = [*self.rubbers, *self.wires]
+        self._bodies: list[MixedGroup] = [*self.rubbers, *self.wires]
         self.ground = Ground(
             ring.positions, ring.tread_edges, ring.contact_rule, tyre.tread_width_mm, contact
         )
@@ -210,13 +233,13 @@ class TyreModel:
             move = step.reshape(-1, 2)
             displacement = displacement + damp * move
             rise += damp * change
-            for group in self.rubbers:
-                group.update_pressure(move, damp)
+            for group in self._bodies:
+                group.follow(move, damp)
             if self.ground.soft:
                 if largest < SETTLED_MM:
                     self.ground.harden()
                     before, part, calm = np.inf, 1.0, count + CALM_ITERATIONS
-            elif largest < 1e-6 and abs(change) < 1e-6:
+            elif max(largest, abs(change)) < CONVERGED_MM:
                 return displacement, rise
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
 
@@ -231,24 +254,23 @@ class TyreModel:
         path = LoadPath()
         self.ground.release()
         try:
-            displacement, rise, reached = self._first_touch(path)
+            before, last = None, self._first_touch(path)
             for load in loads_n:
-                while reached < load:
-                    displacement, rise, reached = self._advance(
-                        displacement, rise, reached, load, path
-                    )
+                while last.force_n < load:
+                    before, last = last, self._advance(before, last, load, path)
         except (FloatingPointError, TableRangeError) as error:
             last = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
             raise TyreError(f"{error}; {last}", path) from error
-        return TyreState(displacement, rise, self.spoke_motion(displacement), path)
+        motion = self.spoke_motion(last.displacement)
+        return TyreState(last.displacement, last.rise_mm, motion, path)
 
-    def _first_touch(self, path: LoadPath) -> tuple[Array, float, float]:
+    def _first_touch(self, path: LoadPath) -> _Point:
         """Raise the ground a little under the unloaded tyre, by less if that does not converge."""
         rise = FIRST_RISE_MM
         while True:
             displacement = np.zeros_like(self.mesh.positions)
-            for group in self.rubbers:
-                group.pressure[:] = 0.0
+            for group in self._bodies:
+                group.release()
             self.ground.soften()
             try:
                 displacement, _ = self._newton(displacement, rise, None, path)
@@ -261,30 +283,38 @@ class TyreModel:
             reached = self.ground.respond(displacement, rise).reaction_n
             path.force_n.append(reached)
             path.rise_mm.append(rise)
-            return displacement, rise, reached
+            return self._point(reached, displacement, rise)
 
-    def _advance(
-        self, displacement: Array, rise: float, reached: float, load: float, path: LoadPath
-    ) -> tuple[Array, float, float]:
-        """One load step, halved until it converges."""
-        step = load - reached
-        pressures = [group.pressure.copy() for group in self.rubbers]
+    def _point(self, force_n: float, displacement: Array, rise_mm: float) -> _Point:
+        stresses = [group.inner() for group in self._bodies]
+        return _Point(force_n, displacement, rise_mm, stresses)
+
+    def _advance(self, before: _Point | None, last: _Point, load: float, path: LoadPath) -> _Point:
+        """One load step from the last point, halved until it converges.
+
+        Newton's method begins on the line through the last two points; where it does not converge
+        from there, at the last point.
+        """
+        step = load - last.force_n
+        start = last if before is None else _extrapolated(before, last, load)
         while True:
-            target = load if step >= load - reached else reached + step
+            target = load if step >= load - last.force_n else last.force_n + step
+            for group, stresses in zip(self._bodies, start.stresses, strict=True):
+                group.put_inner(stresses)
             try:
-                moved, new_rise = self._newton(displacement, rise, target, path)
-                _check_branch(path, target, new_rise)
+                moved, rise = self._newton(start.displacement, start.rise_mm, target, path)
+                _check_branch(path, target, rise)
             except (FloatingPointError, TableRangeError):
-                step /= 2.0
-                if step < SMALLEST_STEP_N:
-                    raise
-                for group, pressure in zip(self.rubbers, pressures, strict=True):
-                    group.pressure = pressure.copy()
+                if start is last:
+                    step /= 2.0
+                    if step < SMALLEST_STEP_N:
+                        raise
+                start = last
                 continue
-            self.ground.advance(moved, new_rise)
+            self.ground.advance(moved, rise)
             path.force_n.append(target)
-            path.rise_mm.append(new_rise)
-            return moved, new_rise, target
+            path.rise_mm.append(rise)
+            return self._point(target, moved, rise)
 
     def energy(self, state: TyreState) -> dict[str, float]:
         """Energy of each part at a state, N mm."""

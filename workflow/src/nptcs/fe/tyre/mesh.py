@@ -17,6 +17,8 @@ from nptcs.config.fe import PaperMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
 
 Orders = tuple[int, int]
+# of elements whose wires are membranes
+MEMBRANES: Orders = (1, 1)
 # points and weights on an edge of the tread, from -1 to 1
 EdgeRule = tuple[Array, Array]
 
@@ -168,7 +170,7 @@ def _paper_ring(tyre: TyreGeometry, mesh: PaperMesh, foot_width_mm: float) -> Ri
     return RingMesh(
         positions=_positions(radii, theta),
         rubber=(((1, 1), _elements(rows, columns, range(rows - 1), (1, 1))),),
-        wire_orders=(1, 1),
+        wire_orders=MEMBRANES,
         wire_elements=np.stack([_elements(rows, columns, [start], (1, 1)) for start in (0, 1)]),
         wire_places=(
             2.0 * float((wires[0] - radii[0]) / depth) - 1.0,

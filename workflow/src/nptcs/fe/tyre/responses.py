@@ -6,39 +6,55 @@ import numpy as np
 
 from nptcs.arrays import Array, Index
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
+from nptcs.fe.tyre.contact import ContactCells
+from nptcs.fe.tyre.mesh import MEMBRANES, RingMesh
 
 # part of the largest energy of a spoke above which a spoke's stress may be the largest one
 DECIDING = 0.75
+# parts of the tread in a contact that is resolved
+LEAST_CELLS = 5.0
 
 
-def contact_responses(place_mm: Array, pressure_mpa: Array, length_mm: Array) -> dict[str, float]:
+def contact_responses(cells: ContactCells) -> dict[str, float]:
     """Length of the contact, and its largest and mean pressure.
 
-    The length is that of an even pressure with the same variance of place, √(12 Var), each point
-    counting with its pressure times its length: it does not jump by an element when a point
-    lifts off. The mean pressure is the load per width over that length.
+    The length is that of an even pressure with the same variance of place, √(12 Var). The pressure
+    of each contact point is spread evenly over the part of the tread that the point stands for, so
+    that the length does not jump by an element when a point lifts off, and the mean pressure, the
+    load per width over that length, does not exceed the largest. Of a contact that is shorter than
+    `LEAST_CELLS` such parts nothing is said: its length would be that of the mesh.
 
     Parameters
     ----------
-    place_mm, pressure_mpa, length_mm : arrays (points,)
-        Place along the ground, normal pressure and length of the ring that each point stands for.
+    cells : ContactCells
 
     Returns
     -------
     dict of str to float
-        ``contact_length_mm``, ``largest_pressure_mpa``, ``mean_pressure_mpa``; empty if nothing
-        touches.
+        ``contact_cells`` (length of the contact over that of the longest part with a pressure)
+        and, if that is `LEAST_CELLS` or more, ``contact_length_mm``, ``largest_pressure_mpa`` and
+        ``mean_pressure_mpa``; empty if nothing touches.
     """
-    share = pressure_mpa * length_mm
-    line_load = float(np.sum(share))
-    if not line_load > 0.0:
+    loaded = cells.pressure_mpa > 0.0
+    if not loaded.any():
         return {}
-    middle = float(np.sum(share * place_mm)) / line_load
-    variance = float(np.sum(share * (place_mm - middle) ** 2)) / line_load
-    found = {"largest_pressure_mpa": float(pressure_mpa.max())}
-    if variance > 0.0:
-        length = float(np.sqrt(12.0 * variance))
-        found |= {"contact_length_mm": length, "mean_pressure_mpa": line_load / length}
+    low, high = cells.low_mm[loaded], cells.high_mm[loaded]
+    share = (cells.pressure_mpa * cells.length_mm)[loaded]
+    line_load = float(np.sum(share))
+    middle, width = 0.5 * (low + high), high - low
+    mean = float(np.sum(share * middle)) / line_load
+    variance = float(np.sum(share * ((middle - mean) ** 2 + width**2 / 12.0))) / line_load
+    length = float(np.sqrt(12.0 * variance))
+    across = length / float(width.max())
+    # on the ground a part is as long as it is there, not as it was unloaded
+    largest = float(np.max(share / width))
+    found = {"contact_cells": across}
+    if across >= LEAST_CELLS:
+        found |= {
+            "contact_length_mm": length,
+            "largest_pressure_mpa": largest,
+            "mean_pressure_mpa": line_load / length,
+        }
     return found
 
 
@@ -72,3 +88,32 @@ def deciding_spokes(table: SpokeEnergyTable, motion: Array) -> Index:
     energy, _, _ = table.evaluate(motion)
     order: Index = np.argsort(-energy, kind="stable")
     return order[energy[order] >= DECIDING * energy.max()]
+
+
+def wire_wrinkle_mm(ring: RingMesh, displacement: Array) -> float | None:
+    """Amplitude of the wave of two elements in which membranes wrinkle, mm.
+
+    Of a compressed wire layer every other node moves out and the rest in: the part of the radial
+    displacement that changes its sign from node to node, the largest over both layers. Waves that
+    are long against an element do not count. None for wires that bend.
+
+    Parameters
+    ----------
+    ring : RingMesh
+    displacement : array (nodes, 2)
+    """
+    if ring.wire_orders != MEMBRANES:
+        return None
+    outward = np.stack([np.sin(ring.theta), -np.cos(ring.theta)], axis=1)
+    amplitudes = []
+    for nodes, place in zip(ring.wire_elements, ring.wire_places, strict=True):
+        low, high = displacement[nodes[:, 0]], displacement[nodes[:, 2]]
+        radial = np.sum(outward * ((1.0 - place) * low + (1.0 + place) * high) / 2.0, axis=1)
+        amplitudes.append(np.abs(_alternating(_alternating(radial))).max())
+    return float(max(amplitudes))
+
+
+def _alternating(values: Array) -> Array:
+    """Half of the difference from the mean of both neighbours around the ring."""
+    difference: Array = (values - 0.5 * (np.roll(values, 1) + np.roll(values, -1))) / 2.0
+    return difference

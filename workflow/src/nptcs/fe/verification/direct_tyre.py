@@ -172,7 +172,7 @@ class MeshedSpoke(SpokeModel):
         displacement.reshape(-1)[self._free] += last.step + last.sensitivity @ (q - last.q)
         rubbers = [copy(group) for group in last.rubbers]
         for group in rubbers:
-            group.update_pressure(displacement - last.displacement)
+            group.follow(displacement - last.displacement)
         return self._linearise(q, displacement, rubbers, foot)
 
     def _linearise(

@@ -7,6 +7,7 @@ differ in marker or dash. One panel is one figure, so that a phone shows it at i
 from __future__ import annotations
 
 import io
+import re
 from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -23,6 +24,10 @@ MAP = "cividis"
 GREY = "#666666"
 PANEL = (4.3, 3.3)
 """Width and height of a panel in inches; the report shows it at 96 pixels an inch or smaller."""
+
+FONT = "'DejaVu Sans'"
+FONTS = "'DejaVu Sans', Verdana, sans-serif"
+_LONG_NUMBER = re.compile(r"-?\d+\.\d{3,}")
 
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -41,7 +46,7 @@ STYLE: Any = {
     "lines.linewidth": 1.3,
     "lines.markersize": 4.5,
     "savefig.facecolor": "white",
-    "svg.fonttype": "path",
+    "svg.fonttype": "none",
     "svg.hashsalt": "nptcs",
 }
 
@@ -94,8 +99,21 @@ def mark_synthetic(figure: Figure, synthetic: bool) -> None:
 
 @styled
 def to_svg(figure: Figure) -> str:
-    """Draw a figure as SVG text, without a date and with stable ids."""
+    """Draw a figure as SVG text, without a date and with stable ids.
+
+    Words stay text; a reader without the font sees the next one of the list. Coordinates have
+    hundredths of a point.
+    """
     FigureCanvasSVG(figure)
+    layout = figure.get_layout_engine()
+    if layout is not None:
+        # savefig would draw the whole figure once more to find the same layout
+        layout.execute(figure)
+        figure.set_layout_engine("none")
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return stream.getvalue()
+    return _LONG_NUMBER.sub(_shortened, stream.getvalue()).replace(FONT, FONTS)
+
+
+def _shortened(number: re.Match[str]) -> str:
+    return f"{float(number.group()):.2f}".rstrip("0").rstrip(".")

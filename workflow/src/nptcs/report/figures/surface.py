@@ -17,6 +17,9 @@ from nptcs.surface.fit import Surface
 STIFFNESS = "vertical_stiffness_n_per_mm"
 STIFFNESS_LABEL = "vertical stiffness [N/mm]"
 GRID = 41
+MOST_MARKS = 300
+"""Cases of which a figure draws all; of more it draws some."""
+MOST_LINES = 7
 
 
 def middle_level(levels: Sequence[float]) -> float:
@@ -41,6 +44,36 @@ def _grid(
     columns |= {x_name: x.ravel(), y_name: y.ravel()}
     points = np.column_stack([columns[name] for name in factors])
     return x, y, surface.predict(points).reshape(x.shape)
+
+
+def evenly(values: Sequence[float], most: int) -> list[float]:
+    """Take at most so many of some values, evenly spaced, the first and the last among them.
+
+    Examples
+    --------
+    >>> evenly([1, 2, 3, 4, 5, 6, 7], 3)
+    [1, 4, 7]
+    """
+    if len(values) <= most:
+        return list(values)
+    places = np.linspace(0, len(values) - 1, most).round().astype(int)
+    return [values[place] for place in places]
+
+
+def drawn_cases(cases: pd.DataFrame, varied: Sequence[str]) -> pd.DataFrame:
+    """Take the cases that a figure draws: all, or of very many those on evenly spaced levels.
+
+    Cases that share no levels, as those of a Latin hypercube, are taken in even steps.
+    """
+    if len(cases) <= MOST_MARKS:
+        return cases
+    per_factor = int(MOST_MARKS ** (1 / len(varied)))
+    kept = np.ones(len(cases), dtype=bool)
+    for name in varied:
+        kept &= cases[name].isin(evenly(sorted(set(cases[name])), per_factor)).to_numpy()
+    if kept.sum() >= MOST_MARKS / 4:
+        return cases[kept]
+    return cases.iloc[np.linspace(0, len(cases) - 1, MOST_MARKS).round().astype(int)]
 
 
 def at_middle(
@@ -92,6 +125,7 @@ def contours(
         Whether the materials are synthetic.
     """
     shown, held = at_middle(surface, cases, pair)
+    shown = drawn_cases(shown, pair)
     x, y, z = _grid(surface, cases, *pair)
     title = _title(cases["solver"].iloc[0], held, labels)
     figure, axes = panel(title, str(labels[pair[0]]), str(labels[pair[1]]))
@@ -127,7 +161,7 @@ def _line_levels(
     if len(varied) == 1:
         return [None]
     if len(shown):
-        return sorted(set(shown[varied[1]]))
+        return evenly(sorted(set(shown[varied[1]])), MOST_LINES)
     axis = surface.factors.index(varied[1])
     low, high = float(surface.lower[axis]), float(surface.upper[axis])
     return [low, (low + high) / 2, high]
@@ -161,6 +195,7 @@ def slices(
     levels = _line_levels(surface, shown, varied)
     for number, level in enumerate(levels):
         at_level = shown if level is None else shown[shown[varied[1]] == level]
+        at_level = drawn_cases(at_level, varied[:1])
         fixed = held if level is None else {**held, varied[1]: level}
         points = np.column_stack(
             [x if name == varied[0] else np.full(GRID, fixed[name]) for name in factors]

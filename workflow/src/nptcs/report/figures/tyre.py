@@ -40,7 +40,7 @@ def load_displacement(curves: pd.DataFrame, title: str, synthetic: bool = False)
             axes.plot(place, load, color=GREY, linewidth=0.6, alpha=0.6)
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(loc="upper left")
+    axes.legend(loc="lower right")
     mark_synthetic(figure, synthetic)
     return figure
 
@@ -58,7 +58,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "height above the rim [mm]", "von Mises stress at a face [MPa]")
+    height = f"height above the rim [mm], at {stress['load_n'].iloc[0]:g} N"
+    figure, axes = panel(title, height, "von Mises stress at a face [MPa]")
     worst = stress["spoke"].to_numpy()[int(stress["mises_mpa"].argmax())]
     rows = stress[stress["spoke"] == worst].sort_values("height_mm")
     for number in (0, 1):

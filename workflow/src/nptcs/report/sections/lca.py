@@ -65,7 +65,13 @@ def _difference_plots(results: Results) -> list[Plot]:
     largest = float(table[list(DIFFERENCES)].abs().max().max())
     limit = math.ceil(largest + 0.5)
     return [
-        plot(differences(rows, limit), f"Differences from table 11 in percent, section {section}")
+        plot(
+            f"Differences from table 11 in percent, section {section}",
+            False,
+            differences,
+            rows,
+            limit,
+        )
         for section, rows in table.groupby("section", sort=False)
     ]
 
@@ -74,27 +80,29 @@ def _fem_plots(results: Results) -> list[Plot]:
     table = results.table(LcaAgainstFem)
     limit = math.ceil(float(table["fem_difference_percent"].abs().max()) + 0.5)
     return [
-        plot(fem_differences(rows, limit), f"Differences from table 7, section {section}")
+        plot(f"Differences from table 7, section {section}", False, fem_differences, rows, limit)
         for section, rows in table.groupby("section", sort=False)
     ]
 
 
 def _stiffness_plot(results: Results) -> Plot:
-    return plot(
-        stiffness_bars(_with_published(results)), "Stiffness by FEM, printed LCA and our LCA"
-    )
+    alt = "Stiffness by FEM, printed LCA and our LCA"
+    return plot(alt, False, stiffness_bars, _with_published(results))
 
 
 def _load_plots(results: Results) -> list[Plot]:
     sections = [rows for _, rows in results.table(LcaValidation).groupby("section", sort=False)]
     plots = [
         plot(
-            load_displacement(rows), f"Displacement against load, section {rows['section'].iloc[0]}"
+            f"Displacement against load, section {rows['section'].iloc[0]}",
+            False,
+            load_displacement,
+            rows,
         )
         for rows in sections
     ]
     return plots + [
-        plot(contact_against_load(sections[0], column), f"{label} against load")
+        plot(f"{label} against load", False, contact_against_load, sections[0], column)
         for column, label in CONTACT.items()
     ]
 
@@ -103,8 +111,11 @@ def _neutral_line_plots(results: Results) -> list[Plot]:
     rim = results.config.tyre.rim_diameter_mm
     return [
         plot(
-            deformed_ring(rows, rim),
             f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa",
+            False,
+            deformed_ring,
+            rows,
+            rim,
         )
         for (_, load, c10), rows in results.table(LcaNeutralLine).groupby(
             ["section", "load_n", "spoke_c10_mpa"], sort=False

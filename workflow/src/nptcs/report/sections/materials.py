@@ -67,7 +67,11 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             modes.setdefault(specimen.test.value, []).append(specimen.specimen)
     plots = []
     for mode, names in modes.items():
-        figure = hyperelastic_fit(
+        alt = f"Stress over strain of {rubber.name} and its {words(rubber.model)} fit"
+        drawn = plot(
+            alt,
+            rubber.synthetic,
+            hyperelastic_fit,
             f"{rubber.name}, {words(mode.removeprefix('rubber_'))}",
             {name: results.curves[name] for name in names},
             partial(_stress, model, mode, constants),
@@ -75,8 +79,7 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             rubber.strain_range,
             rubber.synthetic,
         )
-        alt = f"Stress over strain of {rubber.name} and its {words(rubber.model)} fit"
-        plots.append(plot(figure, alt, rubber.synthetic))
+        plots.append(drawn)
     return plots
 
 
@@ -90,5 +93,5 @@ def _range_plot(results: Results) -> list[Plot]:
     if joint.empty:
         return []
     synthetic = results.rubbers_synthetic
-    figure = c10_against_range(joint, synthetic)
-    return [plot(figure, "C10 of each rubber over the strain range of its fit", synthetic)]
+    alt = "C10 of each rubber over the strain range of its fit"
+    return [plot(alt, synthetic, c10_against_range, joint, synthetic)]

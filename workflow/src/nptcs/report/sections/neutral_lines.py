@@ -52,8 +52,8 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
         synthetic = rests_on_synthetic(results, results.config.study(str(study)), rows)
         title = f"{case_id}, {rows['load_n'].iloc[0]:g} N"
         for column, label in DISPLACEMENTS.items():
-            figure = neutral_lines(rows, column, title, solver_order(results), synthetic)
-            plots.append(plot(figure, f"{label} of {case_id} against θ", synthetic))
+            given = (rows, column, title, solver_order(results), synthetic)
+            plots.append(plot(f"{label} of {case_id} against θ", synthetic, neutral_lines, *given))
         sentences += line_words(rows)
     return [
         Plots(

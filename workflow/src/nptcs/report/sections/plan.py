@@ -9,6 +9,7 @@ import pandera.pandas as pa
 
 from nptcs.report.blocks import PageBlock, Section, TableView, Text
 from nptcs.report.data import Results
+from nptcs.report.sections.decision import decision_section
 from nptcs.report.sections.lca import lca_section
 from nptcs.report.sections.materials import materials_section
 from nptcs.report.sections.provenance import provenance_section
@@ -22,6 +23,7 @@ from nptcs.report.sections.studies import (
     surfaces_section,
 )
 from nptcs.report.sections.tyre import tyre_section
+from nptcs.report.sections.uncertainty import uncertainty_section
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheet, Sheets
 from nptcs.tables.lca_validation import LcaNeutralLine
@@ -62,6 +64,8 @@ PLANS: Mapping[ReportSection, SectionPlan] = {
     ReportSection.CASES: SectionPlan(cases_section),
     ReportSection.SURFACES: SectionPlan(surfaces_section),
     ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
+    ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
+    ReportSection.DECISION: SectionPlan(decision_section),
     ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
     ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress)),
     ReportSection.PUBLISHED_STIFFNESS: SectionPlan(published_stiffness_section, (NeutralLine,)),
@@ -100,7 +104,5 @@ def _shown(sheet: Sheet) -> PageBlock:
     """Show a table, or say where it is if it is too long for a page."""
     if len(sheet.table) <= MOST_ROWS:
         return sheet_view(sheet)
-    return Text(
-        f"{sheet.entry.title}: {len(sheet.table)} rows, in {sheet.entry.file} and in the sheet "
-        f"{sheet.entry.sheet} of the workbook."
-    )
+    place = f" and in the sheet {sheet.entry.sheet} of the workbook" if sheet.in_workbook else ""
+    return Text(f"{sheet.entry.title}: {len(sheet.table):,} rows, in {sheet.entry.file}{place}.")

@@ -24,6 +24,7 @@ from nptcs.report.plots import plot
 from nptcs.report.sections.compared_cases import case_comparison, rests_on_synthetic, solver_order
 from nptcs.report.sections.neutral_lines import line_blocks
 from nptcs.report.sections.ply import ply_words
+from nptcs.report.sections.rings import ring_blocks
 from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables.sheets import Sheets, sheet_of
@@ -61,6 +62,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
             "are blind. " + ply_words(results)
         ),
         sheet_view(sheet_of(sheets, StiffnessErrors)),
+        *ring_blocks(results),
         Plots(
             f"Computed against published stiffness; the lines are equality and {bands}. Hollow "
             "marks are cases that the solver was calibrated on.",
@@ -88,8 +90,8 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    figure = parity(rows, f"study {study.name}", solver_order(results), synthetic)
-    return plot(figure, alt, synthetic)
+    given = (rows, f"study {study.name}", solver_order(results), synthetic)
+    return plot(alt, synthetic, parity, *given)
 
 
 def _effects(results: Results, studies: list[Study], *, differences: bool) -> list[Plot]:
@@ -106,8 +108,8 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
                 "Mean difference from the published stiffness" if differences else "Mean stiffness"
             )
             alt = f"{what} by {label.label}, study {study.name}"
-            figure = draw(rows, label, solver_order(results), synthetic)
-            plots.append(plot(figure, alt, synthetic))
+            given = (rows, label, solver_order(results), synthetic)
+            plots.append(plot(alt, synthetic, draw, *given))
     return plots
 
 

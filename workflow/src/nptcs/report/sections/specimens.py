@@ -60,8 +60,6 @@ def _series_plots(results: Results) -> list[Plot]:
         if not curves:
             continue
         synthetic = any(s.origin == "synthetic" for s in specimens)
-        figure = stress_strain(name, curves, left_out, synthetic)
-        plots.append(
-            plot(figure, f"Stress over strain of {len(curves)} specimens, series {name}", synthetic)
-        )
+        alt = f"Stress over strain of {len(curves)} specimens, series {name}"
+        plots.append(plot(alt, synthetic, stress_strain, name, curves, left_out, synthetic))
     return plots

@@ -72,9 +72,9 @@ def _plots(results: Results) -> list[Plot]:
         lines = lines[(lines["study"] == study) & (lines["solver"] == solver)]
         synthetic = results.study_is_synthetic(results.config.study(str(study)), str(solver))
         for direction in DIRECTIONS:
-            figure = force_displacement(curves, lines, direction, synthetic)
             alt = f"Force on a spoke in {direction} by {solver}, study {study}"
-            plots.append(plot(figure, alt, synthetic))
+            given = (curves, lines, direction, synthetic)
+            plots.append(plot(alt, synthetic, force_displacement, *given))
     return plots
 
 

@@ -12,19 +12,22 @@ from nptcs.report.blocks import PageBlock, Plot, Plots, Section, TableView, Text
 from nptcs.report.data import Results, SolverFacts
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
-from nptcs.report.figures.surface import contours, pairs, slices
+from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
+from nptcs.report.figures.surface import MOST_MARKS, contours, pairs, slices
 from nptcs.report.plots import plot
 from nptcs.report.sections.ranking import ranking_blocks
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
-from nptcs.report.tables.headings import words
+from nptcs.report.tables.headings import heading, words
 from nptcs.report.tables.row_classes import by_status
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
 from nptcs.surface.cases import solved_cases
-from nptcs.tables.cases import Cases
+from nptcs.tables.cases import RESPONSES, Cases
+from nptcs.tables.diagnostics import SurfaceInfluence
 from nptcs.tables.impact import Impact
 from nptcs.tables.result_table import ReportSection
+from nptcs.tables.status import has_result
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 
 COEFFICIENT_DIGITS = 10
@@ -43,6 +46,13 @@ COUNTS = entries.Entry(
     "results/tables/cases.csv",
     "cases",
     "the case records, counted",
+)
+SPANS = entries.Entry(
+    "response_spans",
+    "Responses of the solved cases by study and solver",
+    "results/tables/cases.csv",
+    "cases",
+    "the case records",
 )
 
 
@@ -92,6 +102,7 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text("Solvers. " + " — ".join(solvers)),
         table_view(case_counts(results.table(Cases)), COUNTS, mark=by_status),
+        table_view(response_spans(results.table(Cases)), SPANS),
     ]
     entry = sheet_of(sheets, Cases).entry
     blocks += [_cases_of(results, study, entry) for study in results.config.studies]
@@ -127,6 +138,21 @@ def case_counts(cases: pd.DataFrame) -> pd.DataFrame:
     return groups.size().rename("cases").reset_index()
 
 
+def response_spans(cases: pd.DataFrame) -> pd.DataFrame:
+    """Find the lowest, the middle and the highest value of each response by study and solver."""
+    solved = cases[has_result(cases["status"])]
+    rows = []
+    for (study, solver), group in solved.groupby(["study", "solver"], sort=False):
+        for name in RESPONSES:
+            values = group[name].dropna()
+            if len(values):
+                written = heading(name)
+                span = (values.min(), values.median(), values.max())
+                rows.append((study, solver, written.name, written.unit, len(values), *span))
+    columns = ["study", "solver", "response", "unit", "cases", "lowest", "median", "highest"]
+    return pd.DataFrame(rows, columns=columns)
+
+
 def surfaces_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the response surfaces."""
     blocks: list[PageBlock] = [
@@ -154,7 +180,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
         Text(study.title, "heading"),
-        sheet_view(sheet, given_digits=precise),
+        sheet_view(sheet, given_digits=precise, whole=True),
     ]
     plots = [
         drawn
@@ -164,10 +190,36 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     held = " Factors that a panel does not show are at the middle level in its title."
     caption = (
         f"{study.title}: each surface over two factors, the discs are the cases on the same "
-        "colour scale; and over one factor, the lines are the surface, the marks are the cases."
+        "colour scale; and over one factor, the lines are the surface, the marks are the cases"
+        + (
+            f", {MOST_MARKS} of very many."
+            if len(results.designs[study.name]) > MOST_MARKS
+            else "."
+        )
     )
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
+    if residuals := _residual_plots(results, study):
+        words_of_residuals = (
+            f"{study.title}: what the polynomial leaves of its cases, over its value (marks grow "
+            "with the leverage) and against a normal distribution. The results of a solver have no "
+            "noise: a pattern is what the polynomial cannot follow."
+        )
+        blocks.append(Plots(words_of_residuals, tuple(residuals)))
     return blocks
+
+
+def _residual_plots(results: Results, study: Study) -> list[Plot]:
+    table = results.table(SurfaceInfluence)
+    plots = []
+    for solver, rows in table[table["study"] == study.name].groupby("solver", sort=False):
+        synthetic = results.study_is_synthetic(study, str(solver))
+        about = f"study {study.name}, solver {solver}"
+        given = (rows, f"Solver {solver}", synthetic)
+        alt = f"Residuals over the value of the polynomial, {about}"
+        plots.append(plot(alt, synthetic, residuals_over_value, *given))
+        alt = f"Residuals against normal quantiles, {about}"
+        plots.append(plot(alt, synthetic, residual_quantiles, *given))
+    return plots
 
 
 def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
@@ -179,13 +231,14 @@ def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
     maps, lines = [], []
     for pair in pairs(surface):
         alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
-        maps.append(plot(contours(surface, solved, pair, labels, synthetic), alt, synthetic))
+        maps.append(plot(alt, synthetic, contours, surface, solved, pair, labels, synthetic))
     drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
     for varied in drawn:
         # the factor with more levels is drawn along the axis
         by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
         alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
-        lines.append(plot(slices(surface, solved, by_levels, labels, synthetic), alt, synthetic))
+        given = (surface, solved, by_levels, labels, synthetic)
+        lines.append(plot(alt, synthetic, slices, *given))
     return maps + lines
 
 
@@ -218,5 +271,6 @@ def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:
         for name, label in factor_labels(study).items()
     }
     synthetic = any(results.study_is_synthetic(study, solver) for study in studies)
-    figure = impact_bars(rows, labels, results.config.sensitivity.rules, synthetic)
-    return plot(figure, f"Impact values of solver {solver} by factor and rule", synthetic)
+    alt = f"Impact values of solver {solver} by factor and rule"
+    given = (rows, labels, results.config.sensitivity.rules, synthetic)
+    return plot(alt, synthetic, impact_bars, *given)

@@ -10,6 +10,7 @@ from nptcs.report.figures.tyre import PUBLISHED_STRESS_MPA, load_displacement, p
 from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.report.text import joined
 from nptcs.tables.cases import Cases
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
@@ -45,9 +46,9 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
         blocks.append(
             Plots(
                 "Von Mises stress in the plane of the plates at both faces, in the most loaded "
-                "spoke of the tyre with the largest stress of each study (figure 10 a of the "
-                f"paper; dashed: its largest value, {PUBLISHED_STRESS_MPA:g} MPa). Full lines: "
-                "element centres.",
+                "spoke of the tyre with the largest stress of each study, and of its fiducial "
+                "design (figure 10 a of the paper; dashed: its largest value, "
+                f"{PUBLISHED_STRESS_MPA:g} MPa). Full lines: element centres.",
                 stress,
             )
         )
@@ -58,25 +59,38 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
 
 def published_stress(results: Results) -> list[str]:
     """Put the plate stress of the fiducial plates next to the paper's largest one."""
-    responses, cases = results.table(TyreResponses), results.table(Cases)
-    if not set(FIDUCIAL) <= set(cases):
-        return []
-    fiducial = cases[(cases[list(FIDUCIAL)] == pd.Series(FIDUCIAL)).all(axis=1)]
+    responses, fiducial = results.table(TyreResponses), fiducial_cases(results)
     found = responses[
         responses["response"].eq("plate_largest_mises")
         & responses["status"].eq("ok")
-        & responses["case_id"].isin(fiducial["case_id"])
+        & responses["case_id"].isin(fiducial)
     ]
     if found.empty:
         return []
-    low, high = found["value"].min(), found["value"].max()
-    span = f"{low:.1f} MPa" if len(found) == 1 else f"{low:.1f} to {high:.1f} MPa"
+    parts = []
+    for (study, solver), rows in found.groupby(["study", "solver"], sort=False):
+        low, high = rows["value"].min(), rows["value"].max()
+        if len(rows) == 1:
+            parts.append(f"{low:.1f} MPa ({rows['case_id'].iloc[0]}, {solver})")
+        else:
+            parts.append(
+                f"{low:.1f} to {high:.1f} MPa ({len(rows)} tyres of the study {study}, {solver})"
+            )
     return [
         f"The paper gives {PUBLISHED_STRESS_MPA:g} MPa as the largest stress of a plate at 5000 N; "
         "it does not say for which plates and rubbers, nor of which measure. The largest von "
-        f"Mises stress here, at the faces of the fiducial plates, is {span} over "
-        f"{len(found)} tyres with different rubbers. Nothing was fitted to it."
+        f"Mises stress here, at the faces of the fiducial plates, is {joined(parts)}. Nothing was "
+        "fitted to it."
     ]
+
+
+def fiducial_cases(results: Results) -> list[str]:
+    """Name the cases with the paper's fiducial plates."""
+    cases = results.table(Cases)
+    if not set(FIDUCIAL) <= set(cases):
+        return []
+    mine = cases[(cases[list(FIDUCIAL)] == pd.Series(FIDUCIAL)).all(axis=1)]
+    return list(mine["case_id"].unique())
 
 
 def not_assessed(responses: pd.DataFrame) -> list[str]:
@@ -100,19 +114,25 @@ def _curve_plots(results: Results) -> list[Plot]:
         ["study", "solver"], sort=False
     ):
         synthetic = _synthetic(results, study, solver)
-        figure = load_displacement(curves, f"{study}, {solver}", synthetic)
-        plots.append(plot(figure, f"Load against displacement, {study}, {solver}", synthetic))
+        given = (curves, f"{study}, {solver}", synthetic)
+        alt = f"Load against displacement, {study}, {solver}"
+        plots.append(plot(alt, synthetic, load_displacement, *given))
     return plots
 
 
 def _stress_plots(results: Results) -> list[Plot]:
     plots = []
+    fiducial = set(fiducial_cases(results))
     for (study, solver), stress in results.table(PlateStress).groupby(
         ["study", "solver"], sort=False
     ):
         worst = stress["case_id"].iloc[int(stress["mises_mpa"].argmax())]
-        rows = stress[stress["case_id"] == worst]
-        synthetic = _synthetic(results, study, solver)
-        figure = plate_faces(rows, f"{worst}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
-        plots.append(plot(figure, f"Stress at the plates' faces, {worst}, {solver}", synthetic))
+        # where all plates of a study are the fiducial ones, the worst of them is enough
+        mine = fiducial & set(stress["case_id"])
+        for case_id in [*(mine - {worst} if len(mine) == 1 else ()), worst]:
+            rows = stress[stress["case_id"] == case_id]
+            synthetic = _synthetic(results, study, solver)
+            given = (rows, f"{case_id}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
+            alt = f"Stress at the plates' faces, {case_id}, {solver}"
+            plots.append(plot(alt, synthetic, plate_faces, *given))
     return plots

@@ -23,6 +23,9 @@ from nptcs.tables.hyperelastic import ModelComparison
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.result_table import ReportSection, RowMark, SyntheticBy
 
+LONGEST_SHEET = 3000
+"""Rows of the longest table that is a sheet of the workbook; a longer one is a CSV file only."""
+
 
 @dataclass(frozen=True)
 class Sheet:
@@ -47,6 +50,11 @@ class Sheet:
     mark: RowClass = no_row
     synthetic: bool = False
     section: ReportSection | None = None
+
+    @property
+    def in_workbook(self) -> bool:
+        """Tell whether the workbook has it; shapes and results in bulk are too long."""
+        return len(self.table) <= LONGEST_SHEET
 
 
 Sheets = Mapping[str, Sheet]

@@ -4,21 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, replace
-from difflib import get_close_matches
 
 import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.goals import ResponseName
+from nptcs.config.response import RESPONSE_KINDS, Taken
 from nptcs.config.study import Study
 from nptcs.errors import InputError
 from nptcs.responses.curve import LoadCurve
 from nptcs.surface.cases import solved_cases
-from nptcs.surface.study import RESPONSE
+from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
 
 STIFFNESS = ("secant_stiffness", "tangent_stiffness")
-OTHER_UNITS = {"plate_mass": "kg"}
 
 
 @dataclass(frozen=True)
@@ -59,17 +58,14 @@ class StudyResults:
         return self.solved[self.factors].to_numpy(float)
 
     def at_its_load(self, response: ResponseName) -> ResponseName:
-        """Return a stiffness without a stated load as that at the study's load."""
-        if response.at or response.name not in STIFFNESS:
+        """Return a response without a stated place as that at the study's load."""
+        if response.at or RESPONSE_KINDS[response.name].taken is Taken.UNLOADED:
             return response
         return replace(response, at=f"{self.study.load_n:g} N")
 
     def unit(self, response: ResponseName) -> str:
         """Return the unit of a response."""
-        if response.name in STIFFNESS:
-            return "N/mm"
-        found = self.responses[self.responses["response"] == response.name]["unit"]
-        return str(found.iloc[0]) if len(found) else OTHER_UNITS.get(response.name, "")
+        return RESPONSE_KINDS[response.name].unit
 
     def values(self, response: ResponseName) -> Array:
         """Return a response of the solved cases, not a number where a case lacks it, (m,).
@@ -107,7 +103,7 @@ class StudyResults:
         place = float(at)
         solved = self.solved.set_index("case_id")
         if response.name == "secant_stiffness" and unit == "N" and place == self.study.load_n:
-            yield from solved[RESPONSE].items()  # type: ignore[misc]
+            yield from solved[AT_STUDY_LOAD].items()  # type: ignore[misc]
             return
         for case_id, rows in self.curves.groupby("case_id"):
             try:
@@ -128,13 +124,11 @@ class StudyResults:
     def _remedy(self, response: ResponseName) -> str:
         if response.name in STIFFNESS:
             return "ask for a load or displacement that the solved curves reach"
-        known = sorted({*self.responses["response"], *STIFFNESS})
-        near = get_close_matches(response.name, known, 1)
-        guess = f"did you mean {near[0]}? " if near else ""
         places = sorted({*self.responses[self.responses["response"] == response.name]["at"]} - {""})
         if places:
             return f"it is known at {', '.join(places)}"
-        return f"{guess}known responses: {', '.join(known)}"
+        known = self.responses[self.responses["status"] == "ok"]["response"]
+        return f"use one of {', '.join(sorted({*known, *STIFFNESS}))}"
 
 
 def results_of(

@@ -17,13 +17,14 @@ from nptcs.config.surface import (
     name_of,
 )
 from nptcs.config.tyre import TyreGeometry
-from nptcs.decisions.study_results import STIFFNESS, StudyResults
 from nptcs.doe.whole_plates import SPACING
 from nptcs.errors import InputError
 from nptcs.surface.comparison import leave_one_out
 from nptcs.surface.lamination import FACTORS as LAMINATION_FACTORS
 from nptcs.surface.lamination import Lamination
 from nptcs.surface.models import Cases, fit_model, models_of
+from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
+from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box
 from nptcs.uncertainty.inputs import RUBBERS
 from nptcs.uncertainty.response_model import (
@@ -33,6 +34,7 @@ from nptcs.uncertainty.response_model import (
     SurfaceResponse,
     lamination_of,
 )
+from nptcs.uncertainty.study_results import STIFFNESS, StudyResults
 
 PLATE_MASS = ResponseName("plate_mass")
 THICKNESS = "thickness_mm"
@@ -114,6 +116,7 @@ def fit_response(
     tyre: TyreGeometry,
     ply: Mapping[str, float] | None,
     rubbers: StudyResults | None,
+    registry: SurfaceRegistry | None = None,
 ) -> FittedResponse:
     """Fit the model of one response.
 
@@ -129,6 +132,8 @@ def fit_response(
         Constants of the plates' ply.
     rubbers : StudyResults or None
         Cases of the study that varies the rubbers, by the same solver.
+    registry : SurfaceRegistry or None
+        Surfaces of the study that are fitted already; others are fitted here.
 
     Raises
     ------
@@ -139,8 +144,37 @@ def fit_response(
         return _plate_mass(results, tyre)
     y = results.values(response)
     has = np.isfinite(y)
-    model = _model(results, surface) if response.name in STIFFNESS else GAUSSIAN_PROCESS
     cases = Cases(results.points[has], y[has], results.factors, results.study.terms, ply)
+    fitted = _surface(results, response, surface, cases, registry)
+    lamination, no_ply = _lamination(fitted.surface, response, cases)
+    effect, no_rubbers = _rubber_effect(results, response, rubbers)
+    return FittedResponse(
+        response=response,
+        unit=results.unit(response),
+        model=SurfaceResponse(fitted.surface, fitted.left_out_rms, lamination, effect),
+        surface=fitted.name,
+        cases=len(fitted.surface.y),
+        left_out=int((~has).sum()),
+        notes=tuple(filter(None, [no_ply, no_rubbers])),
+    )
+
+
+GAUSSIAN_PROCESS = GaussianProcessModel(kind="gaussian_process")
+
+
+def _surface(
+    results: StudyResults,
+    response: ResponseName,
+    name: str,
+    cases: Cases,
+    registry: SurfaceRegistry | None,
+) -> FittedSurface:
+    """Return the stored surface of a response, or fit it to the same cases."""
+    stored = registry_surface(registry, results, response, name)
+    if stored is not None and len(stored.surface.y) == len(cases.y):
+        return stored
+    chosen = name if response.name in STIFFNESS else name_of(GAUSSIAN_PROCESS)
+    model = _model(results, chosen)
     if len(cases.y) < results.study.least_solved_cases():
         raise InputError(
             f"only {len(cases.y)} cases of study {results.study.name} have {response}",
@@ -148,29 +182,43 @@ def fit_response(
             value=results.study.least_solved_cases(),
             remedy="solve more cases",
         )
-    fitted = fit_model(model, cases)
-    notes = []
-    lamination = lamination_of(fitted)
-    if lamination is None and response.name in STIFFNESS:
-        lamination, why = _lamination(cases)
-        notes += [why] if why else []
-    rubber_effect, why = _rubber_effect(results, response, rubbers)
-    notes += [why] if why else []
-    error = leave_one_out(fitted).error
-    return FittedResponse(
-        response=response,
-        unit=results.unit(response),
-        model=SurfaceResponse(
-            fitted, float(np.sqrt(np.nanmean(error**2))), lamination, rubber_effect
-        ),
-        surface=name_of(model),
-        cases=len(cases.y),
-        left_out=int((~has).sum()),
-        notes=tuple(notes),
+    if stored is not None:  # cases were added: the form stays
+        chosen, surface = stored.name, stored.surface.refit(cases.x, cases.y)
+    else:
+        surface = fit_model(model, cases)
+    return FittedSurface(
+        study=results.study.name,
+        solver=results.solver,
+        name=chosen,
+        response=Response(response.name, response.at, results.unit(response)),
+        surface=surface,
+        left_out_rms=leave_one_out(surface).rms,
     )
 
 
-GAUSSIAN_PROCESS = GaussianProcessModel(kind="gaussian_process")
+def registry_surface(
+    registry: SurfaceRegistry | None, results: StudyResults, response: ResponseName, name: str
+) -> FittedSurface | None:
+    """Return the stored surface of that name; for what is no stiffness, else the best one.
+
+    The stiffness at the study's own load is stored under a name of its own.
+    """
+    if registry is None:
+        return None
+    wanted = [(response.name, response.at)]
+    if response == results.at_its_load(ResponseName("secant_stiffness")):
+        wanted.append((AT_STUDY_LOAD, ""))
+    found = [
+        one
+        for one in registry.surfaces
+        if one.solver == results.solver and (one.response.name, one.response.at) in wanted
+    ]
+    named = [one for one in found if one.name == name]
+    if named:
+        return named[0]
+    if response.name in STIFFNESS or not found:
+        return None
+    return min(found, key=lambda one: np.nan_to_num(one.left_out_rms, nan=np.inf))
 
 
 def _model(results: StudyResults, surface: str) -> SurfaceModel:
@@ -185,15 +233,22 @@ def _model(results: StudyResults, surface: str) -> SurfaceModel:
     return models[surface]
 
 
-def _lamination(cases: Cases) -> tuple[Lamination | None, str]:
-    """Fit the lamination form to the same cases, or say why it cannot be."""
+def _lamination(
+    surface: ResponseSurface, response: ResponseName, cases: Cases
+) -> tuple[Lamination | None, str]:
+    """Return the lamination form that tells what the ply does, or why there is none."""
+    if response.name not in STIFFNESS:
+        return None, "effect of the ply not assessed: the lamination form is made for stiffness"
+    own = lamination_of(surface)
+    if own is not None:
+        return own, ""
     if sorted(cases.factors) != sorted(LAMINATION_FACTORS):
-        return None, "effect of the ply not assessed: the study varies more than the plates"
+        return None, "effect of the ply not assessed: the lamination form has S, T and A alone"
     try:
         form = fit_model(LaminationModel(kind="lamination", coefficients=7), cases)
     except InputError as error:
         return None, f"effect of the ply not assessed: {error.message}"
-    return (form, "") if isinstance(form, Lamination) else (None, "")
+    return lamination_of(form), ""
 
 
 def _rubber_effect(

@@ -1,0 +1,43 @@
+"""Why no design is acceptable: which goals stand in each other's way."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from nptcs.decisions.evaluate import Problem, at_least_all
+from nptcs.decisions.search import Found
+
+
+def conflict_words(problem: Problem, found: Found, probability: float) -> str:
+    """Say how near the goals can be met, alone and together.
+
+    Parameters
+    ----------
+    problem : Problem
+    found : Found
+        Without an acceptable design.
+    probability : float
+        That was asked for.
+
+    Returns
+    -------
+    str
+        Sentences for a table and the terminal.
+    """
+    each = np.vstack([found.candidates.probabilities, found.designs.probabilities])
+    goals = problem.must_hold
+    together = float(at_least_all(each).max())
+    sentences = [
+        f"no design meets all goals with probability {probability:g}: at best {together:.2g}"
+    ]
+    best = each.max(axis=0)
+    alone = [f"{goal} {p:.2g}" for goal, p in zip(goals, best, strict=True)]
+    sentences.append("each goal alone is met with at best: " + "; ".join(alone))
+    if unreachable := [str(g) for g, p in zip(goals, best, strict=True) if p < probability]:
+        sentences.append(f"out of reach even alone: {'; '.join(unreachable)}")
+        return ". ".join(sentences)
+    for place, goal in enumerate(goals):
+        others = float(at_least_all(np.delete(each, place, axis=1)).max())
+        if len(goals) > 1 and others >= probability:
+            sentences.append(f"without '{goal}' the others are met with {others:.2g}: it conflicts")
+    return ". ".join(sentences)

@@ -1,0 +1,120 @@
+"""One decision from its goals to the designs, with what is known of each."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from nptcs.arrays import Array
+from nptcs.config.decisions import Decision
+from nptcs.config.goals import Goal, ResponseName
+from nptcs.decisions.conflict import conflict_words
+from nptcs.decisions.evaluate import Problem
+from nptcs.decisions.search import Found, search
+from nptcs.decisions.space import DesignSpace, design_space
+from nptcs.uncertainty.source import Source
+from nptcs.uncertainty.study_results import StudyResults
+
+SAMPLING_ERROR = 0.01
+"""Difference up to which a sampled probability counts as the one of the search."""
+
+
+@dataclass(frozen=True)
+class Outcome:
+    """A decision that was taken, or why none could be.
+
+    Parameters
+    ----------
+    decision : Decision
+    problem : Problem
+    space : DesignSpace
+    found : Found
+    not_assessed : mapping of str to str
+        Quantities whose uncertainty is not assessed, with the reason.
+    samples : tuple of mapping
+        For each design of `found`, samples of every response.
+    sampled : ndarray
+        Probability of each design from these samples.
+    why : str
+        What stands in the way; empty for a feasible decision.
+    confidence : float
+        Of the intervals.
+    """
+
+    decision: Decision
+    problem: Problem
+    space: DesignSpace
+    found: Found
+    not_assessed: Mapping[str, str]
+    samples: tuple[Mapping[ResponseName, Array], ...]
+    sampled: Array
+    why: str
+    confidence: float
+
+    @property
+    def choice(self) -> int:
+        """Place of the chosen design: the best one whose sampled probability holds."""
+        holds = np.flatnonzero(self.sampled >= self.decision.with_probability - SAMPLING_ERROR)
+        return int(holds[0]) if self.found.feasible and len(holds) else 0
+
+    def design(self, place: int) -> dict[str, float]:
+        """Return the factors of a design."""
+        values = self.found.designs.x[place]
+        return {n: float(v) for n, v in zip(self.space.factors, values, strict=True)}
+
+
+def decide(decision: Decision, source: Source) -> Outcome:
+    """Find the designs that meet the goals of a decision.
+
+    Parameters
+    ----------
+    decision : Decision
+    source : Source
+
+    Returns
+    -------
+    Outcome
+
+    Raises
+    ------
+    InputError
+        For a goal whose response the cases do not have, a factor that does not exist, or cases
+        to which no surface can be fitted.
+    """
+    goals = tuple(_placed(goal, source.results) for goal in decision.goals())
+    fitted = {
+        goal.response: source.fit(goal.response, decision.surface)
+        for goal in {goal.response: goal for goal in goals}.values()
+    }
+    inputs = source.inputs()
+    problem = Problem(goals, fitted, inputs.inputs)
+    space = design_space(
+        [one.model for one in fitted.values()],
+        decision.hold,
+        decision.steps,
+        source.tyre,
+        source.whole_plates,
+    )
+    found = search(problem, space, decision.with_probability, decision.top)
+    samples = tuple(
+        problem.sampled(point, source.settings.samples, source.settings.seed)
+        for point in found.designs.x
+    )
+    why = "" if found.feasible else conflict_words(problem, found, decision.with_probability)
+    return Outcome(
+        decision,
+        problem,
+        space,
+        found,
+        inputs.not_assessed,
+        samples,
+        np.array([problem.share_that_holds(one) for one in samples]),
+        why,
+        source.settings.confidence,
+    )
+
+
+def _placed(goal: Goal, results: StudyResults) -> Goal:
+    return replace(goal, response=results.at_its_load(goal.response))

@@ -1,0 +1,276 @@
+"""The search for designs: candidates in every cell, the best of each cell, designs that differ."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.optimize import minimize
+
+from nptcs.arrays import Array, Mask
+from nptcs.config.goals import GoalKind
+from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, margins
+from nptcs.decisions.space import DesignSpace
+
+STARTS = 2
+"""Candidates of a cell from which the search goes on."""
+
+APART = 0.1
+"""Share of a factor's range by which two designs with equal plates must differ to be two."""
+
+STEP = 1e-4
+"""Step of the search's differences, in ranges of the factors."""
+
+
+@dataclass(frozen=True)
+class Found:
+    """What a search has found.
+
+    Parameters
+    ----------
+    designs : Evaluation
+        Designs that meet all targets and bounds with the probability, the best first, all
+        different; without any, the nearest one alone.
+    desirability : ndarray
+        D of these designs.
+    feasible : bool
+        Whether any design is acceptable.
+    candidates : Evaluation
+        All candidates, acceptable or not.
+    acceptable : ndarray of bool
+        Which candidates are.
+    front : Evaluation
+        Acceptable candidates and designs that no other one betters in every objective.
+    """
+
+    designs: Evaluation
+    desirability: Array
+    feasible: bool
+    candidates: Evaluation
+    acceptable: Mask
+    front: Evaluation
+
+    @property
+    def feasible_percent(self) -> float:
+        """Share of the candidates that are acceptable."""
+        return float(100 * np.mean(self.acceptable))
+
+
+def search(problem: Problem, space: DesignSpace, probability: float, top: int) -> Found:
+    """Find the designs that meet the goals best.
+
+    Candidates are spread over every cell of the space (each whole number of plates). From the best
+    of each cell, sequential quadratic programming (SLSQP) improves the desirability while all
+    targets and bounds hold with the probability. The result is moved to values that can be made,
+    of those around it the best that still holds.
+
+    Parameters
+    ----------
+    problem : Problem
+    space : DesignSpace
+    probability : float
+        With which all targets and bounds must hold together.
+    top : int
+        Designs to return.
+
+    Returns
+    -------
+    Found
+    """
+    parts = [problem.evaluate(space.candidates(cell)) for cell in space.cells]
+    candidates = joined(parts)
+    acceptable = candidates.probability >= probability
+    if not acceptable.any():
+        nearest = nearest_design(problem, space, candidates)
+        if nearest.probability[0] < probability:
+            none = chosen(candidates, np.zeros(0, dtype=int))
+            return Found(nearest, np.zeros(1), False, candidates, acceptable, none)
+        scale = desirability(problem, nearest)
+        return Found(nearest, scale.of(nearest), True, candidates, acceptable, nearest)
+    scale = desirability(problem, chosen(candidates, np.flatnonzero(acceptable)))
+    best = [_best_of_cell(problem, space, part, scale, probability) for part in parts]
+    designs = joined([one for one in best if one is not None])
+    rest = _make(problem, space, chosen(candidates, np.flatnonzero(acceptable)), scale, top)
+    pool = joined([designs, chosen(rest, np.flatnonzero(rest.probability >= probability))])
+    value = rank(problem, scale, pool)
+    picked = _different(pool.x, np.argsort(-value, kind="stable"), space, top)
+    designs = chosen(pool, picked)
+    everything = joined([chosen(candidates, np.flatnonzero(acceptable)), designs])
+    front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
+    return Found(designs, scale.of(designs), True, candidates, acceptable, front)
+
+
+def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation) -> Evaluation:
+    """Return the design that can be made whose worst goal lies least outside its limits.
+
+    Distances are in standard deviations of the response (Nelder–Mead from the best candidates).
+    """
+    worst = margins(problem.must_hold, candidates).min(axis=1)
+    order = np.argsort(-worst, kind="stable")[:STARTS]
+    free = space.free
+    found = [candidates.x[place] for place in order]
+    if free:
+        span = (space.upper - space.lower)[free]
+        for start in list(found):
+
+            def shortfall(unit: Array, start: Array = start) -> float:
+                point = start.copy()
+                point[free] = space.lower[free] + np.clip(unit, 0.0, 1.0) * span
+                there = problem.evaluate(point[None, :])
+                return -float(margins(problem.must_hold, there).min())
+
+            first = (start[free] - space.lower[free]) / span
+            ended = minimize(shortfall, first, method="Nelder-Mead", options={"maxfev": 120})
+            point = start.copy()
+            point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
+            found.append(point)
+    pool = problem.evaluate(np.unique(np.vstack([space.can_be_made(p) for p in found]), axis=0))
+    return chosen(pool, np.array([int(margins(problem.must_hold, pool).min(axis=1).argmax())]))
+
+
+def rank(problem: Problem, scale: Desirability, found: Evaluation) -> Array:
+    """Order of merit: log D, or the probability where no goal has a weight."""
+    return scale.logarithm(found) if scale.goals else found.probability
+
+
+def pareto(problem: Problem, found: Evaluation) -> Mask:
+    """Tell which designs no other one betters in all objectives; all of one are its best."""
+    if not problem.objectives:
+        return np.zeros(len(found.x), dtype=bool)
+    cost = np.column_stack(
+        [
+            found.mean[goal.response] * (1 if goal.kind is GoalKind.MINIMISE else -1)
+            for goal in problem.objectives
+        ]
+    )
+    kept = np.ones(len(cost), dtype=bool)
+    for place, row in enumerate(cost):
+        better = (cost <= row).all(axis=1) & (cost < row).any(axis=1)
+        kept[place] = not better.any()
+    return kept
+
+
+def joined(parts: list[Evaluation]) -> Evaluation:
+    """Join evaluations of the same problem, one after the other."""
+    first = parts[0]
+    return Evaluation(
+        np.vstack([part.x for part in parts]),
+        {name: np.concatenate([part.mean[name] for part in parts]) for name in first.mean},
+        {name: np.concatenate([part.sd[name] for part in parts]) for name in first.sd},
+        np.vstack([part.probabilities for part in parts]),
+    )
+
+
+def chosen(found: Evaluation, places: Array) -> Evaluation:
+    """Return some of the designs of an evaluation."""
+    return Evaluation(
+        found.x[places],
+        {name: values[places] for name, values in found.mean.items()},
+        {name: values[places] for name, values in found.sd.items()},
+        found.probabilities[places],
+    )
+
+
+def _best_of_cell(
+    problem: Problem,
+    space: DesignSpace,
+    part: Evaluation,
+    scale: Desirability,
+    probability: float,
+) -> Evaluation | None:
+    """Return the best design of a cell that can be made; None if none is acceptable."""
+    value = np.where(part.probability >= probability, rank(problem, scale, part), -np.inf)
+    # a cell without an acceptable candidate may still have one between them
+    order = np.lexsort((-part.probability, -value))[:STARTS]
+    starts = part.x[order]
+    improved = [_improved(problem, space, start, scale, probability) for start in starts]
+    made = np.vstack([space.can_be_made(point) for point in [*starts, *improved]])
+    pool = problem.evaluate(np.unique(made, axis=0))
+    holds = pool.probability >= probability
+    if not holds.any():
+        return None
+    value = np.where(holds, rank(problem, scale, pool), -np.inf)
+    return chosen(pool, np.array([int(value.argmax())]))
+
+
+def _improved(
+    problem: Problem, space: DesignSpace, start: Array, scale: Desirability, probability: float
+) -> Array:
+    """Improve a design within its cell; what comes out may be no better."""
+    free = space.free
+    if not free:
+        return start
+    span = (space.upper - space.lower)[free]
+
+    seen: dict[bytes, tuple[Array, Array]] = {}
+
+    def around(unit: Array) -> tuple[Array, Array]:
+        """Merit and probability at a point, then one step along each factor."""  # noqa: D401
+        if (key := unit.tobytes()) not in seen:
+            # at the upper edge the step goes inwards
+            signs = np.where(unit + STEP > 1.0, -1.0, 1.0)
+            units = np.vstack([unit, unit + STEP * np.diag(signs)])
+            points = np.repeat(start[None, :], len(units), axis=0)
+            points[:, free] = space.lower[free] + np.clip(units, 0.0, 1.0) * span
+            found = problem.evaluate(points)
+            seen[key] = rank(problem, scale, found), found.probability
+        return seen[key]
+
+    def slope(values: Array, unit: Array) -> Array:
+        signs = np.where(unit + STEP > 1.0, -1.0, 1.0)
+        gradient: Array = (values[1:] - values[0]) / (STEP * signs)
+        return gradient
+
+    first = np.clip((start[free] - space.lower[free]) / span, STEP, 1 - STEP)
+    ended = minimize(
+        lambda unit: -around(unit)[0][0],
+        first,
+        jac=lambda unit: -slope(around(unit)[0], unit),
+        method="SLSQP",
+        bounds=[(0.0, 1.0)] * len(free),
+        constraints={
+            "type": "ineq",
+            "fun": lambda unit: around(unit)[1][0] - probability,
+            "jac": lambda unit: slope(around(unit)[1], unit),
+        },
+        options={"maxiter": 30, "ftol": 1e-6},
+    )
+    point = start.copy()
+    point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
+    return point
+
+
+def _make(
+    problem: Problem, space: DesignSpace, acceptable: Evaluation, scale: Desirability, top: int
+) -> Evaluation:
+    """Move the best acceptable candidates to values that can be made."""
+    order = np.argsort(-rank(problem, scale, acceptable), kind="stable")
+    picked = _different(acceptable.x, order, space, top)
+    made = np.vstack([space.can_be_made(acceptable.x[place]) for place in picked])
+    return problem.evaluate(np.unique(made, axis=0))
+
+
+def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
+    """Pick designs in an order, each different from those before it."""
+    span = np.where(space.upper > space.lower, space.upper - space.lower, 1.0)
+    picked: list[int] = []
+    for place in order:
+        apart = [
+            np.abs(x[place] - x[other]) / span >= APART
+            if not _other_plates(x[place], x[other], space)
+            else np.array([True])
+            for other in picked
+        ]
+        if all(one.any() for one in apart):
+            picked.append(int(place))
+        if len(picked) == top:
+            break
+    return np.array(picked, dtype=int)
+
+
+def _other_plates(one: Array, other: Array, space: DesignSpace) -> bool:
+    if not space.plates:
+        return False
+    place = space.factors.index("spacing_mm")
+    counts = [round(space.tread_width_mm / point[place]) for point in (one, other)]
+    return counts[0] != counts[1]

@@ -1,0 +1,97 @@
+"""Runs of Snakemake in one folder: which of them live, and the locks that dead ones left."""
+
+from __future__ import annotations
+
+import atexit
+import fcntl
+import os
+import sys
+import time
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
+from pathlib import Path
+
+from nptcs.processes.identity import RUN, ProcessName, lives, name_of, read_name
+
+UNLOCK = "snakemake --unlock"
+
+
+def begin_run(folder: Path) -> bool:
+    """Note that this process is a run, and remove the locks of runs that have died.
+
+    Parameters
+    ----------
+    folder : Path
+        Snakemake's own folder, ``.snakemake``, in which it keeps its locks. Snakemake looks at them
+        after it has read the Snakefile.
+
+    Returns
+    -------
+    bool
+        Whether an earlier run had died without an end in order.
+    """
+    os.environ[RUN] = name_of().text()
+    noted = folder / "runs"
+    noted.mkdir(parents=True, exist_ok=True)
+    with _alone(noted):
+        runs = {file: _read(file) for file in sorted(noted.glob("*.json"))}
+        mine = noted / f"{os.getpid()}.json"
+        # an earlier process that had our number is dead
+        state = {file: lives(run) if run and file != mine else False for file, run in runs.items()}
+        dead = [file for file, alive in state.items() if alive is False]
+        locks = sorted((folder / "locks").glob("*.lock"))
+        if locks and None in state.values() and True not in state.values():
+            _name_foreign([runs[file] for file, alive in state.items() if alive is None])
+        elif locks and dead and len(dead) == len(state):
+            _lift(locks, dead)
+        for file in dead:
+            file.unlink(missing_ok=True)
+        mine.write_text(os.environ[RUN], encoding="utf-8")
+    atexit.register(_forget, mine, os.getpid())
+    return bool(dead)
+
+
+def begin_job() -> None:
+    """Note the Snakemake process that runs single jobs of a run, for example on another machine."""
+    os.environ[RUN] = name_of().text()
+
+
+def _read(file: Path) -> ProcessName | None:
+    try:
+        return read_name(file.read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError):
+        return None
+
+
+def _lift(locks: list[Path], dead: list[Path]) -> None:
+    when = time.strftime("%Y-%m-%d %H:%M", time.localtime(max(f.stat().st_mtime for f in dead)))
+    for lock in locks:
+        lock.unlink(missing_ok=True)
+    print(
+        f"The run that began at {when} was killed and no process of it lives: its lock is removed, "
+        "and this run goes on where it stopped.",
+        file=sys.stderr,
+    )
+
+
+def _name_foreign(runs: list[ProcessName | None]) -> None:
+    where = ", ".join(f"{run.host} (process {run.pid})" for run in runs if run)
+    print(
+        f"This folder is locked by a run on {where}, of which this machine cannot know whether it "
+        f"goes on. If it does not: {UNLOCK}, then the same command again.",
+        file=sys.stderr,
+    )
+
+
+def _forget(file: Path, pid: int) -> None:
+    if os.getpid() == pid:
+        with suppress(OSError):
+            file.unlink(missing_ok=True)
+
+
+@contextmanager
+def _alone(folder: Path) -> Iterator[None]:
+    """Keep two runs that begin at the same time from removing each other's locks."""
+    with (folder / "beginning").open("w") as stream:
+        fcntl.flock(stream, fcntl.LOCK_EX)
+        yield

@@ -1,0 +1,76 @@
+"""One temporary folder per process that solves cases, which never outlives it for long."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+import time
+from functools import cache
+from pathlib import Path
+
+from nptcs.processes.identity import lives, name_of, read_name
+from nptcs.processes.marked import WARDEN, end_marked
+
+PREFIX = "nptcs-"
+OWNER = "owner.json"
+"""File in a scratch folder that names the process to which it belongs."""
+
+YOUNG_S = 3600.0
+"""A folder without an owner's name may be one that is just being made."""
+
+
+def scratch_folder() -> Path:
+    """Return the temporary folder of this process.
+
+    It is made at the first call. A small process of its own, the warden, removes it once this
+    process has ended in whatever way, and ends what still carries its mark
+    (`nptcs.processes.marked`). Folders whose owner and warden were both killed are removed here.
+    """
+    return _folder_of(os.getpid())
+
+
+@cache
+def _folder_of(pid: int) -> Path:
+    sweep(Path(tempfile.gettempdir()))
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX)).resolve()
+    (folder / OWNER).write_text(name_of(pid).text(), encoding="utf-8")
+    _start_warden(folder)
+    return folder
+
+
+def sweep(parent: Path) -> list[Path]:
+    """Remove the scratch folders in `parent` whose owner has ended; return them."""
+    swept = []
+    for folder in sorted(parent.glob(f"{PREFIX}*")):
+        if folder.is_symlink() or not folder.is_dir() or not os.access(folder, os.W_OK):
+            continue
+        if _abandoned(folder):
+            end_marked(str(folder))
+            shutil.rmtree(folder, ignore_errors=True)
+            swept.append(folder)
+    return swept
+
+
+def _abandoned(folder: Path) -> bool:
+    try:
+        owner = read_name((folder / OWNER).read_text(encoding="utf-8"))
+    except (OSError, UnicodeDecodeError):
+        owner = None
+    if owner is not None:
+        return lives(owner) is False
+    try:
+        return not any(folder.iterdir()) and time.time() - folder.stat().st_mtime > YOUNG_S
+    except OSError:
+        return False
+
+
+def _start_warden(folder: Path) -> None:
+    """Start the warden; the pipe to its input stays open as long as this process lives."""
+    for_warden, _ours = os.pipe()
+    command = [sys.executable, str(Path(__file__).with_name(WARDEN)), str(folder), str(os.getpid())]
+    quiet = [(os.POSIX_SPAWN_OPEN, number, os.devnull, os.O_WRONLY, 0) for number in (1, 2)]
+    actions = [(os.POSIX_SPAWN_DUP2, for_warden, 0), *quiet]
+    os.posix_spawn(sys.executable, command, os.environ, file_actions=actions)
+    os.close(for_warden)

@@ -1,0 +1,62 @@
+"""Figure of a decision: the best designs with their intervals, and what was asked."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+from nptcs.report.tables.headings import words
+
+
+@styled
+def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
+    """Draw one response of the best designs, and the range that a target or bound asks for.
+
+    Parameters
+    ----------
+    designs : DataFrame
+        Rows of ``decision_designs.csv`` of one decision and goal.
+    synthetic : bool
+        Whether the materials are synthetic.
+    """
+    first = designs.iloc[0]
+    at = f" at {first['at']}" if first["at"] else ""
+    unit = f" [{first['unit']}]" if first["unit"] not in ("", "1") else ""
+    figure, axes = panel(
+        str(first["goal"]), f"{words(str(first['response']))}{at}{unit}", "", (4.3, 2.6)
+    )
+    place = np.arange(len(designs))[::-1]
+    mean = designs["mean"].to_numpy()
+    ends = np.vstack([mean - designs["low"], designs["high"] - mean])
+    chosen = designs["chosen"].to_numpy(bool)
+    for mine, colour, label in (
+        (chosen, COLOURS[1], "chosen"),
+        (~chosen, COLOURS[0], "other designs"),
+    ):
+        if mine.any():
+            axes.errorbar(
+                mean[mine],
+                place[mine],
+                xerr=ends[:, mine],
+                fmt="s" if label == "chosen" else "o",
+                color=colour,
+                capsize=3,
+                label=label,
+            )
+    low, high = axes.get_xlim()
+    limits = first[["smallest_accepted", "largest_accepted"]].to_numpy(float)
+    if np.isfinite(limits).any():
+        start, end = np.where(np.isfinite(limits), limits, [low, high])
+        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label="asked for")
+        axes.set_xlim(low, high)
+    names = [
+        f"{row.plates} plates" if pd.notna(row.plates) else f"design {row.rank}"
+        for row in designs.itertuples()
+    ]
+    axes.set_yticks(place, names)
+    axes.grid(visible=False, axis="y")
+    figure.legend(loc="outside lower center", ncols=3)
+    mark_synthetic(figure, synthetic)
+    return figure

@@ -1,0 +1,54 @@
+"""Figure of the shares of the variance: which test or tolerance a response is uncertain by."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+from matplotlib.figure import Figure
+
+from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+
+KINDS = {
+    "test": COLOURS[0],
+    "stated": COLOURS[1],
+    "tolerance": COLOURS[2],
+    "surface": COLOURS[4],
+}
+HATCHES = {"test": "", "stated": "//", "tolerance": "..", "surface": "xx"}
+
+
+@styled
+def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Figure:
+    """Draw the shares of one response, the largest at the top, coloured by kind of source.
+
+    Parameters
+    ----------
+    shares : DataFrame
+        Rows of ``uncertainty_shares.csv`` of one response that have a share.
+    title : str
+    synthetic : bool
+        Whether the materials are synthetic.
+    """
+    figure, axes = panel(title, "share of the variance [%]", "", (4.3, 1.3 + 0.3 * len(shares)))
+    place = np.arange(len(shares))[::-1]
+    for kind, colour in KINDS.items():
+        mine = (shares["kind"] == kind).to_numpy()
+        if mine.any():
+            axes.barh(
+                place[mine],
+                shares["share_percent"].to_numpy()[mine],
+                color=colour,
+                hatch=HATCHES[kind],
+                edgecolor="white",
+                label=kind,
+            )
+    for height, share in zip(place, shares["share_percent"], strict=True):
+        text = f" {share:.0f}" if share >= 1 else f" {share:.1g}"
+        axes.text(share, height, text, va="center", fontsize=7.5)
+    names = [text.replace(", ", "\n", 1) for text in shares["quantities"]]
+    axes.set_yticks(place, names, fontsize=7.5)
+    axes.set_xlim(0, max(1.0, 1.12 * float(shares["share_percent"].max())))
+    axes.grid(visible=False, axis="y")
+    figure.legend(loc="outside lower center", ncols=4)
+    mark_synthetic(figure, synthetic)
+    return figure

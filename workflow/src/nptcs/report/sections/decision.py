@@ -1,0 +1,95 @@
+"""What was asked of a design, the answer, and whether a solved case confirms it."""
+
+from __future__ import annotations
+
+from nptcs.config.decisions import Decision
+from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
+from nptcs.report.data import Results
+from nptcs.report.figures.decision import goal_intervals
+from nptcs.report.plots import plot
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.decisions import (
+    DecisionConfirmation,
+    DecisionDesigns,
+    DecisionFront,
+    Decisions,
+)
+from nptcs.tables.result_table import ReportSection
+
+COLUMNS = {"feasible": "ok", "infeasible": "bad", "refused": "bad"}
+
+
+def decision_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section on the decisions."""
+    table = results.table(Decisions)
+    if table.empty:
+        return Section(ReportSection.DECISION, "Decision", ())
+    blocks: list[PageBlock] = []
+    for row in table.to_dict("records"):
+        blocks.append(Text(_title(results, row), "heading"))
+        blocks.append(Text(_answer(row), COLUMNS[str(row["status"])]))
+        blocks += _confirmation(results, str(row["decision"]))
+        blocks += _figures(results, row)
+    shown = (Decisions, DecisionDesigns, DecisionFront, DecisionConfirmation)
+    blocks += [sheet_view(sheet_of(sheets, one)) for one in shown if len(results.table(one))]
+    return Section(
+        ReportSection.DECISION, "Decision", tuple(blocks), results.table_is_synthetic(table)
+    )
+
+
+def _decision(results: Results, name: str) -> Decision:
+    return next(one for one in results.config.decisions if one.name == name)
+
+
+def _title(results: Results, row: dict[str, object]) -> str:
+    return _decision(results, str(row["decision"])).title or str(row["goals"])
+
+
+def _answer(row: dict[str, object]) -> str:
+    asked = f"Asked of study {row['study']}, solver {row['solver']}: {row['goals']}"
+    if row["status"] == "refused":
+        return f"{asked}. No answer: {row['message']}"
+    probability = f"with probability {row['with_probability']:g}"
+    if row["status"] == "infeasible":
+        return f"{asked}, {probability}. {row['message']}. Nearest design: {row['design']}."
+    return (
+        f"{asked}, {probability}. Chosen: {row['design']}; it meets all targets and bounds with "
+        f"probability {row['probability']:.2f}. {row['feasible_percent']:.2g} % of "
+        f"{row['candidates']} candidates do."
+    )
+
+
+def _confirmation(results: Results, decision: str) -> list[PageBlock]:
+    """Say how the solved designs came out."""
+    rows = results.table(DecisionConfirmation)
+    facts = []
+    for row in rows[rows["decision"] == decision].to_dict("records"):
+        at = f" at {row['at']}" if row["at"] else ""
+        what = f"Round {row['round']}: {row['response']}{at} of {row['design']}"
+        if row["result"] == "not solved":
+            text = f"not solved: {row['message']}"
+        else:
+            text = (
+                f"solved {row['solved']:.6g} {row['unit']}, predicted {row['predicted']:.6g} "
+                f"({row['low']:.6g} to {row['high']:.6g}): {row['result']}"
+            )
+        if row["added"]:
+            text += "; the case was added to the surfaces, and the choice was made again"
+        facts.append(Fact(what, text, "decision_confirmation.csv"))
+    return [Facts("Confirmation by a solved case", tuple(facts))] if facts else []
+
+
+def _figures(results: Results, row: dict[str, object]) -> list[PageBlock]:
+    decision = _decision(results, str(row["decision"]))
+    designs = results.table(DecisionDesigns)
+    designs = designs[designs["decision"] == decision.name]
+    study = results.config.study(decision.study)
+    synthetic = results.study_is_synthetic(study, decision.solver)
+    plots: list[Plot] = []
+    for goal, rows in designs.groupby("goal", sort=False):
+        alt = f"{goal}: best designs of the decision {decision.name} with their intervals"
+        plots.append(plot(alt, synthetic, goal_intervals, rows, synthetic))
+    if not plots:
+        return []
+    return [Plots("The best designs: mean and interval of each response.", tuple(plots))]

@@ -1,0 +1,88 @@
+"""How sure the responses of reference and chosen designs are, and what that comes from."""
+
+from __future__ import annotations
+
+import pandas as pd
+
+from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
+from nptcs.report.data import Results
+from nptcs.report.figures.uncertainty import share_bars
+from nptcs.report.plots import plot
+from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.headings import words
+from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.result_table import ReportSection
+from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
+
+KEYS = ["study", "solver", "design", "response", "at"]
+LARGEST = 3
+"""Sources that the sentence on a response names."""
+
+
+def uncertainty_section(results: Results, sheets: Sheets) -> Section:
+    """Build the section on the uncertainty of responses."""
+    table, shares = results.table(ResponseUncertainty), results.table(UncertaintyShares)
+    if table.empty:
+        return Section(ReportSection.UNCERTAINTY, "Uncertainty", ())
+    blocks: list[PageBlock] = [
+        Text(
+            "What is not known exactly is propagated through the surfaces: the tests behind the "
+            "material card, stated rubbers, tolerances of manufacture and the surface's own error. "
+            "A large share says which test to repeat or which tolerance to tighten. The difference "
+            "of the solver from the published stiffness (bias) is next to the interval and not "
+            "part of it."
+        ),
+        Facts("How sure each response is", tuple(_facts(results, table, shares))),
+        Plots("Shares of the variance by source.", tuple(_plots(results, shares))),
+        sheet_view(sheet_of(sheets, ResponseUncertainty)),
+        sheet_view(sheet_of(sheets, UncertaintyShares)),
+    ]
+    return Section(
+        ReportSection.UNCERTAINTY, "Uncertainty", tuple(blocks), results.table_is_synthetic(table)
+    )
+
+
+def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[Fact]:
+    facts = []
+    parts = {key: rows for key, rows in shares.groupby(KEYS, sort=False)}
+    for row in table.to_dict("records"):
+        rows = parts[tuple(row[key] for key in KEYS)].dropna(subset=["share_percent"])
+        largest = "; ".join(
+            f"{_short(one)} {one['share_percent']:.0f} %"
+            for one in rows.head(LARGEST).to_dict("records")
+        )
+        text = (
+            f"{row['mean']:.5g} ± {row['sd']:.2g} {row['unit']} (SD), "
+            f"{row['confidence_percent']:.0f} % interval {row['low']:.5g} to {row['high']:.5g}; "
+            f"{largest}"
+        )
+        if pd.notna(row["bias_mean_percent"]):
+            text += (
+                f". Bias, not in the interval: {row['bias_mean_percent']:+.2f} % mean, "
+                f"{row['bias_largest_percent']:+.2f} % at most, {row['blind_cases']} blind cases"
+            )
+        at = f" at {row['at']}" if row["at"] else ""
+        what = (
+            f"{words(row['response']).capitalize()}{at}, {row['design']}, study {row['study']}, "
+            f"solver {row['solver']}"
+        )
+        facts.append(Fact(what, text, "uncertainty.csv"))
+    return facts
+
+
+def _short(row: dict[str, object]) -> str:
+    """Name a source without its standard deviation."""
+    return str(row["quantities"]).split(" ± ")[0]
+
+
+def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
+    """Draw the stiffness of each reference and chosen design."""
+    plots = []
+    stiffness = shares[shares["response"] == "secant_stiffness"]
+    for key, rows in stiffness.dropna(subset=["share_percent"]).groupby(KEYS, sort=False):
+        study, solver, design, _, at = map(str, key)
+        synthetic = results.study_is_synthetic(results.config.study(study), solver)
+        given = (rows, f"{design}, {solver}, stiffness at {at}", synthetic)
+        alt = f"Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}"
+        plots.append(plot(alt, synthetic, share_bars, *given))
+    return plots

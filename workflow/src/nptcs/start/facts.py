@@ -1,0 +1,164 @@
+"""Facts for the rules: found once, then read from a file until what they rest on changes."""
+
+from __future__ import annotations
+
+import atexit
+import hashlib
+import json
+import sys
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from contextlib import suppress
+from dataclasses import asdict, dataclass, field
+from pathlib import Path
+from typing import Any
+
+from nptcs.files import write_text
+from nptcs.provenance import code_hash
+from nptcs.seal import BrokenSealError, open_object, sealed_object
+
+KIND = "StartFacts"
+PACKAGE = Path(__file__).parents[1]
+
+
+@dataclass(frozen=True)
+class SolverFacts:
+    """What the rules ask of a solver with its options, as plain values."""
+
+    module: str
+    about: str
+    needs_ply: bool
+    loads_tyre: bool
+    solves_tables: bool
+    choices: dict[str, str]
+    table_paths: dict[str, str]
+    without_effect: tuple[str, ...]
+    cores: int
+    tokens: int
+    case_s: float
+    case_memory_mb: float
+    timeout_s: float
+
+    def tables(self) -> dict[str, str]:
+        """Name the files that the solver reads, as `SolverOptions.tables`."""
+        return self.table_paths
+
+    def cores_per_case(self) -> int:
+        """Return the cores of one case, as `SolverOptions.cores_per_case`."""
+        return self.cores
+
+    def tokens_per_case(self) -> int:
+        """Return the licence tokens of one case, as `SolverOptions.tokens_per_case`."""
+        return self.tokens
+
+
+@dataclass
+class Facts:
+    """What the rules know.
+
+    Parameters
+    ----------
+    solvers : dict of str to dict of str to SolverFacts
+        By study and name.
+    modules : dict of str to str
+        Module of each solver of the package.
+    plies, rubbers : tuple of str
+        Materials that get a card.
+    ply : dict of str to str
+        The ply of each study that takes one.
+    profiles : dict of str to str
+        Hash of what each format profile says.
+    tables : tuple of str
+        Names of all result tables.
+    files : dict of str to str
+        Hash of each file that was looked into; another content, and the facts are found anew.
+    code : dict of str to str
+        Hashes of code that were asked for.
+    """
+
+    solvers: dict[str, dict[str, SolverFacts]]
+    modules: dict[str, str]
+    plies: tuple[str, ...]
+    rubbers: tuple[str, ...]
+    ply: dict[str, str]
+    profiles: dict[str, str]
+    tables: tuple[str, ...]
+    files: dict[str, str] = field(default_factory=dict)
+    code: dict[str, str] = field(default_factory=dict)
+
+    def code_of(self, *modules: str, words: bool = False) -> str:
+        """Hash code as `nptcs.provenance.code_hash`, once for all starts with the same code."""
+        name = json.dumps([modules, words])
+        if name not in self.code:
+            self.code[name] = code_hash(*modules, words=words)
+        return self.code[name]
+
+
+def known_facts(
+    file: str | Path,
+    given: Mapping[str, Any],
+    inputs: Sequence[str | Path],
+    find: Callable[[], Facts],
+) -> Facts:
+    """Read the facts from a file if they rest on the same, or find them and keep them.
+
+    Parameters
+    ----------
+    file : str or Path
+        Where they are kept; written when Python ends. One that was edited is not believed.
+    given : mapping
+        Plain values that they rest on: the configuration.
+    inputs : sequence of str or Path
+        Files that they rest on; the code of the package is added.
+    find : callable
+        Finds them; it raises `InputError` where a run must not begin.
+    """
+    key = key_of(given, inputs)
+    facts = _read(file, key)
+    if facts is None:
+        facts = find()
+    hashes = len(facts.code)
+    new = _read(file, key) is None
+
+    def keep() -> None:
+        if new or len(facts.code) > hashes:
+            with suppress(OSError):
+                content = {"key": key, "facts": asdict(facts)}
+                write_text(file, sealed_object(json.loads(json.dumps(content)), KIND))
+
+    atexit.register(keep)
+    return facts
+
+
+def key_of(given: Mapping[str, Any], inputs: Sequence[str | Path]) -> str:
+    """Hash everything that facts rest on: values, files, this package, the version of Python."""
+    digest = hashlib.sha256(json.dumps([sys.version, given], sort_keys=True, default=str).encode())
+    read = contents([*map(str, inputs), *map(str, PACKAGE.rglob("*.py"))])
+    digest.update(json.dumps(read, sort_keys=True).encode())
+    return digest.hexdigest()
+
+
+def contents(paths: Iterable[str]) -> dict[str, str]:
+    """Hash files; one that cannot be read is ``missing``."""
+    found = {}
+    for path in paths:
+        try:
+            found[path] = hashlib.sha256(Path(path).read_bytes()).hexdigest()
+        except OSError:
+            found[path] = "missing"
+    return found
+
+
+def _read(file: str | Path, key: str) -> Facts | None:
+    try:
+        content = open_object(Path(file).read_text(encoding="utf-8"), KIND)
+        if content["key"] != key:
+            return None
+        facts = content["facts"]
+        solvers = {
+            study: {name: SolverFacts(**one) for name, one in of_study.items()}
+            for study, of_study in facts.pop("solvers").items()
+        }
+        found = Facts(solvers=solvers, **facts)
+        return found if contents(found.files) == found.files else None
+    except (OSError, UnicodeDecodeError, BrokenSealError, KeyError, TypeError):
+        return None

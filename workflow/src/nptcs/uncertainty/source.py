@@ -1,0 +1,73 @@
+"""What predictions of a study rest on: its cases, materials, surfaces and settings."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+from nptcs.config.goals import ResponseName
+from nptcs.config.tyre import TyreGeometry
+from nptcs.config.uncertainty import Uncertainty
+from nptcs.surface.registry import SurfaceRegistry
+from nptcs.tables.material_card import MaterialCard, PlyCard
+from nptcs.uncertainty.fitted import FittedResponse, fit_response
+from nptcs.uncertainty.inputs import Inputs, uncertain_inputs
+from nptcs.uncertainty.study_results import StudyResults
+
+
+@dataclass(frozen=True)
+class Materials:
+    """What is known of the materials.
+
+    Parameters
+    ----------
+    card : MaterialCard
+    ply : PlyCard or None
+        Of the study's plates; None where the solver does not use one.
+    """
+
+    card: MaterialCard
+    ply: PlyCard | None
+
+
+@dataclass(frozen=True)
+class Source:
+    """What the predictions of a study and solver rest on.
+
+    Parameters
+    ----------
+    results : StudyResults
+        Of the study and the solver.
+    rubbers : StudyResults or None
+        Of the study that varies the rubbers, by the same solver.
+    registry : SurfaceRegistry or None
+        Surfaces of the study that are stored.
+    materials : Materials
+    tyre : TyreGeometry
+    whole_plates : bool
+        Whether the solver uses a whole number of plates.
+    settings : Uncertainty
+    """
+
+    results: StudyResults
+    rubbers: StudyResults | None
+    registry: SurfaceRegistry | None
+    materials: Materials
+    tyre: TyreGeometry
+    whole_plates: bool
+    settings: Uncertainty
+
+    def fit(self, response: ResponseName, surface: str) -> FittedResponse:
+        """Return the model of a response."""
+        ply = self.materials.ply.values() if self.materials.ply is not None else None
+        return fit_response(
+            self.results, response, surface, self.tyre, ply, self.rubbers, self.registry
+        )
+
+    def inputs(self) -> Inputs:
+        """List what is uncertain of any design of the study."""
+        solved = self.results.solved
+        names = [*self.results.factors, *self.results.study.fixed]
+        values = {name: float(solved[name].iloc[0]) for name in names}
+        return uncertain_inputs(
+            self.settings, self.materials.card, self.materials.ply, values, self.results.factors
+        )
