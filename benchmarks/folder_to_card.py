@@ -125,6 +125,7 @@ def main() -> int:
         print(f"{files} files of 32 specimens in 4 series")
         fills = [f"{series}: {cells}" for series, cells in SERIES.items()]
         total = timed(["nptcs", "new-sheet", "lab"], folder)
+        fills = [f"{fill} gauge_length_mm=150" for fill in fills]  # where no camera saw the strain
         words = [word for fill in fills for word in ("--fill", fill)]
         total += timed(["nptcs", "new-sheet", "lab", *words], folder)
         total += timed(["nptcs", "check", "mine.yaml"], folder)

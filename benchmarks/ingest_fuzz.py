@@ -29,6 +29,7 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.quantities import Role
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.reading.units import DIMENSION, FACTORS
 from nptcs.tables.specimens import Specimen
@@ -55,7 +56,7 @@ class Base:
 
     name: str
     content: bytes
-    role: str
+    role: Role
     table: RawFile
     specimen: Specimen
     partner: Path | None = None
@@ -288,7 +289,7 @@ def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int
     return None
 
 
-def _specimen(name: str, role: str, partner: str) -> Specimen:
+def _specimen(name: str, role: Role, partner: str) -> Specimen:
     """Make a specimen for a file; its size makes all moduli plausible."""
     rubber = name.startswith(("R", "Dragon"))
     return Specimen(

@@ -6,7 +6,7 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
@@ -50,6 +50,8 @@ class Proposal:
 
     rows: list[dict[str, str]] = field(default_factory=list)
     left: dict[str, str] = field(default_factory=dict)
+    travel_only: set[str] = field(default_factory=set)
+    """Force files without a strain but the crosshead's travel."""
 
     def text(self) -> str:
         """Return the sheet as CSV."""
@@ -65,7 +67,7 @@ class Proposal:
         found: dict[str, tuple[int, list[str]]] = {}
         for row in self.rows:
             count, wanted = found.get(names[row["force_file"]], (0, []))
-            wanted = list(dict.fromkeys([*wanted, *_open_cells(row)]))
+            wanted = list(dict.fromkeys([*wanted, *_open_cells(row, self.travel_only)]))
             found[names[row["force_file"]]] = (count + 1, wanted)
         return found
 
@@ -73,7 +75,7 @@ class Proposal:
         """Count the rows in which a person still has to fill in each column."""
         wanted: Counter[str] = Counter()
         for row in self.rows:
-            wanted.update(_open_cells(row))
+            wanted.update(_open_cells(row, self.travel_only))
         return dict(wanted)
 
 
@@ -123,7 +125,7 @@ def propose_sheet(
     }
     for number, own in unique_ids(names).items():
         proposal.rows[number]["specimen"] = own
-        _remark(proposal.rows[number])
+        _remark(proposal.rows[number], proposal.travel_only)
     if not proposal.rows:
         raise InputError(
             "no file holds a test", "look at one file with: nptcs inspect FILE", folder
@@ -189,6 +191,8 @@ def _sort(
         proposal.left[name] = "a summary of results by its name and size, not a test"
     elif loaded:
         found.tests += [(name, test, inspection, len(loaded) > 1) for test in loaded]
+        if not any({*STRAINS} & set(test.quantities) for test in loaded):
+            proposal.travel_only.add(name)
     elif any(set(STRAINS) & set(test.quantities) for test in inspection.tests):
         found.strains.append(name)
     else:
@@ -250,20 +254,23 @@ def _obstacle(test: Test, inspection: Inspection, labels: Mapping[str, LabelValu
     return "; ".join(text for text in told if text)
 
 
-def _open_cells(row: Mapping[str, str]) -> list[str]:
+def _open_cells(row: Mapping[str, str], travel_only: Collection[str]) -> list[str]:
     """Columns that a person has to fill in before the sheet is accepted."""
     needed = ["test", "material", "width_mm", "thickness_mm"]
     if not row.get("test", "").startswith("rubber"):
         needed.insert(2, "orientation_deg")
+    if row["force_file"] in travel_only and not row.get("strain_file"):
+        needed.append("gauge_length_mm")
     return [column for column in needed if not row.get(column)]
 
 
-def _remark(row: dict[str, str]) -> None:
+def _remark(row: dict[str, str], travel_only: Collection[str]) -> None:
     """Say what is a proposal and what is to be filled in."""
     proposed = [name for name in ("test", "material", "orientation_deg") if row.get(name)]
+    wanted = _open_cells(row, travel_only)
     parts = [
         f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
-        f"fill in {', '.join(_open_cells(row))}" if _open_cells(row) else "",
+        f"fill in {', '.join(wanted)}" if wanted else "",
         row["remarks"],
     ]
     row["remarks"] = "; ".join(part for part in parts if part)
