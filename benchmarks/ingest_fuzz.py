@@ -308,7 +308,7 @@ def _specimen(name: str, role: Role, partner: str) -> Specimen:
 def bases(profiles: Mapping[str, FormatProfile], labdata: Path | None) -> list[Base]:
     """Take example files of each format, and the real files that detection reads."""
     example = ROOT / "raw_data" / "example"
-    files = [
+    files: list[tuple[Path, Role, str]] = [
         (example / "T90-1.csv", "force and strain", ""),
         (example / "R75-1.csv", "force and strain", ""),
         (example / "C90-1.TRA", "force and strain", ""),
