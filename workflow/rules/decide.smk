@@ -20,8 +20,8 @@ def decided_study(study):
 def confirming_options(study_name, solver_name):
     """Options of a solver that solves chosen designs, without those that change no result."""
     options = CONFIG.options_of(study_name, solver_name)
-    _, checked = solver_of(study_name, solver_name)
-    return {k: v for k, v in options.items() if k not in checked.without_effect}
+    words = FACTS.solvers[study_name][solver_name].without_effect
+    return {key: value for key, value in options.items() if key not in words}
 
 
 def decide_job():
