@@ -221,9 +221,9 @@ class TyreModel:
             If a load is not reached with steps down to 2 N, or a spoke leaves its table.
         """
         path = LoadPath()
+        before: LoadPoint | None = None
         self.ground.release()
         try:
-            before: LoadPoint | None = None
             last = self._first_touch(path)
             for load in loads_n:
                 while last.force_n < load:
