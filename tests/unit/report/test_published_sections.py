@@ -184,7 +184,9 @@ def test_a_neutral_line_that_no_solver_gave_is_said_to_be_missing(compared):
         tables={**compared.tables, "neutral_line.csv": compared.table(NeutralLine).iloc[:0]},
     )
     section = published_stiffness_section(without, sheets_of(without))
-    assert "No solver gave a neutral line for rubber_011." in [t.text for t in blocks(section, Text)]
+    assert "No solver gave a neutral line for rubber_011." in [
+        t.text for t in blocks(section, Text)
+    ]
     section = published_stiffness_section(compared, sheets_of(compared))
     assert not any("No solver gave" in text.text for text in blocks(section, Text))
 

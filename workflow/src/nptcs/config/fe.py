@@ -156,9 +156,9 @@ class EnergyTableOptions(Strict):
     )
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
-        description="States other than β = φ = 0: alternate has one at every second level of the "
-        "elongation, neighbouring rows taking turns; every has all of them, for nearly twice the "
-        "time",
+        description="States other than β = φ = 0: alternate has one at both ends and at every "
+        "second level of the elongation, neighbouring rows taking turns; every has all of them, "
+        "for half as much time again",
     )
     accepted_work: float = Field(
         1e-9,

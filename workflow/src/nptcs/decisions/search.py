@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize
 
-from nptcs.arrays import Array, Mask
+from nptcs.arrays import Array, Mask, Rows
 from nptcs.config.goals import GoalKind
 from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, nearness
 from nptcs.decisions.space import DesignSpace
@@ -99,16 +99,21 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
             return Found(nearest, np.zeros(1), False, candidates, acceptable, none)
         scale = desirability(problem, nearest)
         return Found(nearest, scale.of(nearest), True, candidates, acceptable, nearest)
-    scale = desirability(problem, chosen(candidates, np.flatnonzero(acceptable)))
+    accepted = chosen(candidates, np.flatnonzero(acceptable))
+    scale = desirability(problem, accepted)
     promising = _promising(problem, parts, scale, probability, top)
     best = [_best_of_cell(problem, space, part, scale, probability) for part in promising]
     found = [one for one in best if one is not None]
-    rest = _make(problem, space, chosen(candidates, np.flatnonzero(acceptable)), scale, top)
+    rest = _make(problem, space, accepted, scale, top)
     pool = joined([*found, chosen(rest, np.flatnonzero(rest.probability >= probability))])
+    if not len(pool.x):  # nothing that can be made in these steps is acceptable
+        pool = chosen(accepted, np.array([int(rank(problem, scale, accepted).argmax())]))
+    # what was found may be better than any candidate: it has the desirability 1
+    scale = desirability(problem, joined([accepted, pool]))
     value = rank(problem, scale, pool)
     picked = _different(pool.x, np.argsort(-value, kind="stable"), space, top)
     designs = chosen(pool, picked)
-    everything = joined([chosen(candidates, np.flatnonzero(acceptable)), designs])
+    everything = joined([accepted, designs])
     front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
     return Found(designs, scale.of(designs), True, candidates, acceptable, front)
 
@@ -173,7 +178,7 @@ def joined(parts: list[Evaluation]) -> Evaluation:
     )
 
 
-def chosen(found: Evaluation, places: Array) -> Evaluation:
+def chosen(found: Evaluation, places: Rows) -> Evaluation:
     """Return some of the designs of an evaluation."""
     return Evaluation(
         found.x[places],
@@ -283,7 +288,7 @@ def _make(
     return problem.evaluate(np.unique(made, axis=0))
 
 
-def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
+def _different(x: Array, order: Rows, space: DesignSpace, top: int) -> Rows:
     """Pick designs in an order, each different from those before it."""
     span = np.where(space.upper > space.lower, space.upper - space.lower, 1.0)
     picked: list[int] = []

@@ -79,7 +79,7 @@ class StudyResults:
             found = pd.Series(dict(self._stiffness(response)), dtype=float)
         else:
             found = self._tabulated(response)
-        values = found.reindex(self.solved["case_id"]).to_numpy(float)
+        values: Array = np.asarray(found.reindex(self.solved["case_id"]), dtype=float)
         if not np.isfinite(values).any():
             raise InputError(
                 f"no case of study {self.study.name} by {self.solver} has {response}",
