@@ -94,7 +94,8 @@ def test_a_solver_that_lacks_a_value_says_which():
     config["studies"][1]["solvers"] = ["lca"]
     config["studies"][1]["solver_options"] = {}
     config["studies"][1]["neutral_line_cases"] = []
-    config["studies"][1]["terms"] = config["studies"][1]["surfaces"] = []
+    for key in ("terms", "surfaces", "responses"):
+        config["studies"][1][key] = []
     config = read_config(config)
     study = config.studies[1]
     with pytest.raises(InputError, match="solver 'lca' needs shear_band_c10_mpa"):

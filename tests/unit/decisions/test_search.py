@@ -173,3 +173,10 @@ def test_a_box_without_whole_plates_is_refused():
     with pytest.raises(InputError, match="no whole number of plates"):
         design_space([mass], {}, {}, TyreGeometry(), whole_plates=True)
     assert design_space([mass], {}, {}, TyreGeometry(), whole_plates=False).cells == (None,)
+
+
+def test_steps_that_no_acceptable_design_has_are_said(source):
+    goals = {"targets": ["K=302±3"], "hold": {"spacing_mm": 13.5, "angle_deg": 0}}
+    found = decide(decision(**goals, steps={"thickness_mm": 1.2}), source)
+    assert found.found.feasible
+    assert "lies between the steps" in found.why

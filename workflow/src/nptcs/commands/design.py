@@ -175,6 +175,8 @@ def as_text(done: Answer) -> str:
     ]
     if not found.feasible:
         lines += [outcome.why, "", "nearest design:"]
+    elif outcome.why:
+        lines += [outcome.why, ""]
     responses = list(outcome.problem.fitted)
     head = ["", "probability", "desirability", *map(str, responses), "design"]
     rows = []

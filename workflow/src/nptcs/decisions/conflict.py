@@ -31,8 +31,8 @@ def conflict_words(problem: Problem, found: Found, probability: float) -> str:
         f"no design meets all goals with probability {probability:g}: at best {together:.2g}"
     ]
     best = each.max(axis=0)
-    alone = [f"{goal} {p:.2g}" for goal, p in zip(goals, best, strict=True)]
-    sentences.append("each goal alone is met with at best: " + "; ".join(alone))
+    alone = [f"'{goal}' with {p:.2g}" for goal, p in zip(goals, best, strict=True)]
+    sentences.append(f"alone, at best: {', '.join(alone)}")
     if unreachable := [str(g) for g, p in zip(goals, best, strict=True) if p < probability]:
         sentences.append(f"out of reach even alone: {'; '.join(unreachable)}")
         return ". ".join(sentences)

@@ -38,7 +38,7 @@ class Outcome:
     sampled : ndarray
         Probability of each design from these samples.
     why : str
-        What stands in the way; empty for a feasible decision.
+        What stands in the way, or must be known of the choice.
     confidence : float
         Of the intervals.
     """
@@ -102,7 +102,9 @@ def decide(decision: Decision, source: Source) -> Outcome:
         problem.sampled(point, source.settings.samples, source.settings.seed)
         for point in found.designs.x
     )
-    why = "" if found.feasible else conflict_words(problem, found, decision.with_probability)
+    why = found.note
+    if not found.feasible:
+        why = conflict_words(problem, found, decision.with_probability)
     return Outcome(
         decision,
         problem,

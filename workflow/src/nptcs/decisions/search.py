@@ -51,6 +51,8 @@ class Found:
         Which candidates are.
     front : Evaluation
         Acceptable candidates and designs that no other one betters in every objective.
+    note : str
+        What a reader must know of the designs; empty if nothing.
     """
 
     designs: Evaluation
@@ -59,6 +61,7 @@ class Found:
     candidates: Evaluation
     acceptable: Mask
     front: Evaluation
+    note: str = ""
 
     @property
     def feasible_percent(self) -> float:
@@ -106,7 +109,9 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
     found = [one for one in best if one is not None]
     rest = _make(problem, space, accepted, scale, top)
     pool = joined([*found, chosen(rest, np.flatnonzero(rest.probability >= probability))])
-    if not len(pool.x):  # nothing that can be made in these steps is acceptable
+    note = ""
+    if not len(pool.x):
+        note = "no design in the given steps meets the goals: the choice lies between the steps"
         pool = chosen(accepted, np.array([int(rank(problem, scale, accepted).argmax())]))
     # what was found may be better than any candidate: it has the desirability 1
     scale = desirability(problem, joined([accepted, pool]))
@@ -115,7 +120,7 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
     designs = chosen(pool, picked)
     everything = joined([accepted, designs])
     front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
-    return Found(designs, scale.of(designs), True, candidates, acceptable, front)
+    return Found(designs, scale.of(designs), True, candidates, acceptable, front, note)
 
 
 def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation) -> Evaluation:
