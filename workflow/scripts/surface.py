@@ -3,12 +3,11 @@
 from typing import Any
 
 from nptcs.campaign.cases import read_cases
-from nptcs.compare.surface_tables import study_tables
+from nptcs.compare.surface_tables import study_tables, write_surfaces
 from nptcs.config.study import Study
 from nptcs.console import clear_errors
-from nptcs.files import read_model, write_text
+from nptcs.files import read_model
 from nptcs.responses.study import study_responses
-from nptcs.surface.stored import dump, dump_registry
 from nptcs.surface.study import fit_study
 from nptcs.tables.io import read_tables, write_table
 from nptcs.tables.material_card import PlyCard
@@ -23,8 +22,7 @@ def fit(job: dict[str, Any], records: list[str], **files: Any) -> None:
     published = read_tables(files["published"], PublishedCoefficients)
     for name, (table, contract) in study_tables(study, done, published).items():
         write_table(files[name], table, contract)
-    write_text(files["surfaces"], dump(done.polynomials))
-    write_text(files["models"], dump_registry(done.registry()))
+    write_surfaces(done, files["surfaces"], files["models"])
 
 
 if __name__ == "__main__":

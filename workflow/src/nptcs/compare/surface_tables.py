@@ -7,7 +7,9 @@ import pandera.pandas as pa
 
 from nptcs.compare.coefficients import by_powers
 from nptcs.config.study import Study
+from nptcs.files import write_text
 from nptcs.surface.response_tables import response_surfaces
+from nptcs.surface.stored import dump, dump_registry
 from nptcs.surface.study import StudySurfaces
 from nptcs.surface.tables import comparison_tables, quality_table, surface_table
 from nptcs.tables.problems import Problems
@@ -43,3 +45,9 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
         "responses": (response_surfaces(done), ResponseSurfaces),
         "problems": (done.problems, Problems),
     }
+
+
+def write_surfaces(done: StudySurfaces, polynomials: str, registry: str) -> None:
+    """Write the polynomials of tables 6 and 8, and all surfaces of the study, as sealed files."""
+    write_text(polynomials, dump(done.polynomials))
+    write_text(registry, dump_registry(done.registry()))

@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
+import pandera.pandas as pa
 from scipy.stats import qmc
 
 from nptcs.arrays import Array
@@ -15,11 +16,13 @@ from nptcs.errors import InputError
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import box
 from nptcs.surface.sobol import inputs_of, sobol_indices
-from nptcs.surface.study import Fit, StudySurfaces
+from nptcs.surface.sobol_tables import variance_shares
+from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
 from nptcs.surface.tables import fit_measures
 from nptcs.surface.ties import near_ties
-from nptcs.tables.problems import problems_table
+from nptcs.tables.problems import Problems, problems_table
 from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
+from nptcs.tables.sobol import MainEffects, SobolIndices
 
 GRADIENT_POINTS = 4096
 """Points of a scrambled Sobol sequence over which slopes are averaged."""
@@ -95,6 +98,36 @@ def response_impacts(
         ties = near_ties(part, ["solver"], "factor", "effect", settings.near_tie_ratio)
         table.loc[part.index, "near_tie_with"] = ties
     return ResponseImpacts(table, problems_table(problems))
+
+
+def sensitivity_tables(
+    registries: Mapping[str, SurfaceRegistry], quality: pd.DataFrame, settings: Sensitivity
+) -> dict[str, tuple[pd.DataFrame, type[pa.DataFrameModel]]]:
+    """Make the variance shares of the stiffness and the ranks of every response, with contracts.
+
+    Parameters
+    ----------
+    registries : mapping of str to SurfaceRegistry
+        By study.
+    quality : DataFrame
+        `nptcs.tables.surface.SurfaceQuality` of all studies.
+    settings : Sensitivity
+
+    Returns
+    -------
+    dict
+        ``indices``, ``effects``, ``impacts`` and ``problems``.
+    """
+    surfaces = {study: registry.by_solver(RESPONSE) for study, registry in registries.items()}
+    failed = quality.set_index(["study", "solver"])["failed_cases"]
+    shares = variance_shares(surfaces, failed.to_dict(), settings)
+    ranked = response_impacts(list(registries.values()), settings)
+    return {
+        "indices": (shares.indices, SobolIndices),
+        "effects": (shares.effects, MainEffects),
+        "impacts": (ranked.table, ResponseImpact),
+        "problems": (pd.concat([shares.problems, ranked.problems]), Problems),
+    }
 
 
 def _best(registry: SurfaceRegistry) -> Iterator[FittedSurface]:

@@ -19,7 +19,7 @@ from nptcs.surface.fit import Surface
 from nptcs.surface.models import Cases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
-from nptcs.tables.problems import problems_table
+from nptcs.tables.problems import Problem, problems_table
 
 RESPONSE = Response(STIFFNESS, unit="N/mm")
 """What tables 6, 8 and 9 are of."""
@@ -149,7 +149,7 @@ def fit_study(
     factors = [factor.name for factor in study.factors]
     solved = {solver: solved_cases(cases, solver, factors) for solver in study.solvers}
     fits: list[Fit] = []
-    problems: list[tuple[str, ...]] = []
+    problems: list[Problem] = []
     for response in [RESPONSE, *responses_of(study)]:
         by_solver = {
             solver: _values(response, solved[solver].table, solver, values)
@@ -191,7 +191,7 @@ def _values(
     return table["case_id"].map(rows.set_index("case_id")["value"])
 
 
-def _fits(wanted: _Wanted) -> Iterator[Fit | tuple[str, ...]]:
+def _fits(wanted: _Wanted) -> Iterator[Fit | Problem]:
     """Fit every surface of one response and solver, or give the rows of problems."""
     study, response = wanted.study, wanted.response
     known = wanted.values.notna()
@@ -236,5 +236,5 @@ def _too_few(wanted: _Wanted, count: int, lacking: int) -> InputError:
     )
 
 
-def _refusal(study: Study, about: Sequence[str], error: InputError) -> tuple[str, ...]:
+def _refusal(study: Study, about: Sequence[str], error: InputError) -> Problem:
     return ("surface", study.name, ", ".join(about), "refused", str(error))
