@@ -74,21 +74,17 @@ class RunHandler(LogHandlerBase):
             return
         event = getattr(record, "event", None)
         facts: dict[str, Any] = record.__dict__
-        match event:
-            case LogEvent.RUN_INFO:
-                self.run.total = max(self.run.total, int(facts["stats"].get("total", 0)))
-            case LogEvent.JOB_INFO:
-                self.run.job_info(facts)
-            case LogEvent.PROGRESS:
-                self.run.done, self.run.total = int(facts["done"]), int(facts["total"])
-            case LogEvent.JOB_ERROR | LogEvent.GROUP_ERROR:
-                if "jobid" in facts:
-                    job = self.run.job_failed(facts)
-                    self._say(f"failed: {job}" + (f" (log: {job.log})" if job.log else ""))
-            case LogEvent.ERROR | None:
-                self._message(record)
-            case _:
-                pass
+        if event == LogEvent.RUN_INFO:
+            self.run.total = max(self.run.total, int(facts["stats"].get("total", 0)))
+        elif event == LogEvent.JOB_INFO:
+            self.run.job_info(facts)
+        elif event == LogEvent.PROGRESS:
+            self.run.done, self.run.total = int(facts["done"]), int(facts["total"])
+        elif event in (LogEvent.JOB_ERROR, LogEvent.GROUP_ERROR) and "jobid" in facts:
+            job = self.run.job_failed(facts)
+            self._say(f"failed: {job}" + (f" (log: {job.log})" if job.log else ""))
+        elif event in (None, LogEvent.ERROR):
+            self._message(record)
 
     def _message(self, record: logging.LogRecord) -> None:
         """Show a message that is not an event, if a person needs it."""
