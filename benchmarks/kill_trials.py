@@ -93,14 +93,15 @@ class Project:
     def __init__(self, folder: Path, earlier: Path | None = None) -> None:
         self.folder, self.temp = folder, folder / "temp"
         self.temp.mkdir(parents=True)
-        for name in ("config", "raw_data"):
-            (folder / name).symlink_to(ROOT / name)
+        (folder / "raw_data").symlink_to(ROOT / "raw_data")
+        (folder / "config").mkdir()
+        (folder / "config/formats").symlink_to(ROOT / "config/formats")
         (folder / "stub.py").write_text(SOLVER)
         levels = [1.0 + number for number in range(CASES)]
         factor = {"name": "spoke_c10_mpa", "label": "C10", "unit": "MPa", "levels": levels}
         study = {"name": "killed", "title": "t", "factors": [factor], "solvers": ["stub"]}
         config = {"studies": [study], "solvers": {"stub": {"module": "stub.py"}}}
-        (folder / "kill.yaml").write_text(yaml.safe_dump(config))
+        (folder / "config/config.yaml").write_text(yaml.safe_dump(config))
         if earlier is not None:  # what a start has found out is known, as after any earlier run
             known = Path(".snakemake/nptcs/start.json")
             (folder / known).parent.mkdir(parents=True)
@@ -111,7 +112,7 @@ class Project:
         command = [
             *(sys.executable, "-m", "snakemake", "-s", str(ROOT / "workflow/Snakefile")),
             *("-d", str(self.folder), "-j2", "--workflow-profile", "none", "--rerun-incomplete"),
-            *("--configfile", "kill.yaml", "--scheduler", "greedy", "--", TARGET),
+            *("--scheduler", "greedy", "--", TARGET),
         ]
         environment = {
             **os.environ,

@@ -56,8 +56,9 @@ SOLVER = Solver(
 
 def run(folder, cores_per_batch, batches, limit):
     """Solve four cases with `limit` tokens; return the run and the most tokens held at a time."""
-    for name in ("config", "raw_data"):
-        (folder / name).symlink_to(ROOT / name)
+    (folder / "raw_data").symlink_to(ROOT / "raw_data")
+    (folder / "config").mkdir()
+    (folder / "config/formats").symlink_to(ROOT / "config/formats")
     (folder / "holder.py").write_text(SOLVER)
     log = folder / "tokens.log"
     study = {
@@ -74,12 +75,12 @@ def run(folder, cores_per_batch, batches, limit):
         "solvers": {"holder": {"module": "holder.py", "log": str(log)}},
         "campaign": {"batches": batches, "cores_per_batch": cores_per_batch},
     }
-    (folder / "licence.yaml").write_text(yaml.safe_dump(config))
+    (folder / "config/config.yaml").write_text(yaml.safe_dump(config))
     targets = [f"results/5_solve/held/holder/batch_{i + 1}.jsonl" for i in range(batches)]
     command = [
         *(sys.executable, "-m", "snakemake", "-s", SNAKEFILE, "-d", str(folder)),
         *("-j4", "--resources", f"licence_tokens={limit}", "--workflow-profile", "none"),
-        *("--configfile", "licence.yaml", "--scheduler", "greedy", "--", *targets),
+        *("--scheduler", "greedy", "--", *targets),
     ]
     source = str(ROOT / "workflow" / "src")
     done = subprocess.run(

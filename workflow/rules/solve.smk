@@ -15,7 +15,8 @@ def solver_tables(wildcards):
     return [ancient(path) for path in options.tables().values()]
 
 
-def solve_job(wildcards, output):
+def solve_job(wildcards, batch="batch_{batch}.jsonl"):
+    # without `output`: Snakemake does not remember parameters that depend on it
     study = CONFIG.study(wildcards.study)
     options = CONFIG.solver_options(study)[wildcards.solver]
     checked = solver_of(wildcards.study, wildcards.solver)
@@ -29,15 +30,17 @@ def solve_job(wildcards, output):
         "tyre": plain(CONFIG.tyre),
         "batch": int(wildcards.batch),
         "batches": batches_of(wildcards.study, wildcards.solver),
-        "tries": read_tries(output[0]),
+        "tries": read_tries(
+            f"results/5_solve/{{study}}/{{solver}}/{batch}".format(**wildcards)
+        ),
         "code": code_of("solve", module_of(wildcards.solver, options)),
     }
 
 
-def solve_bulk_job(wildcards, output):
+def solve_bulk_job(wildcards):
     options = CONFIG.solver_options(CONFIG.study(wildcards.study))[wildcards.solver]
     return {
-        **solve_job(wildcards, output),
+        **solve_job(wildcards, "bulk_{batch}.npz"),
         "code": code_of("solve_bulk", module_of(wildcards.solver, options)),
     }
 
@@ -86,7 +89,7 @@ rule solve:
         runtime=solve_minutes,
         slurm_extra=solve_licence,
     params:
-        job=solve_job,
+        job=lambda wildcards: solve_job(wildcards),
         store="results/5_solve/records",
     script:
         "../scripts/solve.py"
