@@ -29,6 +29,7 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.quantities import Role
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.reading.units import DIMENSION, FACTORS
 from nptcs.tables.specimens import Specimen
@@ -37,19 +38,10 @@ ROOT = Path(__file__).resolve().parents[1]
 ROWS = 60
 """Readings kept of each file; few, so that mutations interact."""
 MISSING = {
-    "",
-    "nan",
-    "n/a",
-    "#n/a",
-    "na",
-    "-",
-    "--",
-    "---",
-    "*",
-    "****",
-    "1.#qnan",
-    "-1.#ind",
-    "null",
+    *("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#inf", "-1.#inf"),
+    *("inf", "-inf", "+inf", "null", "none", "n/a", "na", "n.a.", "k.a.", "n. def.", "n.def."),
+    *("#n/a", "#nv", "#div/0!", "#value!", "#wert!", "#ref!", "#bezug!", "#name?", "#num!"),
+    *("-", "--", "---", "–", "—", "*", "****", "/"),
 }
 TOKENS = (
     b"", b"nan", b"abc", b"1,234", b"1.234", b"--", b"1e5", b"-1000000", b"1e999", b'"', b"0x10",
@@ -64,7 +56,7 @@ class Base:
 
     name: str
     content: bytes
-    role: str
+    role: Role
     table: RawFile
     specimen: Specimen
     partner: Path | None = None
@@ -297,7 +289,7 @@ def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int
     return None
 
 
-def _specimen(name: str, role: str, partner: str) -> Specimen:
+def _specimen(name: str, role: Role, partner: str) -> Specimen:
     """Make a specimen for a file; its size makes all moduli plausible."""
     rubber = name.startswith(("R", "Dragon"))
     return Specimen(
@@ -316,7 +308,7 @@ def _specimen(name: str, role: str, partner: str) -> Specimen:
 def bases(profiles: Mapping[str, FormatProfile], labdata: Path | None) -> list[Base]:
     """Take example files of each format, and the real files that detection reads."""
     example = ROOT / "raw_data" / "example"
-    files = [
+    files: list[tuple[Path, Role, str]] = [
         (example / "T90-1.csv", "force and strain", ""),
         (example / "R75-1.csv", "force and strain", ""),
         (example / "C90-1.TRA", "force and strain", ""),

@@ -33,7 +33,7 @@ if Path(sys.executable).exists():
 # Snakemake looks at its locks after it has read this file
 if not workflow.is_main_process:
     begin_job()
-elif begin_run(Path(".snakemake")):
+elif begin_run(Path(".snakemake"), workflow.snakemake_tmp_dir):
     remove_unfinished("results")
 
 

@@ -14,6 +14,7 @@ from nptcs.errors import InputError
 from nptcs.mechanical_tests import COMPOSITE_TESTS
 from nptcs.reduce.counted import counted
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
+from nptcs.reduce.tension import ANOTHER_RANGE
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
 from nptcs.tables.specimens import Specimen
 
@@ -76,6 +77,7 @@ def calibrate_ply(
             *check_ply(values, material, settings.ply.isotropy_tolerance_percent),
             check_reciprocity(constants, nu21),
             *_few_specimens(samples),
+            *_ranges(samples, sources, table),
             *_origin_words(samples, sources, table),
             *_crosshead(samples, sources, table),
         ),
@@ -184,6 +186,23 @@ def _origin_words(
                 f"{name}: the strain origin was corrected in {effect.notna().sum()} of "
                 f"{len(effect)} specimens, which changed the values by {low:+.2g} to {high:+.2g} %"
             )
+    return words
+
+
+def _ranges(
+    samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
+) -> list[str]:
+    """Warn of a constant whose specimens were reduced over different ranges, or another one."""
+    words = []
+    for name, source in sources.items():
+        rows = rows_of(table, source)
+        rows = rows[rows["specimen"].isin(samples[name].index)]
+        other = rows.loc[rows["flags"].str.contains(ANOTHER_RANGE, regex=False), "specimen"]
+        ranges = " | ".join(dict.fromkeys(rows["range"]))
+        if len(other):
+            words.append(f"warning: {name}: {ANOTHER_RANGE} ({ranges}): {', '.join(other)}")
+        elif len(set(rows["range"])) > 1:
+            words.append(f"warning: {name}: ranges differ between specimens ({ranges})")
     return words
 
 

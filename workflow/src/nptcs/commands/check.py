@@ -30,6 +30,7 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.campaign.plan import plan_lines
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
+    from nptcs.ingest.folder import is_there
     from nptcs.ingest.reading.profiles import load_profiles
     from nptcs.ingest.repeats import repeats_in_sheet
     from nptcs.solvers.registry import needs_ply
@@ -57,7 +58,7 @@ def run(arguments: argparse.Namespace) -> int:
         )
         for specimen in specimens
         for name in specimen.files
-        if not (folder / name).is_file()
+        if not is_there(folder, name)
     ]
     profiles = load_profiles(config.lab_data.formats)
     sheet = Path(config.lab_data.specimen_sheet)

@@ -20,11 +20,18 @@ def register(subparsers: Any) -> None:
     parser.add_argument(
         "--write-profile", type=Path, metavar="YAML", help="write a profile to start from"
     )
+    parser.add_argument(
+        "--config",
+        type=Path,
+        default=Path("config/config.yaml"),
+        help="configuration whose limits on the size of files count; default: %(default)s",
+    )
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the inspection; 0 if the file can be used."""
+    from nptcs.config.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.inspect import describe, draft_profile, inspect_file
@@ -32,7 +39,7 @@ def run(arguments: argparse.Namespace) -> int:
 
     profiles = load_profiles(arguments.formats)
     declared = choose(arguments.format, profiles, "") if arguments.format else None
-    inspection = inspect_file(arguments.file, profiles, declared)
+    inspection = inspect_file(arguments.file, profiles, declared, limits_in(arguments.config))
     print(describe(inspection))
     if arguments.write_profile is not None:
         target = arguments.write_profile

@@ -16,27 +16,52 @@ def register(subparsers: Any) -> None:
     parser.add_argument(
         "--formats", type=Path, default=Path("config/formats"), help="folder of profiles"
     )
+    parser.add_argument(
+        "--config",
+        type=Path,
+        default=Path("config/config.yaml"),
+        help="configuration whose limits on the size of files count; default: %(default)s",
+    )
+    parser.add_argument(
+        "--fill",
+        action="append",
+        default=[],
+        metavar="'SERIES: COLUMN=VALUE …'",
+        help="fill the empty cells of all rows of a series; also in a sheet that exists already",
+    )
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Write ``specimens.csv`` into the folder, unless it has one."""
+    """Write ``specimens.csv`` into the folder, or fill in the one that it has."""
+    from nptcs.config.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
+    from nptcs.ingest.fill_sheet import fill_rows, fill_text, parse_fill
     from nptcs.ingest.new_sheet import propose_sheet
     from nptcs.ingest.reading.profiles import load_profiles
 
     folder = arguments.folder
     if not folder.is_dir():
         raise InputError("is not a folder", "give the folder with the raw files", folder)
-    sheet = folder / "specimens.csv"
+    sheet, fills = folder / "specimens.csv", [parse_fill(text) for text in arguments.fill]
+    if sheet.exists() and fills:
+        write_text(sheet, fill_text(sheet.read_text(encoding="utf-8"), fills))
+        print(f"{sheet}: filled in; look at it, then: nptcs check")
+        return 0
     if sheet.exists():
         raise InputError("this sheet exists already", "move or rename it first", sheet)
-    proposal = propose_sheet(folder, load_profiles(arguments.formats))
+    limits = limits_in(arguments.config)
+    proposal = propose_sheet(folder, load_profiles(arguments.formats), limits)
+    proposal.rows = fill_rows(proposal.rows, fills)
     write_text(sheet, proposal.text())
     print(f"{sheet}: {len(proposal.rows)} specimens proposed")
-    wanted = ", ".join(f"{name} ({rows} rows)" for name, rows in proposal.open_cells().items())
-    print(f"  to be filled in: {wanted}" if wanted else "  nothing left to fill in; check the rest")
+    for name, (count, wanted) in proposal.open_series().items():
+        print(f"  series {name}, {count} rows: {_to_do(wanted)}")
     for name, reason in proposal.left.items():
         print(f"  not in the sheet: {name}: {reason}")
     return 0
+
+
+def _to_do(columns: list[str]) -> str:
+    return f"fill in {', '.join(columns)}" if columns else "nothing left to fill in; check it"

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from pydantic import Field, model_validator
+from pathlib import Path
+
+from pydantic import Field, ValidationError, model_validator
 
 from nptcs.config.base import Strict
+from nptcs.errors import InputError
+from nptcs.yaml_files import read_yaml
 
 
 class MissingValues(Strict):
@@ -192,3 +196,24 @@ class IngestSettings(Strict):
             extensometer=ExtensometerRemoval(enabled=False),
             strain_origin=OriginOfStrain(enabled=False),
         )
+
+
+def limits_in(config: Path) -> FileLimits:
+    """Read the limits on the size of files of a configuration; the defaults if it has none.
+
+    Raises
+    ------
+    InputError
+        If they are not valid.
+    """
+    values = read_yaml(config) if config.is_file() else {}
+    section = values.get("ingest") if isinstance(values, dict) else None
+    limits = section.get("limits") if isinstance(section, dict) else None
+    try:
+        return FileLimits.model_validate(limits or {})
+    except ValidationError as error:
+        problem = error.errors()[0]
+        key = ".".join(["ingest.limits", *map(str, problem["loc"])])
+        raise InputError(
+            str(problem["msg"]), "see docs/configuration.md", config, column=key
+        ) from (error)

@@ -9,6 +9,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.file_names import tokens
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
@@ -67,7 +68,10 @@ class Dimensions:
 
 
 def read_dimensions(
-    name: str, path: Path, profiles: Mapping[str, FormatProfile]
+    name: str,
+    path: Path,
+    profiles: Mapping[str, FormatProfile],
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> list[Dimensions]:
     """Read a table of dimensions; empty if the file is not one.
 
@@ -75,7 +79,7 @@ def read_dimensions(
     below with a specimen and numbers is one specimen. A unit may be in the names; else mm.
     """
     try:
-        rows = _rows(open_file(path, profiles, profiles[PLAIN]))
+        rows = _rows(open_file(path, profiles, profiles[PLAIN], limits))
     except InputError:
         return []
     for index, cells in enumerate(rows[:30]):

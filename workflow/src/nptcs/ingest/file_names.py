@@ -23,6 +23,10 @@ ROLE_WORDS = frozenset(
         "ncorr",
         "opencorr",
         "dice",
+        "frame",
+        "frames",
+        "image",
+        "images",
         "camera",
         "cameras",
         "kamera",
@@ -73,6 +77,13 @@ ROLE_WORDS = frozenset(
     ]
 )
 """Words that say which device or which kind of file it is, and not which specimen."""
+_DATE = re.compile(
+    r"(?<!\d)(?:(?:19|20)\d\d([-_.]?)(?:0[1-9]|1[0-2])\1(?:0[1-9]|[12]\d|3[01])"
+    r"|(?:0?[1-9]|[12]\d|3[01])([-_.])(?:0?[1-9]|1[0-2])\2(?:19|20)\d\d)"
+    r"(?:[-_t ]\d{4}(?:\d\d)?)?(?!\d)"
+)
+"""Day (and time) of a measurement: machine and camera may have been exported on different days."""
+_LAST_NUMBER = re.compile(r"[ _.-]*\d+(?=\D*$)")
 _ROLE_TAIL = re.compile(
     r"(?i)(?:^|[ _.-]+)(?:" + "|".join(sorted(ROLE_WORDS, key=len, reverse=True)) + r"|vic-[23]d)$"
 )
@@ -100,7 +111,7 @@ _ANGLE = re.compile(
 
 
 def tokens(name: str) -> Counter[str]:
-    """Words and numbers of a path without suffix and role words; ``UD_01`` is ``ud`` and ``1``.
+    """Words and numbers of a path without suffix, dates and role words: ``UD_01`` is ``ud``, ``1``.
 
     Returns
     -------
@@ -108,6 +119,8 @@ def tokens(name: str) -> Counter[str]:
         How often each occurs in the folders and the file's name together.
     """
     text = unicodedata.normalize("NFKC", str(PurePosixPath(name).with_suffix(""))).casefold()
+    undated = _DATE.sub(" ", text)
+    text = undated if any(mark.isdigit() for mark in undated) else text
     parts = re.findall(r"[^\W\d_]+\d[dD](?![^\W_])|[^\W\d_]+|\d+", text)
     kept = (part.lstrip("0") or "0" if part.isdigit() else part for part in parts)
     return Counter(part for part in kept if part not in ROLE_WORDS)
@@ -160,6 +173,38 @@ def _folded(ids: Mapping[int, str], row: int) -> set[str]:
 def _doubles(ids: Mapping[int, str]) -> list[int]:
     count = Counter(own.casefold() for own in ids.values())
     return [row for row, own in ids.items() if count[own.casefold()] > 1]
+
+
+def family(name: str) -> str:
+    """Path without the number of the frame: what the files of a sequence share.
+
+    VIC's ``name-0012_0.csv`` counts its cameras behind the frame.
+    """
+    path = PurePosixPath(name)
+    stem = re.sub(r"(?<=\d)_\d$", "", path.stem)
+    return str(path.with_name(_LAST_NUMBER.sub("", stem) + "#" + path.suffix))
+
+
+def series_names(files: Iterable[str]) -> dict[str, str]:
+    """Name the series of each file: its name without number and role words.
+
+    Files of equal names in different folders are different series, named with their folder.
+    """
+    files = list(files)
+    own = {name: _series(name) for name in files}
+    folders: dict[str, set[str]] = {}
+    for name, series in own.items():
+        folders.setdefault(series, set()).add(str(PurePosixPath(name).parent))
+    return {
+        name: series if len(folders[series]) == 1 else f"{PurePosixPath(name).parent}/{series}"
+        for name, series in own.items()
+    }
+
+
+def _series(name: str) -> str:
+    path = PurePosixPath(name)
+    stem = specimen_id(_LAST_NUMBER.sub("", path.stem) + ".x")
+    return path.parent.name if stem in ("", "specimen") and path.parent.name else stem
 
 
 def proposed_test(path: str, texts: Iterable[str]) -> str:

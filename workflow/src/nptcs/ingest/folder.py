@@ -52,6 +52,14 @@ def natural_key(name: str) -> tuple[tuple[int, int, str], ...]:
     return tuple(parts)
 
 
+def is_there(folder: Path, name: str) -> bool:
+    """Tell whether a file, or a folder of frames, that the sheet names can be found."""
+    try:
+        return find_file(folder, name).exists()
+    except InputError:
+        return False
+
+
 def find_file(folder: Path, name: str) -> Path:
     """Find a file that the sheet names, also if its accents are stored another way.
 

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.dialect import Dialect
 from nptcs.ingest.reading.find_tables import find_tables
@@ -68,7 +69,10 @@ class Inspection:
 
 
 def inspect_file(
-    path: Path, profiles: Mapping[str, FormatProfile], declared: FormatProfile | None = None
+    path: Path,
+    profiles: Mapping[str, FormatProfile],
+    declared: FormatProfile | None = None,
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> Inspection:
     """Open a file, detect its format and find its tables; a problem is kept, not raised.
 
@@ -77,13 +81,13 @@ def inspect_file(
     InputError
         If the file cannot even be opened.
     """
-    opened = open_file(path, profiles, declared or profiles[PLAIN])
+    opened = open_file(path, profiles, declared or profiles[PLAIN], limits)
     if declared is not None:
         return _inspect(opened, declared, "named on the command line", profiles[PLAIN])
     fitting, reason = matching(opened, profiles)
     for plain in (None, profiles[PLAIN]):
         inspections = [_inspect(opened, profile, reason, plain) for profile in fitting]
-        best = max(inspections, key=lambda inspection: inspection.understood)
+        best = max(inspections, key=lambda one: (one.usable, one.understood))
         if best.usable:
             break
     return best

@@ -6,27 +6,31 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
+from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.dimension_tables import Dimensions, read_dimensions
 from nptcs.ingest.file_names import (
+    family,
     proposed_angle,
     proposed_material,
     proposed_test,
+    series_names,
     specimen_id,
-    tokens,
     unique_ids,
 )
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
+from nptcs.ingest.pair_files import add_dimensions, pair_cameras
 from nptcs.ingest.reading.column_names import LOADS, STRAINS
 from nptcs.ingest.reading.labels import LabelValue
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.quantities import Test
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
+from nptcs.ingest.strain_fields import FEWEST_FRAMES
 from nptcs.mechanical_tests import TestType
 from nptcs.tables.specimens import COLUMNS
 
@@ -46,6 +50,8 @@ class Proposal:
 
     rows: list[dict[str, str]] = field(default_factory=list)
     left: dict[str, str] = field(default_factory=dict)
+    travel_only: set[str] = field(default_factory=set)
+    """Force files without a strain but the crosshead's travel."""
 
     def text(self) -> str:
         """Return the sheet as CSV."""
@@ -55,11 +61,21 @@ class Proposal:
         writer.writerows(self.rows)
         return out.getvalue()
 
+    def open_series(self) -> dict[str, tuple[int, list[str]]]:
+        """For each series, the number of its rows and the columns that a person has to fill in."""
+        names = series_names(row["force_file"] for row in self.rows)
+        found: dict[str, tuple[int, list[str]]] = {}
+        for row in self.rows:
+            count, wanted = found.get(names[row["force_file"]], (0, []))
+            wanted = list(dict.fromkeys([*wanted, *_open_cells(row, self.travel_only)]))
+            found[names[row["force_file"]]] = (count + 1, wanted)
+        return found
+
     def open_cells(self) -> dict[str, int]:
         """Count the rows in which a person still has to fill in each column."""
         wanted: Counter[str] = Counter()
         for row in self.rows:
-            wanted.update(_open_cells(row))
+            wanted.update(_open_cells(row, self.travel_only))
         return dict(wanted)
 
 
@@ -76,7 +92,11 @@ class _Found:
 _ANGLES = {TestType.SHEAR.value: "45"}  # no other test has one of its own
 
 
-def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Proposal:
+def propose_sheet(
+    folder: Path,
+    profiles: Mapping[str, FormatProfile],
+    limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
+) -> Proposal:
     """Look into every file of a folder and propose a row for each test with a force.
 
     A camera's file goes with the machine's file whose names, folders included, say the same
@@ -92,20 +112,20 @@ def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Propos
         If no file of the folder holds a test.
     """
     proposal = Proposal()
-    found = _look(folder, profiles, proposal)
+    found = _look(folder, profiles, proposal, limits)
     proposal.rows = [_row(*test) for test in found.tests]
     for row in proposal.rows:
         if row["force_file"] in found.copies:
             first = found.copies[row["force_file"]]
             row |= {"include": "no", "reason": f"the same bytes as {first}"}
-    _pair_cameras(proposal, found.strains)
-    _add_dimensions(proposal, found.dimensions)
+    proposal.left |= pair_cameras(proposal.rows, found.strains)
+    add_dimensions(proposal.rows, found.dimensions)
     names = {
         number: (row["specimen"], row["force_file"]) for number, row in enumerate(proposal.rows)
     }
     for number, own in unique_ids(names).items():
         proposal.rows[number]["specimen"] = own
-        _remark(proposal.rows[number])
+        _remark(proposal.rows[number], proposal.travel_only)
     if not proposal.rows:
         raise InputError(
             "no file holds a test", "look at one file with: nptcs inspect FILE", folder
@@ -113,23 +133,40 @@ def propose_sheet(folder: Path, profiles: Mapping[str, FormatProfile]) -> Propos
     return proposal
 
 
-def _look(folder: Path, profiles: Mapping[str, FormatProfile], proposal: Proposal) -> _Found:
-    """Read every file once and sort it."""
+def _look(
+    folder: Path, profiles: Mapping[str, FormatProfile], proposal: Proposal, limits: FileLimits
+) -> _Found:
+    """Read every file once and sort it; of the frames of a camera the first one only."""
     found = _Found()
     seen: dict[str, str] = {}
-    for name, path in raw_files(folder).items():
-        if is_note(name):
+    files = {name: path for name, path in raw_files(folder).items() if not is_note(name)}
+    sizes = Counter(map(family, files))
+    frames: set[str] = set()
+    for name, path in files.items():
+        if family(name) in frames:
             continue
         try:
-            inspection = inspect_file(path, profiles)
+            inspection = inspect_file(path, profiles, limits=limits)
         except InputError as error:
             proposal.left[name] = error.message
+            continue
+        if sizes[family(name)] >= FEWEST_FRAMES and _is_field(inspection):
+            frames.add(family(name))
+            found.strains.append(str(PurePosixPath(name).parent))
             continue
         first = seen.setdefault(inspection.opened.sha256, name)
         if first != name:
             found.copies[name] = first
-        _sort(name, path, inspection, profiles, found, proposal)
+        _sort(name, path, inspection, profiles, found, proposal, limits)
     return found
+
+
+def _is_field(inspection: Inspection) -> bool:
+    """Tell whether a file holds the points of one frame: places, and strains at them."""
+    return any(
+        {"x", "y"} & set(test.quantities) and {"strain_xx", "strain_yy"} & set(test.quantities)
+        for test in inspection.tests
+    )
 
 
 def _sort(
@@ -139,11 +176,12 @@ def _sort(
     profiles: Mapping[str, FormatProfile],
     found: _Found,
     proposal: Proposal,
+    limits: FileLimits,
 ) -> None:
     """Put a file with the tests, the strains or the dimensions, or leave it with the reason."""
     loaded = [test for test in inspection.tests if set(LOADS) & set(test.quantities)]
     loaded = [test for test in loaded if _has_strain_or_travel(test)] or loaded
-    dimensions = [] if loaded else read_dimensions(name, path, profiles)
+    dimensions = [] if loaded else read_dimensions(name, path, profiles, limits)
     if any(_is_camera(test) for test in inspection.tests):
         found.strains.append(name)
     elif dimensions:
@@ -153,6 +191,8 @@ def _sort(
         proposal.left[name] = "a summary of results by its name and size, not a test"
     elif loaded:
         found.tests += [(name, test, inspection, len(loaded) > 1) for test in loaded]
+        if not any({*STRAINS} & set(test.quantities) for test in loaded):
+            proposal.travel_only.add(name)
     elif any(set(STRAINS) & set(test.quantities) for test in inspection.tests):
         found.strains.append(name)
     else:
@@ -214,65 +254,23 @@ def _obstacle(test: Test, inspection: Inspection, labels: Mapping[str, LabelValu
     return "; ".join(text for text in told if text)
 
 
-def _pair_cameras(proposal: Proposal, strains: Sequence[str]) -> None:
-    """Give each strain file to the one machine file of the same specimen."""
-    machines = {number: tokens(row["force_file"]) for number, row in enumerate(proposal.rows)}
-    chosen: dict[str, int] = {}
-    for name in strains:
-        own = tokens(name)
-        equal = [number for number, words in machines.items() if words == own]
-        near = equal or [number for number, words in machines.items() if _says_the_same(words, own)]
-        if len(near) == 1:
-            chosen[name] = near[0]
-        else:
-            files = ", ".join(proposal.rows[number]["force_file"] for number in near[:3])
-            proposal.left[name] = f"strains that fit {len(near)} force files by name: {files}"
-            if not near:
-                proposal.left[name] = "strains without a force file of the same specimen"
-    for name, number in chosen.items():
-        rivals = [other for other, place in chosen.items() if place == number]
-        if len(rivals) == 1:
-            proposal.rows[number]["strain_file"] = name
-        else:
-            proposal.left[name] = f"one of {len(rivals)} strain files of the same specimen"
-
-
-def _says_the_same(words: Counter[str], others: Counter[str]) -> bool:
-    """Tell whether two names agree: equal numbers, and the words of one among the other's."""
-    numbers = Counter({w: n for w, n in words.items() if w.isdigit()})
-    if numbers != Counter({w: n for w, n in others.items() if w.isdigit()}) or not numbers:
-        return False
-    return words <= others or others <= words
-
-
-def _add_dimensions(proposal: Proposal, dimensions: Sequence[Dimensions]) -> None:
-    """Fill in the dimensions whose row names one test, and is named by no other row."""
-    for number, row in enumerate(proposal.rows):
-        words = tokens(row["force_file"]) + tokens(row["force_part"] + ".x")
-        fitting = [one for one in dimensions if one.words and one.words <= words]
-        most = max((sum(one.words.values()) for one in fitting), default=0)
-        fitting = [one for one in fitting if sum(one.words.values()) == most]
-        if len(fitting) != 1:
-            continue
-        proposal.rows[number] |= fitting[0].cells
-        note = f"dimensions from {fitting[0].file}"
-        row["remarks"] = "; ".join(text for text in (row["remarks"], note, fitting[0].note) if text)
-
-
-def _open_cells(row: Mapping[str, str]) -> list[str]:
+def _open_cells(row: Mapping[str, str], travel_only: Collection[str]) -> list[str]:
     """Columns that a person has to fill in before the sheet is accepted."""
     needed = ["test", "material", "width_mm", "thickness_mm"]
     if not row.get("test", "").startswith("rubber"):
         needed.insert(2, "orientation_deg")
+    if row["force_file"] in travel_only and not row.get("strain_file"):
+        needed.append("gauge_length_mm")
     return [column for column in needed if not row.get(column)]
 
 
-def _remark(row: dict[str, str]) -> None:
+def _remark(row: dict[str, str], travel_only: Collection[str]) -> None:
     """Say what is a proposal and what is to be filled in."""
     proposed = [name for name in ("test", "material", "orientation_deg") if row.get(name)]
+    wanted = _open_cells(row, travel_only)
     parts = [
         f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
-        f"fill in {', '.join(_open_cells(row))}" if _open_cells(row) else "",
+        f"fill in {', '.join(wanted)}" if wanted else "",
         row["remarks"],
     ]
     row["remarks"] = "; ".join(part for part in parts if part)

@@ -9,6 +9,7 @@ from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.folder import find_file
 from nptcs.ingest.reading.profiles import FormatProfile, choose
+from nptcs.ingest.reading.quantities import Role
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.strain_fields import read_strain_fields
 from nptcs.tables.specimens import Specimen
@@ -27,7 +28,9 @@ def read_tables(
     InputError
         With the specimen's id, if a file is missing or cannot be read with certainty.
     """
-    wanted = [(specimen.force_file, specimen.force_format, specimen.force_part, "force")]
+    wanted: list[tuple[str, str, str, Role]] = [
+        (specimen.force_file, specimen.force_format, specimen.force_part, "force")
+    ]
     if specimen.strain_file:
         wanted.append(
             (specimen.strain_file, specimen.strain_format, specimen.strain_part, "strain")

@@ -11,9 +11,9 @@ from nptcs.loading.cycles import loadings
 
 SMALLEST_DROP = 0.1
 """Share of its largest value that the force must lose: less is noise, relaxation or a slip."""
-ABRUPT = 5.0
+ABRUPT = 10.0
 """A force that falls so many times faster than it rose is not an unloading by the machine, ..."""
-SNAP = 50.0
+SNAP = 100.0
 """... and so many times even where the strain goes back with it."""
 UNLOADING_ROWS = 4
 """Readings over which strain and force go back together when the machine unloads."""

@@ -74,8 +74,8 @@ def bending_rows(branch: Branch, rules: AstmD6641, evidence: Evidence) -> list[P
         rows.append(_bending(names[0], float(front[after]), float(back[after]), at_middle, rules))
     else:
         rows.append(missing(names[0], "%", rule, f"the curve ends before strain {middle:g}"))
-    if not evidence.failed:
-        return [*rows, missing(names[1], "%", f"{rule} at failure", evidence.reason)]
+    if evidence.not_seen:
+        return [*rows, missing(names[1], "%", f"{rule} at failure", evidence.not_seen)]
     return [*rows, _bending(names[1], last_front, last_back, f"{rule} at failure", rules)]
 
 

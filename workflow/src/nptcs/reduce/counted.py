@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from nptcs.reduce.evidence import UNRECORDED
 from nptcs.tables.specimens import Specimen
 
 GROUP = ["test", "material", "orientation_deg", "property"]
@@ -16,8 +17,9 @@ NOT_ASSESSED = "not assessed: "
 def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataFrame:
     """Rows of a property table that enter statistics and cards, one for each piece.
 
-    A row counts if the sheet includes its specimen and takes the property from this run. Runs
-    that give the same property of the same piece count once, with the mean of their values.
+    A row counts if the sheet includes its specimen and takes the property from this run. A value
+    whose failure no reading shows is emptied: it is not assessed for any mean. Runs that give the
+    same property of the same piece count once, with the mean of their values.
 
     Parameters
     ----------
@@ -32,7 +34,7 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
         The same columns; ``specimen`` is the piece where the sheet names one.
     """
     pairs = zip(properties["specimen"], properties["property"], strict=True)
-    rows = properties[[sheet[specimen].gives(name) for specimen, name in pairs]]
+    rows = _recorded(properties[[sheet[specimen].gives(name) for specimen, name in pairs]])
     if not any(sheet[name].piece for name in rows["specimen"].unique()):
         return rows
     pieces = rows["specimen"].map(lambda name: sheet[name].tested_piece).rename("of_piece")
@@ -41,6 +43,15 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
         _one_row(str(key[-1]), part) for key, part in rows.groupby(keys, dropna=False, sort=False)
     ]
     return pd.concat(parts, ignore_index=True)
+
+
+def _recorded(rows: pd.DataFrame) -> pd.DataFrame:
+    """Empty the values that are the largest of a record which shows no failure."""
+    open_ = rows["value"].notna() & rows["flags"].str.contains(UNRECORDED, regex=False)
+    if not open_.any():
+        return rows
+    flags = NOT_ASSESSED + rows.loc[open_, "flags"]
+    return rows.assign(value=rows["value"].mask(open_), flags=rows["flags"].mask(open_, flags))
 
 
 def _one_row(piece: str, runs: pd.DataFrame) -> pd.DataFrame:

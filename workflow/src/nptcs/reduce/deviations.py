@@ -46,7 +46,7 @@ def deviations(
     """
     found = list(_source(strain_source))
     found += _size(specimen, rules)
-    if isinstance(rules, ChordRules) and evidence.failed:
+    if isinstance(rules, ChordRules) and not evidence.not_seen:
         found += _duration(branch.to_peak, rules)
     if isinstance(rules, RubberRules):
         found += _speed(branch.rows, specimen, rules)
@@ -146,8 +146,8 @@ def speed_properties(branch: Branch, title: str, evidence: Evidence) -> list[Pro
         ]
     speed = Property("strain_rate", rate, "1/min", f"{rule}, least squares up to the peak")
     speed = replace(speed, points=points)
-    if not evidence.failed:
-        return [speed, missing("time_to_failure", "min", rule, evidence.reason)]
+    if evidence.not_seen:
+        return [speed, missing("time_to_failure", "min", rule, evidence.not_seen)]
     return [
         speed,
         Property("time_to_failure", minutes, "min", f"{rule}, first row to the peak", "", 2),

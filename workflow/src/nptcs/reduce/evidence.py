@@ -12,21 +12,36 @@ from nptcs.arrays import Array
 from nptcs.loading import judge_failure
 from nptcs.tables.specimens import Specimen
 
-SLIPPED = "transducer of travel slipped"
+NOT_BY_HAND = ("transducer of travel slipped", "stands still", "moves back")
+"""Flags of strains that end because the sensor failed, not because somebody took it off."""
+UNRECORDED = "failure not recorded"
 TAKEN_OFF = (
-    "the force record ends at its largest value; taken for failure, since the strain ends before, "
-    "as where a gauge is taken off for the way to failure"
+    f"{UNRECORDED}: the force record ends at its largest value, long after the gauge was taken "
+    "off (counts only if the sheet states failed: yes)"
 )
-TAKEN_OFF_SHARE = 0.95
+TAKEN_OFF_SHARE = 0.8
+"""Share of the largest force above which a gauge that leaves says nothing of a way to failure."""
+FULL_RATE = 0.5
+"""Share of the usual rate at which the force must still grow at the end of such a record."""
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """Whether a specimen failed; `reason` says why what needs failure is not assessed."""
+    """Whether a specimen failed; `reason` says why what needs failure is not assessed.
+
+    A failure that is not `recorded` is likely, but no reading shows it: the largest stress is
+    given and flagged, and no mean takes it in.
+    """
 
     failed: bool
     reason: str = ""
     remarks: tuple[str, ...] = ()
+    recorded: bool = True
+
+    @property
+    def not_seen(self) -> str:
+        """Reason why what happened at failure is not assessed; empty where it was recorded."""
+        return self.reason if not self.failed else "" if self.recorded else UNRECORDED
 
 
 def evidence_of_failure(
@@ -55,14 +70,24 @@ def evidence_of_failure(
     found = judge_failure(stress, strain)
     if found.seen:
         return Evidence(True)
-    if _taken_off(stress, strain) and not any(flag.startswith(SLIPPED) for flag in flags):
-        return Evidence(True, remarks=(TAKEN_OFF,))
+    by_hand = not any(word in flag for flag in flags for word in NOT_BY_HAND)
+    if by_hand and _taken_off(stress, strain):
+        return Evidence(True, remarks=(TAKEN_OFF,), recorded=False)
     return Evidence(False, f"no failure seen ({found.words})")
 
 
 def _taken_off(stress: Array, strain: Array) -> bool:
-    """Whether the strain was measured, and ended well below a largest force at the very end."""
+    """Whether the strain ends well below a largest force that is reached at full rate, at the end.
+
+    A test that is stopped slows down, holds or unloads; its gauge stays on, or is taken off there.
+    """
     seen = np.flatnonzero(np.isfinite(strain))
-    if len(seen) < 3 or int(np.argmax(stress)) < len(stress) - 3:
+    peak = int(np.argmax(stress))
+    if len(seen) < 3 or peak < len(stress) - 3:
         return False
-    return bool(stress[: seen[-1] + 1].max() < TAKEN_OFF_SHARE * stress.max())
+    if stress[: seen[-1] + 1].max() >= TAKEN_OFF_SHARE * stress[peak]:
+        return False
+    climb = stress[seen[-1] : peak + 1]
+    last = max(len(climb) // 10, 2)
+    usual = (climb[-1] - climb[0]) / max(len(climb) - 1, 1)
+    return bool(climb[-1] - climb[-last] >= FULL_RATE * usual * (last - 1))

@@ -25,6 +25,9 @@ STIFFENING = 1.5
 """Ratio of slopes within a chord that no laminate shows, but slack or a toe does."""
 
 
+ANOTHER_RANGE = "chord over another range"
+
+
 def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> list[Property]:
     """Modulus, Poisson's ratio, strength and ultimate strain of a tension test.
 
@@ -46,7 +49,7 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
     remarks = []
     if ultimate.value != ultimate.value and (short := _short_run(branch, rules, high)):
         last = branch.rows["strain_axial"].max()
-        remarks.append(f"strain ends at {last:.4g}: chord over another range than {nominal}")
+        remarks.append(f"strain ends at {last:.4g}: {ANOTHER_RANGE} than {nominal}")
         (low, high), nominal = short, strain_range(*short)
     slopes = [
         modulus(branch.rows, rules, low, high, nominal),

@@ -87,6 +87,8 @@ def check_physics(
         "wrong_units, other limits under ingest: plausible"
     )
     strain = float(np.nanmax(np.abs(signals.values["strain_axial"])))
+    modulus = apparent_modulus(signals)
+    _check_assumed_unit(signals, specimen, tables[-1], strain, modulus)
     limit = settings.strain_rubber if rubber else settings.strain_composite
     if strain > limit:
         raise InputError(
@@ -96,7 +98,6 @@ def check_physics(
             specimen=specimen.specimen,
         )
     low, high = settings.modulus_rubber_mpa if rubber else settings.modulus_composite_mpa
-    modulus = apparent_modulus(signals)
     if modulus is not None and not low <= modulus <= high:
         raise InputError(
             f"apparent modulus {modulus:.4g} MPa is outside {low:g} to {high:g} MPa",
@@ -104,6 +105,31 @@ def check_physics(
             tables[-1].path,
             specimen=specimen.specimen,
         )
+
+
+MAY_BE_PERCENT = {False: (0.05, 1e4), True: (1.0, 0.2)}
+"""Strain beyond which, and modulus in MPa below which, readings without a unit may as well be
+percent (rubber: True): a hundred times that modulus is still one of such a material."""
+
+
+def _check_assumed_unit(
+    signals: Signals, specimen: Specimen, table: RawFile, largest: float, modulus: float | None
+) -> None:
+    """Flag a strain without a unit, and stop where it may be a strain or a percentage."""
+    assumed = [name for name in ("strain", "strain_xx", "strain_yy") if name in table.assumed]
+    if not assumed:
+        return
+    beyond, below = MAY_BE_PERCENT[specimen.test.is_rubber]
+    if largest > beyond and (modulus is None or modulus < below):
+        raise InputError(
+            f"no unit for strain, and its largest reading {largest:.4g} may be a strain or a "
+            "percentage",
+            "state the unit in a profile under 'units' ('1' or '%'), name the profile in the sheet",
+            table.path,
+            column=table.columns[assumed[0]],
+            specimen=specimen.specimen,
+        )
+    signals.flags.append("strain without a unit in the file, taken as dimensionless")
 
 
 def apparent_modulus(signals: Signals) -> float | None:

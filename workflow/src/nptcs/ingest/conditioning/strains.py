@@ -9,7 +9,7 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.conditioning.signals import Signals, line_slope
+from nptcs.ingest.conditioning.signals import Signals, largest, line_slope
 from nptcs.ingest.reading.profiles import normalise
 from nptcs.tables.specimens import Specimen
 
@@ -118,20 +118,21 @@ def _follows(strain: Array, travel: Array | None) -> bool:
 def _axes(
     signals: Signals, specimen: Specimen, columns: Mapping[str, str], path: Path
 ) -> tuple[Array, Array]:
-    """Axial and transverse out of exx and eyy: axial follows the load, and is the larger."""
+    """Axial and transverse out of exx and eyy: axial is the larger, or alone follows the load."""
     slopes = {name: slope_over_force(signals, name) for name in ("strain_xx", "strain_yy")}
     ordered = sorted(slopes, key=lambda name: abs(slopes[name]), reverse=True)
     stated = _stated_axis(specimen, columns)
     found = ", ".join(f"'{columns[name]}' {1e6 * slopes[name]:.4g} µε/N" for name in slopes)
     ratio = abs(slopes[ordered[1]] / slopes[ordered[0]]) if slopes[ordered[0]] else 1.0
-    if stated is None and ratio > AMBIGUOUS_RATIO:
+    by_sign = _axis_by_sign(signals, specimen, slopes)
+    if stated is None and ratio > AMBIGUOUS_RATIO and by_sign is None:
         raise InputError(
             f"the axial strain cannot be told from the data: {found}",
             "name the column as strain_axis in the sheet",
             path,
             specimen=specimen.specimen,
         )
-    axial = stated or ordered[0]
+    axial = stated or (by_sign if ratio > AMBIGUOUS_RATIO and by_sign else ordered[0])
     if axial != ordered[0] and ratio < AMBIGUOUS_RATIO:
         raise InputError(
             f"strain_axis is '{specimen.strain_axis}', but the other strain is larger: {found}",
@@ -140,9 +141,20 @@ def _axes(
             specimen=specimen.specimen,
         )
     other = "strain_yy" if axial == "strain_xx" else "strain_xx"
-    how = "stated in the sheet" if stated else "found: the larger one"
+    how = "found: the larger one" if ratio <= AMBIGUOUS_RATIO else "found: it follows the load"
+    how = "stated in the sheet" if stated else how
     signals.note("axial strain", f"column '{columns[axial]}', {how} ({found})")
     return signals.values[axial], signals.values[other]
+
+
+def _axis_by_sign(signals: Signals, specimen: Specimen, slopes: Mapping[str, float]) -> str | None:
+    """Strain that grows with the load while the other one shrinks, as in a ±45° laminate.
+
+    Only where the force has the sign of the test: else a load cell may be reversed.
+    """
+    growing = [name for name, slope in slopes.items() if slope > 0]
+    as_tested = largest(signals.values["force"]) * specimen.test.load_sign > 0
+    return growing[0] if len(growing) == 1 and as_tested else None
 
 
 def slope_over_force(signals: Signals, name: str) -> float:

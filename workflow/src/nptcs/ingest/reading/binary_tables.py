@@ -1,9 +1,9 @@
-"""Tables of binary files: LabVIEW TDMS (npTDMS) and MATLAB MAT (scipy)."""
+"""Tables of binary files: LabVIEW TDMS (npTDMS), and MATLAB's (`nptcs.ingest.reading.matlab`)."""
 
 from __future__ import annotations
 
 import io
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -11,14 +11,12 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
+from nptcs.ingest.reading.matlab import MAT, MAT_HDF, matlab_tables
+from nptcs.ingest.reading.native_tables import NativeTable, as_table, refuse_larger_table
 from nptcs.ingest.reading.sheet_cells import SheetSource
 
 TDMS = b"TDSm"
-MAT = b"MATLAB 5.0 MAT-file"
-MAT_HDF = b"MATLAB 7.3 MAT-file"
 _UNIT_PROPERTIES = ("unit_string", "NI_UnitDescription", "Unit", "unit")
-
-Columns = Mapping[str, Sequence[float] | Array]
 
 
 def is_binary_table(raw: bytes) -> bool:
@@ -33,18 +31,15 @@ def read_binary_table(
 
     A TDMS group is a table; channels of another length are a table of their own. Units come from
     the channels' properties, and a time from their ``wf_increment`` where no channel holds one.
-    In a MAT file, vectors of one length are a table under the names of the variables or of the
-    fields of a structure; a matrix is a table without names.
+    For MAT files see `nptcs.ingest.reading.matlab.matlab_tables`.
 
     Raises
     ------
     InputError
-        If it is damaged, larger than the limits, or of MATLAB's version 7.3.
+        If it is damaged or larger than the limits.
     """
-    if raw.startswith(MAT_HDF):
-        raise InputError("is a MAT file of version 7.3", "save it with save(…, '-v7')", path)
     try:
-        read = _tdms if raw.startswith(TDMS) else _mat
+        read = _tdms if raw.startswith(TDMS) else matlab_tables
         tables = list(read(path, raw, limits))
     except InputError:
         raise
@@ -57,27 +52,7 @@ def read_binary_table(
     return [SheetSource(path, name, rows, missing) for name, rows in tables]
 
 
-def _table(name: str, columns: Columns) -> tuple[str, list[tuple[object, ...]]]:
-    rows: list[tuple[object, ...]] = [tuple(columns)] if any(columns) else []
-    return name, rows + list(zip(*(map(float, column) for column in columns.values()), strict=True))
-
-
-def _refuse_larger(path: Path, rows: int, columns: int, limits: FileLimits) -> None:
-    for what, size, allowed in (
-        ("rows", rows, limits.rows),
-        ("columns", columns, limits.columns),
-    ):
-        if size > allowed:
-            raise InputError(
-                f"has {size} {what}, {allowed} are allowed",
-                f"export one test per file, or raise ingest.limits.{what}",
-                path,
-            )
-
-
-def _tdms(
-    path: Path, raw: bytes, limits: FileLimits
-) -> Iterable[tuple[str, list[tuple[object, ...]]]]:
+def _tdms(path: Path, raw: bytes, limits: FileLimits) -> Iterable[NativeTable]:
     from nptdms import TdmsFile
 
     with TdmsFile.open(io.BytesIO(raw)) as file:
@@ -86,7 +61,7 @@ def _tdms(
             numeric = [channel for channel in channels if channel.dtype.kind in "iuf"]
             for length in dict.fromkeys(len(channel) for channel in numeric):
                 same = [channel for channel in numeric if len(channel) == length]
-                _refuse_larger(path, length, len(same), limits)
+                refuse_larger_table(path, length, len(same), limits)
                 columns: dict[str, Sequence[float] | Array] = {}
                 for channel in same:
                     unit = next(
@@ -102,46 +77,4 @@ def _tdms(
                 if step and not any("time" in name.casefold() for name in columns):
                     times = np.arange(length, dtype=np.float64) * float(step)
                     columns = {"time [s]": times, **columns}
-                yield _table(group.name, columns)
-
-
-def _mat(
-    path: Path, raw: bytes, limits: FileLimits
-) -> Iterable[tuple[str, list[tuple[object, ...]]]]:
-    from scipy.io import loadmat, whosmat
-
-    cells = 0
-    for _, shape, _ in whosmat(io.BytesIO(raw)):
-        cells += int(np.prod(shape))
-        _refuse_larger(path, max(shape, default=0), 0, limits)
-    if cells * 8 > limits.unpacked_mb * 1e6:
-        raise InputError(
-            f"unpacks to {cells * 8e-6:.4g} MB; {limits.unpacked_mb:g} MB are allowed",
-            "check the file, or raise ingest.limits.unpacked_mb",
-            path,
-        )
-    content = loadmat(io.BytesIO(raw), squeeze_me=True)
-    variables = {
-        name: np.asarray(value) for name, value in content.items() if not name.startswith("__")
-    }
-    structures = {name: value for name, value in variables.items() if value.dtype.names}
-    yield from _vectors("", {n: v for n, v in variables.items() if n not in structures})
-    for name, value in structures.items():
-        fields = value.item() if value.ndim == 0 else None
-        if fields is not None:
-            named = zip(value.dtype.names or (), fields, strict=True)
-            yield from _vectors(name, {field: np.asarray(one) for field, one in named})
-
-
-def _vectors(
-    name: str, variables: Mapping[str, np.ndarray]
-) -> Iterable[tuple[str, list[tuple[object, ...]]]]:
-    """Tables of the vectors of one length, and of each matrix."""
-    numeric = {key: value for key, value in variables.items() if value.dtype.kind in "iuf"}
-    vectors = {key: value for key, value in numeric.items() if value.ndim == 1 and len(value) > 1}
-    for length in dict.fromkeys(len(value) for value in vectors.values()):
-        yield _table(name, {key: one for key, one in vectors.items() if len(one) == length})
-    for key, matrix in numeric.items():
-        if matrix.ndim == 2 and min(matrix.shape) > 1:
-            rows = [tuple(map(float, row)) for row in matrix]
-            yield f"{name}.{key}" if name else key, rows  # type: ignore[misc]
+                yield as_table(group.name, columns)

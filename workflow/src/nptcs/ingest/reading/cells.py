@@ -210,8 +210,9 @@ class TextSource:
         text = "\n".join(lines)
         if self._uses_thousands(text):
             return self._numbers_with_thousands(found_table, positions)
+        filled = self._all_filled(rows)
         frame = pd.read_csv(
-            io.StringIO(text),
+            io.BytesIO(text.encode()),
             sep=r"\s+" if self.dialect.delimiter == "spaces" else self.dialect.delimiter,
             decimal=self.dialect.decimal,
             header=None,
@@ -221,11 +222,18 @@ class TextSource:
             dtype=np.float64,
             na_values=["", NOTHING],
             keep_default_na=False,
-            skipinitialspace=True,
+            skipinitialspace=not filled,
+            na_filter=not filled,
+            low_memory=False,
         )
         values = frame[list(positions)].to_numpy()
         self._refuse_infinite(found_table, values, positions)
         return values
+
+    def _all_filled(self, rows: Sequence[int]) -> bool:
+        """Tell whether all lines of a table are in chunks in which every cell is a number."""
+        chunks = [chunk for chunk in self._regular_chunks if chunk[1] > rows[0]]
+        return all(width for start, _, width in chunks if start <= rows[-1])
 
     def _checked_line(self, found_table: FoundTable, row: int, positions: Sequence[int]) -> str:
         """Return a line that is not all numbers with the checked cells only."""

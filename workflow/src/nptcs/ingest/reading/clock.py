@@ -11,15 +11,16 @@ _STAMP = re.compile(
     rf"(?<![\d:.-])(?P<date>{_DATE}(?P<gap>T|[ ]+))?"
     r"(?P<hours>\d{1,3}):(?P<minutes>[0-5]\d)"
     r"(?::(?P<seconds>[0-5]\d)(?:(?P<mark>[.,:])(?P<fraction>\d+))?|(?P<short>[.,]\d+))"
-    r"(?:\s*(?P<half>[AaPp])[Mm])?Z?(?![\d:])"
+    r"(?:\s*(?P<half>[AaPp])[Mm])?(?(date)(?:Z|[+-]\d\d:?\d\d)?|Z?)(?![\d:])"
 )
 _BARE_DATE = re.compile(rf"(?<![\d.:/-]){_DATE}(?![\d.:/-])")
 _HALF_A_DAY_S = 43_200
 _DAY_S = 86_400
 _SAMPLE = 60
 
-BLANKS = "\u00a0\u202f\u2007\u2009"
-"""No-break, narrow no-break, figure and thin space: thousands marks of many locales."""
+BLANKS = "\u00a0\u202f\u2007\u2009'\u2019"
+"""No-break, narrow, figure and thin space, apostrophes: thousands marks of many locales."""
+_MINUS = re.compile(r"\u2212(?=[\d.,])")
 _GROUPED = re.compile(
     rf"(?<![\d.,{BLANKS}])(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?![\d{BLANKS}])"
     rf"|(?<=,)(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?=\.\d)"
@@ -36,10 +37,12 @@ class PlainLines:
 
 
 def join_grouped_digits(text: str) -> str:
-    """Take no-break and thin spaces out of numbers: ``1 098,31`` becomes ``1098,31``.
+    """Take no-break spaces and apostrophes out of numbers: ``1 098,31`` becomes ``1098,31``.
 
-    Only three digits behind each space make a thousands mark; other such spaces stay.
+    Only three digits behind each mark make it a thousands mark; others stay. A minus sign that is
+    not the hyphen of the keyboard becomes one.
     """
+    text = _MINUS.sub("-", text) if "\u2212" in text else text
     if not any(blank in text for blank in BLANKS):
         return text
 

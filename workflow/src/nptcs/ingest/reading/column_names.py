@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.profiles import (
     UNITLESS,
     FormatProfile,
+    core_name,
     name_matches,
     normalise,
     without_channel,
@@ -30,8 +31,9 @@ def map_columns(
 ) -> dict[str, Column]:
     """Quantity → column, by the profile's names or order.
 
-    Names count as they are, then without the prefix and suffix of a channel; then, where no load
-    or no strain was found, the names of `plain` in the same way.
+    Names count as they are, then without the prefix and suffix of a channel, then without the
+    words that say how it was measured; then, where no load or no strain was found, the names of
+    `plain` in the same way.
 
     Raises
     ------
@@ -51,15 +53,19 @@ def map_columns(
         return {quantity: column for quantity, column in pairs if quantity != "-"}
     mapped: dict[str, Column] = {}
     for known in (profile, plain):
-        for bare in (False, True):
+        for part in (_whole, without_channel, core_name):
             if known is None:
                 continue
             wanted = {str(name) for name in known.columns} - set(mapped)
-            if known is not profile or bare:
+            if known is not profile or part is not _whole:
                 wanted &= _lacking(mapped, columns, own=known is profile)
-            _map_names(mapped, wanted, columns, known, bare, path, found_table)
+            _map_names(mapped, wanted, columns, known, part, path, found_table)
     order = [*profile.columns, *(plain.columns if plain is not None else ())]
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
+
+
+def _whole(name: str) -> str:
+    return name
 
 
 def _lacking(mapped: dict[str, Column], columns: Sequence[Column], own: bool) -> set[str]:
@@ -78,19 +84,18 @@ def _map_names(
     wanted: set[str],
     columns: Sequence[Column],
     profile: FormatProfile,
-    bare: bool,
+    part: Callable[[str], str],
     path: Path,
     found_table: FoundTable,
 ) -> None:
-    """Add the quantities of `wanted` whose name a free column has, first name first."""
+    """Add the quantities of `wanted` whose name is that part of a free column's, in order."""
     taken = {column.position for column in mapped.values()}
     for quantity in (name for name in profile.columns if name in wanted):
         for name in profile.columns[quantity]:
             fitting = [
                 column
                 for column in columns
-                if column.position not in taken
-                and name_matches(without_channel(column.name) if bare else column.name, name)
+                if column.position not in taken and name_matches(part(column.name), name)
             ]
             if len(fitting) > 1:
                 raise _several(path, found_table, quantity, name, fitting)
@@ -107,6 +112,8 @@ _BY_UNIT = {
     "force": "stress",
     "stress": "force",
 }
+_OVER_LENGTH = re.compile(r"strain.*\((?:extension|displacement|crosshead|stroke|position)\)")
+"""Bluehill's ``Tensile strain (Extension)``: travel over the gauge length."""
 _TRAVEL = re.compile(
     r"crosshead|travel|travers|position|stroke|course|weg\b|carrera|corsa|ход|行程"
 )
@@ -124,6 +131,10 @@ def by_unit(mapped: dict[str, Column], profile: FormatProfile, found_table: Foun
         ``crosshead`` if a travel became the strain, else empty.
     """
     source = ""
+    if not {*STRAINS, "displacement"} & set(mapped):
+        over_length = [c for c in found_table.columns if _OVER_LENGTH.search(normalise(c.name))]
+        if len(over_length) == 1:
+            mapped["strain"], source = over_length[0], "crosshead"
     for quantity, other in _BY_UNIT.items():
         column = mapped.get(quantity)
         unit = profile.wrong_units.get(quantity) or (column and column.unit)  # type: ignore[call-overload]

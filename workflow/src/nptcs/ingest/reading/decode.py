@@ -5,6 +5,7 @@ from __future__ import annotations
 import codecs
 from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import lru_cache
 from pathlib import Path
 
 from nptcs.errors import InputError
@@ -89,7 +90,7 @@ def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
     """Choose among `CANDIDATES` by the words that each makes readable."""
     head = raw[: raw.rfind(b"\n", 0, HEAD_BYTES) + 1] or raw
     head = b"\n".join(line for line in head.splitlines() if not line.isascii()) or head
-    special = {word.casefold() for word in words if not word.isascii() and _tells(word)}
+    special = _special(frozenset(words))
     hits = {}
     for encoding in CANDIDATES:
         text = _or_none(head, encoding)
@@ -102,6 +103,12 @@ def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
             note = f"{hits[encoding]} known words are readable; others: {hits}"
             return Decoded(text, encoding, note)
     return _unknown_words(raw, head, path)
+
+
+@lru_cache(maxsize=4)
+def _special(words: frozenset[str]) -> frozenset[str]:
+    """Words that look different in other encodings, in small letters."""
+    return frozenset(word.casefold() for word in words if not word.isascii() and _tells(word))
 
 
 def _tells(word: str) -> bool:

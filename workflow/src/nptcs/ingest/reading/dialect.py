@@ -17,10 +17,17 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.profiles import DELIMITERS, FormatProfile
 
 MISSING = frozenset(
-    ["", "nan", "n/a", "#n/a", "na", "-", "--", "---", "*", "****", "1.#qnan", "-1.#ind", "null"]
+    [
+        *("", "nan", "-nan", "nan(ind)", "-nan(ind)", "1.#qnan", "-1.#ind", "1.#inf", "-1.#inf"),
+        *("inf", "-inf", "+inf", "null", "none", "n/a", "na", "n.a.", "k.a.", "n. def.", "n.def."),
+        *("#n/a", "#nv", "#div/0!", "#value!", "#wert!", "#ref!", "#bezug!", "#name?", "#num!"),
+        *("-", "--", "---", "–", "—", "*", "****", "/"),
+    ]
 )
+"""Cells that say that there is no value, in small letters."""
 SMALLEST_TABLE = 3
 """Rows of numbers that a dialect must read before it is believed."""
+_SPACED_DIGITS = re.compile(r" (?<=\d )\d{3}(?!\d)")
 _HEAD = 120
 _PROBE = 20
 SEPARATOR_NAMES = {"\t": "tab", "spaces": "spaces"}
@@ -59,9 +66,12 @@ class Dialect:
 
     def is_data(self, cells: Sequence[str]) -> bool:
         """Tell whether this is a row of a table: two or more numbers, and mostly numbers."""
-        filled = [cell for cell in cells if cell.casefold() not in MISSING]
-        numbers = sum(self.is_number(cell) for cell in filled)
-        return numbers >= 2 and 2 * numbers >= len(filled)
+        is_number = number_pattern(self.decimal, self.thousands).fullmatch
+        others = [cell for cell in cells if not is_number(cell)]
+        numbers = len(cells) - len(others)
+        if numbers < 2:
+            return False
+        return numbers >= sum(cell.casefold() not in MISSING for cell in others)
 
 
 @lru_cache
@@ -91,15 +101,19 @@ def candidates(profile: FormatProfile, lines: Sequence[str]) -> list[Dialect]:
         found += [Dialect(delimiter, ".", ",") for delimiter in delimiters]
     if point:
         found += [Dialect(delimiter, ",", ".") for delimiter in delimiters]
+    if _SPACED_DIGITS.search(text):
+        apart = [delimiter for delimiter in delimiters if delimiter != "spaces"]
+        found += [Dialect(delimiter, mark, " ") for delimiter in apart for mark in ".,"]
     return found
 
 
 def _delimiters_in(lines: Sequence[str]) -> list[str]:
     """Delimiters that occur in as many lines as make a table."""
+    stripped = [line.strip() for line in lines]
 
     def occurs(delimiter: str) -> bool:
         mark = " " if delimiter == "spaces" else delimiter
-        return sum(mark in line.strip() for line in lines) >= SMALLEST_TABLE
+        return sum(mark in line for line in stripped) >= SMALLEST_TABLE
 
     return [delimiter for delimiter in DELIMITERS.values() if occurs(delimiter)]
 
@@ -221,6 +235,7 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
     rows, unread = [], 0
     apart = dialect.delimiter not in ("spaces", dialect.decimal, dialect.thousands)
     all_numbers = _full_row(dialect.delimiter, dialect.decimal).fullmatch
+    is_number = number_pattern(dialect.decimal, dialect.thousands).fullmatch
     for line in lines:
         if apart and all_numbers(line):
             rows.append(line.split(dialect.delimiter))
@@ -228,9 +243,7 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
         cells = dialect.split(line)
         if dialect.is_data(cells):
             rows.append(cells)
-            unread += sum(
-                not dialect.is_number(cell) and cell.casefold() not in MISSING for cell in cells
-            )
+            unread += sum(not is_number(cell) and cell.casefold() not in MISSING for cell in cells)
     return _Rows(rows, unread)
 
 

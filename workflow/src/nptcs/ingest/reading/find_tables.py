@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from itertools import pairwise
 from pathlib import Path
 
@@ -12,8 +13,12 @@ from nptcs.ingest.reading.cells import CellSource, TextSource
 from nptcs.ingest.reading.sheet_cells import SheetSource
 from nptcs.ingest.reading.table_columns import SMALLEST_TABLE, FoundTable, describe_columns
 
-DATA = ("data", "odd data")
-_ROWS_ABOVE = 3
+DATA = frozenset(("data", "odd data"))
+_ROWS_ABOVE = 4
+_OF_A_SUMMARY = re.compile(
+    r"(?i)(max|min|mean|average|avg|median|std|stand|s\.?d\.?$|cv|cov|n$|sum|total|mittel|"
+    r"standardabw|moyenne|[ée]cart|media|desv|m[áa]x|m[íi]n|сред|макс|мин|平均|最大|最小|標準|标准)"
+)
 
 
 def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable]:
@@ -38,6 +43,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
     ]
     for number, found_table in enumerate(found_tables, 1):
         found_table.part = str(number)
+        _drop_footer(source, found_table)
         _refuse_broken(source, found_table, path)
         _trim(source, found_table, path)
         above = _rows_above(source, found_table)
@@ -45,6 +51,20 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
         _settle_unnamed(source, found_table, unnamed, path)
         _settle_clocks(source, found_table, path)
     return found_tables
+
+
+def _drop_footer(source: CellSource, found_table: FoundTable) -> None:
+    """Leave out rows of a summary below the readings: ``Maximum``, ``Mean`` and their like."""
+    while len(found_table.rows_of_data) > SMALLEST_TABLE:
+        row = found_table.rows_of_data[-1]
+        if source.kinds[row] != "odd data":
+            return
+        first = next((cell for cell in source.cells(row) if cell), "")
+        if not _OF_A_SUMMARY.match(first):
+            return
+        found_table.rows_of_data.pop()
+        found_table.last = found_table.rows_of_data[-1] + 1
+        found_table.notes.append(f"line {row + 1}, '{first[:30]}', is a summary and was left out")
 
 
 def _refuse_broken(source: CellSource, found_table: FoundTable, path: Path) -> None:
@@ -100,7 +120,7 @@ def _runs(source: CellSource) -> list[FoundTable]:
     runs: list[FoundTable] = []
     gap: list[int] = []
     widths = source.widths
-    is_data = np.array([kind in DATA for kind in source.kinds], dtype=bool)
+    is_data = np.frombuffer(bytearray(map(DATA.__contains__, source.kinds)), dtype=bool)
     edges = [0, *(np.flatnonzero(np.diff(is_data)) + 1).tolist(), len(is_data)]
     for start, stop in pairwise(edges):
         rows = list(range(start, stop))
@@ -151,7 +171,9 @@ def _note_gap(source: CellSource, found_table: FoundTable, gap: list[int]) -> No
 def _trim(source: CellSource, found_table: FoundTable, path: Path) -> None:
     """Refuse rows that lack cells in the middle; drop a last line that was cut off."""
     widths = source.widths
-    lengths = [widths[row] for row in found_table.rows_of_data]
+    rows = found_table.rows_of_data
+    whole = rows[-1] - rows[0] == len(rows) - 1
+    lengths = widths[rows[0] : rows[-1] + 1] if whole else [widths[row] for row in rows]
     if len(lengths) > 1 and lengths[-1] < lengths[-2]:
         row = found_table.rows_of_data.pop()
         lengths.pop()

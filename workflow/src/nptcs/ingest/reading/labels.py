@@ -82,21 +82,26 @@ def _in_columns(
 ) -> dict[str, LabelValue]:
     """Names over units over one row of values; several rows of values are several specimens."""
     below = [list(row) for row in rows[index + 1 : index + 4]]
-    units: list[str] = []
-    if below and any(is_unit(cell) and not cell.isdigit() for cell in below[0] if cell):
-        units = below.pop(0)
+    units = below.pop(0) if below and _holds_units(below[0]) else []
+    values, next_values = (*below, [], [])[:2]
     found = {}
     for position, cell in enumerate(rows[index]):
         name, unit = split_unit(cell)
         label = _label_of(name, profile) if name else None
-        if label is None or label == "specimen" or not below or position >= len(below[0]):
-            continue
-        text = below[0][position]
-        several = len(below) > 1 and position < len(below[1]) and below[1][position].strip()
-        if dialect.is_number(text) and not several:
-            stated = units[position] if position < len(units) else unit or ""
-            found[label] = _value(label, text, stated or unit or "", dialect)
+        text = _cell(values, position)
+        alone = not _cell(next_values, position)
+        if label not in (None, "specimen") and alone and dialect.is_number(text):
+            stated = _cell(units, position) or unit or ""
+            found[str(label)] = _value(str(label), text, stated, dialect)
     return found
+
+
+def _holds_units(cells: Sequence[str]) -> bool:
+    return any(is_unit(cell) and not cell.isdigit() for cell in cells if cell)
+
+
+def _cell(cells: Sequence[str], position: int) -> str:
+    return cells[position].strip() if position < len(cells) else ""
 
 
 def _value(label: str, text: str, unit: str, dialect: Dialect) -> LabelValue:

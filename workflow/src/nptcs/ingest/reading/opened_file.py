@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal, assert_never
 
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
@@ -14,11 +15,13 @@ from nptcs.ingest.reading.binary_tables import is_binary_table, read_binary_tabl
 from nptcs.ingest.reading.cells import CellSource, split_lines
 from nptcs.ingest.reading.clock import PlainLines, clocks_to_seconds, join_grouped_digits
 from nptcs.ingest.reading.decode import decode
-from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.profiles import ContentKind, FormatProfile
+from nptcs.ingest.reading.sheet_cells import SheetSource
 from nptcs.ingest.reading.units import FACTORS
 from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
 
 HEAD_LINES = 60
+_MARKUP = re.compile(rb"(?i)(?:\xef\xbb\xbf)?\s*<(?:\?xml|!doctype|html|head|table|workbook)\b")
 _WORD = re.compile(r"[^\W\d_]{2}|[|\[(%]")
 
 
@@ -37,18 +40,18 @@ class OpenedFile:
     notes: tuple[str, ...] = ()
 
     @property
-    def kind(self) -> str:
-        """``text`` or ``workbook``."""
+    def kind(self) -> ContentKind:
+        """What was opened."""
         return "text" if self.lines else "workbook"
 
 
-def vocabulary(profiles: Mapping[str, FormatProfile]) -> set[str]:
+def vocabulary(profiles: Mapping[str, FormatProfile]) -> frozenset[str]:
     """Every column name and label that the profiles know, and the units."""
     words = {unit for units in FACTORS.values() for unit in units}
     for profile in profiles.values():
         for names in (*profile.columns.values(), *profile.labels.values()):
             words.update(name.strip("*") for name in names)
-    return words
+    return frozenset(words)
 
 
 def open_file(
@@ -71,19 +74,56 @@ def open_file(
         what = "file is missing" if isinstance(error, FileNotFoundError) else "cannot be read"
         raise InputError(what, "check the name in the sheet", path) from error
     digest = hashlib.sha256(raw).hexdigest()
-    if is_workbook(raw):
-        sheets, notes = read_workbook(path, raw, frozenset(profile.missing), limits)
-        head = "\n".join(
-            "\n".join(
-                [sheet.part, *("\t".join(map(_text, row)) for row in sheet.rows[:HEAD_LINES])]
+    missing = frozenset(profile.missing)
+    reader = reader_of(raw)
+    match reader:
+        case "workbook":
+            sheets, notes = read_workbook(path, raw, missing, limits)
+            return OpenedFile(
+                path, _head_of_sheets(sheets), "", digest, sheets=list(sheets), notes=notes
             )
-            for sheet in sheets
+        case "binary table":
+            tables = read_binary_table(path, raw, missing, limits)
+            head = "\n".join("\t".join(map(_text, row)) for one in tables for row in one.rows[:1])
+            return OpenedFile(path, head, "", digest, sheets=list(tables))
+        case "text":
+            return _open_text(path, raw, digest, profiles, profile, limits)
+        case _:
+            assert_never(reader)
+
+
+Reader = Literal["workbook", "binary table", "text"]
+
+
+def reader_of(raw: bytes) -> Reader:
+    """Tell by the first bytes which reader a file needs; whatever is nothing else is text."""
+    if is_workbook(raw):
+        return "workbook"
+    return "binary table" if is_binary_table(raw) else "text"
+
+
+def _head_of_sheets(sheets: Sequence[SheetSource]) -> str:
+    rows = (
+        [sheet.part, *("\t".join(map(_text, row)) for row in sheet.rows[:HEAD_LINES])]
+        for sheet in sheets
+    )
+    return "\n".join("\n".join(lines) for lines in rows)
+
+
+def _open_text(
+    path: Path,
+    raw: bytes,
+    digest: str,
+    profiles: Mapping[str, FormatProfile],
+    profile: FormatProfile,
+    limits: FileLimits,
+) -> OpenedFile:
+    if _MARKUP.match(raw):
+        raise InputError(
+            "is a page of HTML or XML, not a table",
+            "open it in a spreadsheet and save it as XLSX or CSV",
+            path,
         )
-        return OpenedFile(path, head, "", digest, sheets=list(sheets), notes=notes)
-    if is_binary_table(raw):
-        tables = read_binary_table(path, raw, frozenset(profile.missing), limits)
-        head = "\n".join("\t".join(map(_text, row)) for one in tables for row in one.rows[:1])
-        return OpenedFile(path, head, "", digest, sheets=list(tables))
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
     plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
     lines = plain.lines

@@ -36,6 +36,8 @@ Quantity = Literal[
 ]
 UNITLESS: tuple[Quantity, ...] = ("frame", "trigger", "x", "y")
 """Numbers of frames, trigger levels and places in a picture: taken as they are."""
+ContentKind = Literal["text", "workbook"]
+"""Lines whose dialect is to be found, or sheets of native cells (also of TDMS and MAT files)."""
 Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
 StrainSource = Literal["extensometer", "dic", "strain_gauge", "crosshead", "unspecified"]
 DELIMITERS = {",": ",", ";": ";", "tab": "\t", "|": "|", "spaces": "spaces"}
@@ -50,7 +52,7 @@ class FormatProfile(Strict):
     signature: tuple[str, ...] = Field(
         (), description="Regular expressions that all must occur in the head of such a file"
     )
-    kind: Literal["text", "workbook"] = Field("text", description="text or workbook (XLSX, XLS)")
+    kind: ContentKind = Field("text", description="text or workbook (XLSX, XLS)")
     encoding: str = Field("", description="E.g. cp1252, gb18030; empty: detect")
     delimiter: Literal["", ",", ";", "tab", "|", "spaces"] = Field("", description="empty: detect")
     decimal: Literal["", ".", ","] = Field("", description="Decimal mark; empty: detect")
@@ -131,27 +133,53 @@ def normalise(name: str) -> str:
 
 _PREFIXES = re.compile(
     r"^(?:(?:c|ch|chan|channel|kanal|canal|voie|ai|ad|analog|analog in|sensor|signal)"
-    r"[ .:-]*\d*[ .:-]+|\d+[ .:-]+|mx\d\w* |(?:primary|universal|main|station|machine|axial|"
+    r"[ .:-]*\d*[ .:-]+|\d+[ .:-]+|mx\d\w* (?:ch\d+ )?|(?:c?daq|dev)\w*/\w+ "
+    r"|(?:primary|universal|main|station|machine|axial|"
     r"mts|instron|zwick|measured|actual) )+"
 )
 _SUFFIXES = re.compile(
     r"(?:[ .:-]+(?:filtered|filt|unfiltered|raw|signal|channel|value|wert|istwert|measured|"
-    r"actual|gefiltert|filtre|filtrado|filtrato|1)|[ ]*\((?:filtered|raw)\))+$"
+    r"actual|gefiltert|filtre|filtrado|filtrato|1)|[ ]*\((?:filtered|raw)\)|(?<=[^\W\d_])1)+$"
 )
 
 
+@lru_cache(maxsize=4096)
 def without_channel(name: str) -> str:
     """Take a channel's prefix and suffix off a name: ``C_1_Force``, ``Ch Disp.``, ``Load_Raw``."""
     short = _SUFFIXES.sub("", _PREFIXES.sub("", normalise(name)))
     return short.strip(" .:-") or normalise(name)
 
 
+_QUALIFIERS = (
+    "engineering eng nominal axial longitudinal long lengthwise längs laengs axiale axialer "
+    "assiale longitudinale optical optisch optique video laser noncontact non contact "
+    "corrected corr compensated korrigiert filtered filt smoothed smooth raw gefiltert "
+    "measured actual average averaged avg mean mittlere tensile tension traction trazione "
+    "tração tracción zug compressive compression flexure flexural bending total sensor "
+    "channel signal value calculated calc computed current specimen sample standard of the a "
+    "en por de di da in продольная осевая средняя 軸 平均"
+)
+"""Words of a name that say how a quantity was measured, and not which it is."""
+
+
+@lru_cache(maxsize=4096)
+def core_name(name: str) -> str:
+    """Take the words off a name that say how it was measured: ``Corrected strain (laser)``.
+
+    Words that make it another quantity (true, transverse, plastic, maximum) stay.
+    """
+    words = re.findall(r"[^\W\d_]+", normalise(name))
+    return " ".join(dict.fromkeys(word for word in words if word not in _QUALIFIERS_FOLDED))
+
+
+@lru_cache(maxsize=65536)
 def name_matches(name: str, pattern: str) -> bool:
     """Tell whether a column name (without its unit) is what a profile calls it."""
     return fnmatchcase(_normalised(name), _normalised(pattern))
 
 
 _normalised = lru_cache(maxsize=4096)(normalise)
+_QUALIFIERS_FOLDED = frozenset(normalise(_QUALIFIERS).split())
 
 
 def read_profile(path: str | Path) -> FormatProfile:

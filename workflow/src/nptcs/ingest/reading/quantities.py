@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource
@@ -18,7 +19,9 @@ from nptcs.ingest.reading.profiles import (
 from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
 
-NEEDS = {
+Role = Literal["force", "strain", "force and strain"]
+"""What a file gives to its specimen."""
+NEEDS: dict[Role, tuple[tuple[str, ...], ...]] = {
     "force": (LOADS,),
     "strain": (STRAINS,),
     "force and strain": (LOADS, (*STRAINS, "displacement")),
@@ -39,7 +42,7 @@ class Test:
     strain_source: str = ""
     """``crosshead`` where the strain is a travel in a unit of strain."""
 
-    def serves(self, role: str) -> bool:
+    def serves(self, role: Role) -> bool:
         """Tell whether the table holds what the role needs."""
         return all(any(name in self.quantities for name in needed) for needed in NEEDS[role])
 
@@ -90,7 +93,7 @@ def _groups(found_table: FoundTable, profile: FormatProfile) -> list[str]:
 
 
 def choose_test(
-    tests: Sequence[Test], part: str, specimen: str, role: str, path: Path, profile: FormatProfile
+    tests: Sequence[Test], part: str, specimen: str, role: Role, path: Path, profile: FormatProfile
 ) -> Test:
     """Choose the table: the part named, the only one that serves, or the specimen's own.
 
@@ -144,7 +147,7 @@ def _is_part(label: str, part: str) -> bool:
     return normalise(part) in (normalise(label), normalise(label.rsplit("/", 1)[-1]))
 
 
-def _nothing(tests: Sequence[Test], role: str, path: Path, profile: FormatProfile) -> InputError:
+def _nothing(tests: Sequence[Test], role: Role, path: Path, profile: FormatProfile) -> InputError:
     largest = max(tests, key=lambda test: len(test.found_table.rows_of_data), default=None)
     if largest is None:
         return InputError("no table of five rows or more", "export the raw data", path)

@@ -17,8 +17,10 @@ from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.labels import LabelValue, read_labels
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
-from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, Quantity
-from nptcs.ingest.reading.quantities import Test, choose_test, tests_in, unit_of
+from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
+from nptcs.ingest.reading.quantities import Role, Test, choose_test, tests_in, unit_of
+
+TRUE_STRAINS = ("true strain", "logarithmic strain", "hencky strain", "wahre dehnung")
 
 
 @dataclass
@@ -33,6 +35,8 @@ class RawFile:
         Quantity → column name and unit as found.
     head, names : tuple of str
         Lines above the names; all names of the table, also of columns that are not used.
+    assumed : tuple of str
+        Quantities without a unit that were taken as dimensionless.
     """
 
     path: Path
@@ -52,6 +56,7 @@ class RawFile:
     labels: dict[str, LabelValue] = field(default_factory=dict)
     head: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
+    assumed: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
 
     @property
@@ -82,7 +87,7 @@ def read_raw(
     declared: FormatProfile | None = None,
     part: str = "",
     specimen: str = "",
-    role: str = "force and strain",
+    role: Role = "force and strain",
     limits: FileLimits = FileLimits(),  # noqa: B008  (immutable)
 ) -> RawFile:
     """Read the table of one test from a raw file.
@@ -99,7 +104,7 @@ def read_raw(
         Workbook sheet, table number or test name; needed if the file holds several.
     specimen : str
         Specimen id; chooses the part of that name if no part is given.
-    role : str
+    role : Role
         ``force``, ``strain`` or ``force and strain``: what the table must hold.
     limits : FileLimits
         Largest file that is read.
@@ -184,7 +189,7 @@ def _read(
     reasons: tuple[str, ...],
     part: str,
     specimen: str,
-    role: str,
+    role: Role,
     detected: bool = False,
 ) -> RawFile:
     path = opened.path
@@ -199,6 +204,11 @@ def _read(
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     values, units, notes = _values(test, profile, path, role)
+    assumed = tuple(
+        q for q, unit in units.items() if unit == "1" and not _has_unit(q, test, profile)
+    )
+    if "strain" in assumed and _agrees_with_true_strain(test, values["strain"]):
+        assumed = ()
     found_table = test.found_table
     refuse_larger(path, "columns", found_table.width, opened.largest_width, "columns")
     return RawFile(
@@ -219,12 +229,13 @@ def _read(
         labels=header_labels(test, profile, dialect),
         head=head_lines(test),
         names=tuple(column.name for column in found_table.columns if column.name),
+        assumed=assumed,
         notes=(*reasons, *opened.notes, *found_table.notes, *notes),
     )
 
 
 def _values(
-    test: Test, profile: FormatProfile, path: Path, role: str
+    test: Test, profile: FormatProfile, path: Path, role: Role
 ) -> tuple[dict[str, Array], dict[str, str], list[str]]:
     """Read the mapped columns and bring them to base units, without rows empty in all of them."""
     quantities = test.quantities
@@ -256,7 +267,21 @@ def _values(
     return dict(zip(quantities, numbers[filled].T, strict=True)), units, notes
 
 
-def _has_unit(quantity: Quantity, test: Test, profile: FormatProfile) -> bool:
+def _agrees_with_true_strain(test: Test, strain: Array) -> bool:
+    """Tell whether the table holds a true strain that is ln(1 + ε): only a strain ε fits it."""
+    columns = [c for c in test.found_table.columns if normalise(c.name) in TRUE_STRAINS]
+    if len(columns) != 1:
+        return False
+    try:
+        true = test.source.numbers(test.found_table, [columns[0].position])[:, 0]
+    except InputError:
+        return False
+    largest = int(np.nanargmax(strain))
+    ends = len(true) == len(strain) and strain[largest] > -1
+    return bool(ends and abs(true[largest] / np.log1p(strain[largest]) - 1) < 0.01)
+
+
+def _has_unit(quantity: str, test: Test, profile: FormatProfile) -> bool:
     stated = test.quantities[quantity].unit
     return bool(stated or quantity in profile.units or quantity in profile.wrong_units)
 

@@ -12,6 +12,11 @@ SMALLEST_TABLE = 5
 """Rows that a table must have to be a test."""
 
 
+_TYPES = frozenset(
+    ["float", "float32", "float64", "double", "real", "int", "integer", "numeric", "number", "dbl"]
+)
+
+
 @dataclass
 class Column:
     """One column: its position from 0, its name and unit as found, the group above it.
@@ -56,7 +61,7 @@ def describe_columns(
     unnamed : str
         ``first`` or ``last``: where columns without a name are; empty: not declared.
     """
-    rows = list(above)
+    rows = [(row, cells) for row, cells in above if not _is_row_of_types(cells)]
     units: list[str] = []
     if rows and _is_unit_row(rows[0][1], found_table.width):
         units = rows.pop(0)[1]
@@ -68,6 +73,8 @@ def describe_columns(
         return
     found_table.names_row, names = rows.pop(0)
     shift = _shift(found_table, names, unnamed)
+    if not units and rows and _is_unit_row(rows[0][1], found_table.width):
+        units = rows.pop(0)[1]
     groups = _groups(rows[0][1], len(names)) if rows else []
     for position in range(found_table.width):
         text = _cell(names, position - shift)
@@ -84,6 +91,12 @@ def _is_unit_row(cells: list[str], width: int) -> bool:
     filled = [cell for cell in cells if cell.strip()]
     known = sum(is_unit(cell) or not cell.strip("()[] ") for cell in filled)
     return bool(filled) and known >= max(1, 0.6 * len(filled)) and len(cells) <= width + 2
+
+
+def _is_row_of_types(cells: Sequence[str]) -> bool:
+    """Tell whether a row says how a database stores its columns."""
+    filled = [cell.strip().casefold() for cell in cells if cell.strip()]
+    return bool(filled) and all(cell in _TYPES for cell in filled)
 
 
 def _is_names_row(cells: list[str]) -> bool:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 import unicodedata
+from functools import lru_cache
 
 _INCH = 25.4
 _POUND = 4.4482216152605
@@ -16,6 +17,7 @@ FACTORS: dict[str, dict[str, float]] = {
         "sec.": 1,
         "seconds": 1,
         "ms": 1e-3,
+        "µs": 1e-6,
         "min": 60,
         "h": 3600,
         "秒": 1,
@@ -39,6 +41,11 @@ FACTORS: dict[str, dict[str, float]] = {
         "segundos": 1,
         "secondes": 1,
         "secondi": 1,
+        "millisecond": 1e-3,
+        "milliseconds": 1e-3,
+        "minutes": 60,
+        "sn": 1,
+        "초": 1,
     },
     "force": {
         "N": 1,
@@ -49,9 +56,18 @@ FACTORS: dict[str, dict[str, float]] = {
         "lbf": _POUND,
         "lb": _POUND,
         "lbs": _POUND,
+        "lb-f": _POUND,
+        "pound": _POUND,
+        "pounds": _POUND,
+        "kips": 1e3 * _POUND,
         "klbf": 1e3 * _POUND,
         "kip": 1e3 * _POUND,
         "kgf": 9.80665,
+        "kg-f": 9.80665,
+        "newton": 1,
+        "newtons": 1,
+        "kilonewton": 1e3,
+        "kilonewtons": 1e3,
         "gf": 9.80665e-3,
         "kp": 9.80665,
         "kg": 9.80665,
@@ -73,6 +89,11 @@ FACTORS: dict[str, dict[str, float]] = {
         "µm": 1e-3,
         "um": 1e-3,
         "micron": 1e-3,
+        "microns": 1e-3,
+        "millimeter": 1,
+        "millimeters": 1,
+        "millimetre": 1,
+        "millimetres": 1,
         "in": _INCH,
         "in.": _INCH,
         "inch": _INCH,
@@ -89,6 +110,12 @@ FACTORS: dict[str, dict[str, float]] = {
         "N/mm²": 1,
         "N/mm2": 1,
         "N/mm^2": 1,
+        "N/sq.mm": 1,
+        "N/sq mm": 1,
+        "N mm-2": 1,
+        "N·mm-2": 1,
+        "N mm^-2": 1,
+        "megapascal": 1,
         "GPa": 1e3,
         "kPa": 1e-3,
         "Pa": 1e-6,
@@ -115,8 +142,16 @@ FACTORS: dict[str, dict[str, float]] = {
         "mm/mm": 1,
         "m/m": 1,
         "in/in": 1,
+        "inch/inch": 1,
+        "strain": 1,
+        "dimensionless": 1,
+        "abs": 1,
+        "unitless": 1,
         "%": 1e-2,
         "% strain": 1e-2,
+        "percent": 1e-2,
+        "pct": 1e-2,
+        "prozent": 1e-2,
         "‰": 1e-3,
         "mm/m": 1e-3,
         "µε": 1e-6,
@@ -127,6 +162,9 @@ FACTORS: dict[str, dict[str, float]] = {
         "µstrain": 1e-6,
         "ustrain": 1e-6,
         "microstrain": 1e-6,
+        "microstrains": 1e-6,
+        "µS": 1e-6,
+        "millistrain": 1e-3,
         "mε": 1e-3,
         "мм/мм": 1,
         "м/м": 1,
@@ -205,7 +243,19 @@ DIMENSION = {
 """Quantity → dimension; the quantities are all that ingest knows."""
 
 _BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)|（([^（）]*)）|<([^<>]*)>")
-_TAIL = re.compile(r"^(.*\S)(?:\s*/\s+|\s+in\s+|,\s*|_)(\S+)$")
+_TAIL = re.compile(r"^(.*[^\s/,])(?:\s*/\s*|\s+in\s+|\s+[-–—:]\s+|,\s*|_|\.)(\S+)$")
+_WORD_BEHIND = re.compile(r"^(.*[^\s,])\s+(\S+)$")
+_UNIT_IN_WORDS = (
+    (re.compile(r"(?i)^(?:%|percent(?:age)?|pct\.?)[ _]+(?P<name>\D.*)$"), "%"),
+    (re.compile(r"(?i)^(?P<name>.*)\bmicro-?(?:strains?\b)$"), "microstrain"),
+)
+"""Names that say their unit in words: ``% strain``, ``Percentage Strain``, ``Microstrain``."""
+
+
+_NO_UNIT = frozenset(["-", "1", "strain", "abs", "pound", "d"])
+"""Units that behind a name are a part of it, unless in brackets."""
+_WORDS = frozenset(["k", "v", "j", "h", "m", "min", "in", "minutes"])
+"""The same of a word or letter behind a blank: ``Force min``, ``Load in``."""
 
 
 def clean_unit(text: str) -> str:
@@ -216,9 +266,11 @@ def clean_unit(text: str) -> str:
         text = next(group for group in bracketed.groups() if group is not None).strip()
     wide = unicodedata.normalize("NFKC", text) if not text.isascii() else text
     text = wide if any(wide in units for units in FACTORS.values()) else text
+    text = re.sub(r"\s*/\s*", "/", text)
     return text.replace("\u03bc", "\u00b5").replace("％", "%")
 
 
+@lru_cache(maxsize=4096)
 def find_unit(dimension: str, text: str) -> str | None:
     """Return the table's spelling of a unit of `dimension`, None if it is not one.
 
@@ -232,6 +284,7 @@ def find_unit(dimension: str, text: str) -> str | None:
     return same.pop() if len(same) == 1 else None
 
 
+@lru_cache(maxsize=4096)
 def is_unit(text: str) -> bool:
     """Tell whether `text` is a unit of any dimension, also of one that ingest does not use."""
     unit = clean_unit(text)
@@ -245,8 +298,9 @@ def factor(quantity: str, unit: str) -> float | None:
     return None if found is None else FACTORS[dimension][found]
 
 
+@lru_cache(maxsize=4096)
 def split_unit(name: str) -> tuple[str, str | None]:
-    """Split ``Force [kN]``, ``Load (N)``, ``Kraft / kN``, ``force_n`` into name and unit.
+    """Split ``Force [kN]``, ``Kraft / kN``, ``F/N``, ``force_n``, ``Load N`` into name and unit.
 
     Returns
     -------
@@ -260,7 +314,14 @@ def split_unit(name: str) -> tuple[str, str | None]:
         if is_unit(inner) or (match.group(1) and not inner.isdigit()):
             rest = f"{name[: match.start()].rstrip()} {name[match.end() :].lstrip()}".strip()
             return rest, inner
-    tail = _TAIL.match(name.strip())
-    if tail and is_unit(tail.group(2)) and tail.group(2) not in ("-", "1"):
-        return tail.group(1), clean_unit(tail.group(2))
+    for pattern, unit in _UNIT_IN_WORDS:
+        found = pattern.match(name.strip())
+        if found:
+            return found["name"].strip() or "strain", unit
+    if is_unit(name) and not name.strip().isalpha():
+        return name.strip(), None
+    for pattern, words in ((_TAIL, _NO_UNIT), (_WORD_BEHIND, _NO_UNIT | _WORDS)):
+        tail = pattern.match(name.strip())
+        if tail and is_unit(tail.group(2)) and tail.group(2).casefold() not in words:
+            return tail.group(1), clean_unit(tail.group(2))
     return name.strip(), None

@@ -14,6 +14,7 @@ from xml.etree.ElementTree import ParseError
 from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.sheet_cells import FORMULA, Clock, SheetSource
+from nptcs.ingest.reading.text_numbers import numbers_of_texts
 
 ZIP = b"PK\x03\x04"
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
@@ -56,6 +57,7 @@ def read_workbook(
     with warnings.catch_warnings(record=True) as caught:
         # recorded, none hidden: each of openpyxl's becomes a note, also of the second such file
         warnings.simplefilter("always", UserWarning)
+        _refuse_other_archive(path, raw)
         try:
             sheets = _xlsx(path, raw, limits) if raw.startswith(ZIP) else _xls(path, raw, limits)
         except InputError:
@@ -66,15 +68,37 @@ def read_workbook(
                 "open and save it again, without a password",
                 path,
             ) from error
-    notes = tuple(dict.fromkeys(str(warning.message) for warning in caught))
-    sources = [SheetSource(path, name, rows, missing) for name, rows in sheets if rows]
-    return sources, notes
+    notes = [str(warning.message) for warning in caught]
+    sources = []
+    for name, rows in sheets:
+        numbers, note = numbers_of_texts(rows)
+        notes += [f"sheet '{name}': {note}"] if note else []
+        sources += [SheetSource(path, name, numbers, missing)] if rows else []
+    return sources, tuple(dict.fromkeys(notes))
+
+
+_OTHER_ARCHIVES = (
+    ("mimetype", "is an OpenDocument spreadsheet", "save it as XLSX or CSV"),
+    ("xl/workbook.bin", "is a binary workbook (XLSB)", "save it as XLSX or CSV"),
+)
+
+
+def _refuse_other_archive(path: Path, raw: bytes) -> None:
+    """Say what an archive is that is not an XLSX workbook; a damaged one is read to the error."""
+    if not raw.startswith(ZIP) or not zipfile.is_zipfile(io.BytesIO(raw)):
+        return
+    names = set(zipfile.ZipFile(io.BytesIO(raw)).namelist())
+    for name, what, remedy in _OTHER_ARCHIVES:
+        if name in names:
+            raise InputError(what, remedy, path)
+    if names and not any(name.startswith(("xl/", "[Content_Types]")) for name in names):
+        raise InputError("is a packed archive (ZIP), not a workbook", "unpack it", path)
 
 
 def _xlsx(path: Path, raw: bytes, limits: FileLimits) -> list[tuple[str, list[Row]]]:
     from openpyxl import load_workbook
 
-    unpacked, formulas = _unpacked_size(path, raw, limits)
+    formulas = _holds_formulas(path, raw, limits)
     values = load_workbook(io.BytesIO(raw), read_only=True, data_only=True)
     texts = load_workbook(io.BytesIO(raw), read_only=True) if formulas else None
     try:
@@ -94,8 +118,8 @@ def _xlsx(path: Path, raw: bytes, limits: FileLimits) -> list[tuple[str, list[Ro
             texts.close()
 
 
-def _unpacked_size(path: Path, raw: bytes, limits: FileLimits) -> tuple[int, bool]:
-    """Size of all parts unpacked, and whether a sheet holds formulas; nothing is unpacked yet."""
+def _holds_formulas(path: Path, raw: bytes, limits: FileLimits) -> bool:
+    """Tell whether a sheet holds formulas, if all parts together are within the limits."""
     with zipfile.ZipFile(io.BytesIO(raw)) as archive:
         parts = archive.infolist()
         size = sum(part.file_size for part in parts)
@@ -107,7 +131,7 @@ def _unpacked_size(path: Path, raw: bytes, limits: FileLimits) -> tuple[int, boo
                 path,
             )
         sheets = [part for part in parts if part.filename.startswith("xl/worksheets/")]
-        return size, any(_holds_formula(archive, part) for part in sheets)
+        return any(_holds_formula(archive, part) for part in sheets)
 
 
 def _holds_formula(archive: zipfile.ZipFile, part: zipfile.ZipInfo) -> bool:

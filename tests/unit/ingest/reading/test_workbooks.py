@@ -133,3 +133,45 @@ def test_other_warnings_are_left_to_the_caller(tmp_path, monkeypatch):
     monkeypatch.setattr("nptcs.ingest.reading.workbooks._xlsx", deprecated)
     with pytest.raises(DeprecationWarning, match="old call"):
         read_workbook(tmp_path / "made.xlsx", b"PK\x03\x04", frozenset(), FileLimits())
+
+
+def as_text(value, mark):
+    return f"{value:.4f}".replace(".", mark)
+
+
+@pytest.mark.parametrize("mark", [".", ","])
+def test_columns_of_numbers_stored_as_text_are_read(read, tmp_path, mark):
+    rows = [[as_text(value, mark) for value in row] for row in ROWS]
+    table = read(workbook(tmp_path, {"A": [NAMES, UNITS, *rows]}), name="test.xlsx")
+    assert table.values["force"] == pytest.approx([1000 * row[1] for row in ROWS], rel=1e-3)
+    assert any("stored as text" in note for note in table.notes)
+
+
+@pytest.mark.parametrize("texts", [["1,234", "2,345", "3,456"], ["1,5", "2.5", "3,5"]])
+def test_texts_with_two_readings_are_not_numbers(read, tmp_path, texts):
+    rows = [[row[0], texts[i % 3], row[2]] for i, row in enumerate(ROWS)]
+    with pytest.raises(InputError, match="not a number|no column for one of force"):
+        read(workbook(tmp_path, {"A": [NAMES, UNITS, *rows]}), name="test.xlsx")
+
+
+@pytest.mark.parametrize(
+    ("names", "message"),
+    [
+        (["mimetype", "content.xml"], "OpenDocument"),
+        (["[Content_Types].xml", "xl/workbook.bin"], "XLSB"),
+        (["a.csv"], "packed archive"),
+    ],
+)
+def test_other_archives_are_called_what_they_are(read, names, message):
+    out = io.BytesIO()
+    with zipfile.ZipFile(out, "w") as archive:
+        for name in names:
+            archive.writestr(name, "x")
+    with pytest.raises(InputError, match=message):
+        read(out.getvalue(), name="test.xlsx")
+
+
+@pytest.mark.parametrize("text", ["<html><table>", '<?xml version="1.0"?><Workbook>', " <TABLE>"])
+def test_a_page_of_markup_is_called_what_it_is(read, text):
+    with pytest.raises(InputError, match="HTML or XML"):
+        read(text + "\n1,2,3" * 20, name="test.xls")

@@ -301,3 +301,19 @@ def test_a_word_that_does_not_name_the_test_does_not_stop_it(lab, tmp_path, head
     columns = {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": 100 * STRAIN}
     lab.write(tmp_path / "a.csv", columns, head=(head,))
     assert lab.modulus(lab.ingest(tmp_path, "a.csv")) == pytest.approx(E_MPA, rel=1e-5)
+
+
+@pytest.mark.parametrize("axial", ["exx", "eyy"])
+def test_the_axis_of_a_45_degree_laminate_is_told_by_its_sign(lab, tmp_path, axial):
+    """Poisson's ratio 0.93: the strains are as large, but only one follows the load."""
+    other = {"exx": "eyy", "eyy": "exx"}[axial]
+    gamma = 3e-5 * TIME
+    columns = {"Time [s]": TIME, "Load [N]": 150_000 * gamma}
+    columns |= {f"{axial} [1]": 0.518 * gamma, f"{other} [1]": -0.482 * gamma}
+    lab.write(tmp_path / "a.csv", columns)
+    done = lab.ingest(tmp_path, "a.csv", test="shear", orientation_deg=45)
+    assert done.curve["strain_axial"].iloc[-1] == pytest.approx(0.518 * gamma[-1], rel=1e-3)
+    columns["Load [N]"] = -columns["Load [N]"]
+    lab.write(tmp_path / "b.csv", columns)
+    with pytest.raises(InputError, match="cannot be told from the data"):
+        lab.ingest(tmp_path, "b.csv", test="shear", orientation_deg=45)

@@ -340,6 +340,7 @@ def test_what_physics_forbids_is_refused(coupon, strain, message):
 class _Table:
     path = PATH
     units = {"force": "N", "strain": "1"}
+    assumed = ()
 
 
 def _tables():

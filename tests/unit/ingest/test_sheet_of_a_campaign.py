@@ -1,0 +1,168 @@
+"""`new-sheet` for folders as laboratories keep them: series, frames, days in names, limits."""
+
+from __future__ import annotations
+
+import io
+
+import numpy as np
+import pandas as pd
+import pytest
+
+from nptcs.config.ingest import FileLimits, limits_in
+from nptcs.errors import InputError
+from nptcs.ingest.file_names import series_names, tokens
+from nptcs.ingest.fill_sheet import fill_text, parse_fill
+from nptcs.ingest.folder import is_there
+from nptcs.ingest.new_sheet import propose_sheet
+from nptcs.ingest.repeats import may_repeat, repeats_in_sheet
+from nptcs.tables.specimens import read_sheet
+
+TIME = np.arange(0, 30.0, 0.5)
+STRAIN = 2e-4 * TIME
+FORCE = 1.2e6 * STRAIN
+
+
+def machine(lab, path, scale=1.0, rows=60):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    columns = {"Time (s)": TIME, "Load (N)": scale * FORCE, "Crosshead (mm)": TIME}
+    lab.write(path, {name: values[:rows] for name, values in columns.items()})
+
+
+def camera(lab, path, scale=1.0):
+    path.parent.mkdir(parents=True, exist_ok=True)
+    columns = {"Time_0 [s]": TIME, "exx [1]": STRAIN, "eyy [1]": -0.3 * STRAIN,
+               "Force": scale * FORCE}  # fmt: skip
+    lab.write(path, columns, ";")
+
+
+def table_of(proposal):
+    return pd.read_csv(io.StringIO(proposal.text()), dtype=str).fillna("")
+
+
+def test_a_series_is_filled_in_once_and_then_accepted(lab, profiles, tmp_path):
+    for number in range(1, 5):
+        machine(lab, tmp_path / "MTS" / f"MTS_UD_{number}.csv", 1 + 0.01 * number)
+        machine(lab, tmp_path / "MTS" / f"MTS_TD_{number}.csv", 2 + 0.01 * number)
+        camera(lab, tmp_path / "DIC" / f"DIC_UD_{number}.csv", 1 + 0.01 * number)
+    for name in ("UD", "TD"):
+        rows = "\n".join(f"{n},10.1,10.2,1.{n}" for n in range(1, 5))
+        (tmp_path / f"Dimensions{name}.csv").write_text(f"Sample,W1,W2,T\n{rows}\n")
+    proposal = propose_sheet(tmp_path, profiles)
+    wanted = ["test", "material", "orientation_deg"]
+    travel = [*wanted, "gauge_length_mm"]  # no camera: the crosshead's travel needs a length
+    assert proposal.open_series() == {"UD": (4, wanted), "TD": (4, travel)}
+    fills = [
+        parse_fill("UD: test=tension material=cfrp orientation_deg=0"),
+        parse_fill("TD: test=tension, material=cfrp, orientation_deg=90"),
+    ]
+    (tmp_path / "specimens.csv").write_text(fill_text(proposal.text(), fills))
+    specimens, errors = read_sheet(tmp_path / "specimens.csv")
+    assert not errors
+    assert [s.orientation_deg for s in specimens if "TD" in s.specimen] == [90.0] * 4
+    assert not any("fill in" in s.remarks for s in specimens)
+    assert [bool(s.strain_file) for s in specimens if "UD" in s.specimen] == [True] * 4
+
+
+def test_what_is_filled_in_by_hand_stays():
+    text = 'specimen;test;force_file;remarks\nA;shear;A_1.csv;mine\nB;;A_2.csv;"fill in test; x"\n'
+    filled = fill_text(text, [parse_fill("A: test=tension material=m")])
+    table = pd.read_csv(io.StringIO(filled), sep=";")
+    assert table["test"].tolist() == ["shear", "tension"]
+    assert table["material"].tolist() == ["m", "m"]
+    assert table["remarks"].tolist() == ["mine", "x"]
+
+
+@pytest.mark.parametrize(
+    ("text", "match"),
+    [
+        ("UD test=tension", "is not a series"),
+        ("UD: tension", "is not a series"),
+        ("UD: tests=tension", "unknown column"),
+    ],
+)
+def test_a_fill_that_cannot_be_read_is_refused(text, match):
+    with pytest.raises(InputError, match=match):
+        parse_fill(text)
+
+
+def test_a_series_that_is_not_there_names_those_that_are():
+    text = "specimen,test,force_file,remarks\nA,,A_1.csv,\n"
+    with pytest.raises(InputError, match="series: A"):
+        fill_text(text, [parse_fill("B: test=tension")])
+
+
+def test_series_of_equal_names_in_two_folders_are_two():
+    files = ["dry/MTS_UD_1.csv", "wet/MTS_UD_1.csv", "wet/PM45_1.csv", "wet/PM45_2.csv"]
+    assert series_names(files) == {
+        "dry/MTS_UD_1.csv": "dry/UD",
+        "wet/MTS_UD_1.csv": "wet/UD",
+        "wet/PM45_1.csv": "PM45",
+        "wet/PM45_2.csv": "PM45",
+    }
+
+
+@pytest.mark.parametrize(
+    "names",
+    [
+        ("CFRP_T90_3_20240502.csv", "20240503_CFRP_T90_3_dic.csv"),
+        ("2024-05-02_UD_1.csv", "UD_1_2024-05-07_vic3d.csv"),
+        ("02.05.2024/UD_1.csv", "03.05.2024/UD_01.csv"),
+        ("UD_1_20240502_1030.csv", "UD_1_20240502_1412.csv"),
+    ],
+)
+def test_days_in_names_do_not_part_machine_and_camera(lab, profiles, tmp_path, names):
+    machine(lab, tmp_path / "mts" / names[0])
+    camera(lab, tmp_path / "dic" / names[1])
+    (row,) = table_of(propose_sheet(tmp_path, profiles)).to_dict("records")
+    assert row["strain_file"] == f"dic/{names[1]}"
+
+
+def test_a_name_that_is_nothing_but_a_day_keeps_it():
+    assert tokens("20240502.csv") == {"20240502": 1}
+
+
+def test_a_folder_of_frames_is_one_strain_file(lab, profiles, tmp_path):
+    for number in (1, 2):
+        machine(lab, tmp_path / "MTS" / f"UD_{number}.csv", number)
+        for frame in range(6):
+            path = tmp_path / "DIC" / f"UD_{number}" / f"UD_{number}-{frame:04d}_0.csv"
+            path.parent.mkdir(parents=True, exist_ok=True)
+            x, y = (a.ravel().astype(float) for a in np.mgrid[0:4, 0:5])
+            columns = {"x [mm]": x, "y [mm]": y, "exx [1]": x * 0 + 0.001 * frame,
+                       "eyy [1]": x * 0 - 0.0003 * frame}  # fmt: skip
+            lab.write(path, columns)
+    table = table_of(propose_sheet(tmp_path, profiles))
+    pairs = dict(zip(table["force_file"], table["strain_file"], strict=True))
+    assert pairs == {"MTS/UD_1.csv": "DIC/UD_1", "MTS/UD_2.csv": "DIC/UD_2"}
+    assert is_there(tmp_path, "DIC/UD_1")
+
+
+def test_limits_are_those_of_the_configuration(lab, profiles, tmp_path):
+    config = tmp_path / "mine.yaml"
+    config.write_text("ingest: {limits: {rows: 30}}\nstudies: []\n")
+    assert limits_in(config) == FileLimits(rows=30)
+    assert limits_in(tmp_path / "none.yaml") == FileLimits()
+    machine(lab, tmp_path / "lab" / "a.csv")
+    machine(lab, tmp_path / "lab" / "b.csv", 2.0, rows=20)
+    proposal = propose_sheet(tmp_path / "lab", profiles, limits_in(config))
+    assert [row["force_file"] for row in proposal.rows] == ["b.csv"]
+    assert "lines, 30 are allowed" in proposal.left["a.csv"]
+    config.write_text("ingest: {limits: {rows: few}}\n")
+    with pytest.raises(InputError, match="rows"):
+        limits_in(config)
+
+
+def test_check_reads_only_files_that_may_be_equal(lab, profiles, tmp_path, monkeypatch):
+    """Equal data in other bytes are found; a file of another length is not even read."""
+    machine(lab, tmp_path / "a.csv")
+    machine(lab, tmp_path / "b.csv", 2.0, rows=40)
+    text = (tmp_path / "a.csv").read_text().replace(",", ";")
+    (tmp_path / "c.csv").write_text("Exported again\n" + text)
+    head = "specimen,test,material,orientation_deg,width_mm,thickness_mm,gauge_length_mm,force_file"
+    rows = [f"{n},tension,m,0,10,1,50,{n}.csv" for n in "abc"]
+    (tmp_path / "specimens.csv").write_text("\n".join([head, *rows]))
+    specimens, errors = read_sheet(tmp_path / "specimens.csv")
+    assert not errors
+    assert [s.specimen for s in may_repeat(specimens, tmp_path)] == ["a", "c"]
+    faults = repeats_in_sheet(specimens, tmp_path, profiles, tmp_path, FileLimits())
+    assert [fault.specimen for fault in faults] == ["c"]

@@ -1,0 +1,69 @@
+"""Which files belong to one specimen: by the words and numbers of their names, never by order."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Sequence
+
+from nptcs.ingest.dimension_tables import Dimensions
+from nptcs.ingest.file_names import tokens
+
+
+def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict[str, str]:
+    """Give each strain file to the one machine file of the same specimen.
+
+    Parameters
+    ----------
+    rows : sequence of dict
+        Rows of the sheet, one per force file; get ``strain_file``.
+    strains : sequence of str
+        Strain files, or folders of frames.
+
+    Returns
+    -------
+    dict of str to str
+        Strain files that fit none or several, with the reason.
+    """
+    machines = {number: tokens(row["force_file"]) for number, row in enumerate(rows)}
+    chosen: dict[str, int] = {}
+    left: dict[str, str] = {}
+    for name in strains:
+        own = tokens(name)
+        equal = [number for number, words in machines.items() if words == own]
+        near = equal or [number for number, words in machines.items() if _says_the_same(words, own)]
+        if len(near) == 1:
+            chosen[name] = near[0]
+        else:
+            files = ", ".join(rows[number]["force_file"] for number in near[:3])
+            left[name] = f"strains that fit {len(near)} force files by name: {files}"
+            if not near:
+                left[name] = "strains without a force file of the same specimen"
+    for name, number in chosen.items():
+        rivals = [other for other, place in chosen.items() if place == number]
+        if len(rivals) == 1:
+            rows[number]["strain_file"] = name
+        else:
+            left[name] = f"one of {len(rivals)} strain files of the same specimen"
+    return left
+
+
+def _says_the_same(words: Counter[str], others: Counter[str]) -> bool:
+    """Tell whether two names agree: equal numbers, and the words of one among the other's."""
+    numbers = Counter({w: n for w, n in words.items() if w.isdigit()})
+    if numbers != Counter({w: n for w, n in others.items() if w.isdigit()}) or not numbers:
+        return False
+    return words <= others or others <= words
+
+
+def add_dimensions(rows: Sequence[dict[str, str]], dimensions: Sequence[Dimensions]) -> None:
+    """Fill in the dimensions whose row names one test, and is named by no other row."""
+    for row in rows:
+        words = tokens(row["force_file"]) + tokens(row["force_part"] + ".x")
+        fitting = [one for one in dimensions if one.words and one.words <= words]
+        most = max((sum(one.words.values()) for one in fitting), default=0)
+        fitting = [one for one in fitting if sum(one.words.values()) == most]
+        if len(fitting) != 1:
+            continue
+        row |= fitting[0].cells
+        note = f"dimensions from {fitting[0].file}"
+        row["remarks"] = "; ".join(text for text in (row["remarks"], note, fitting[0].note) if text)

@@ -1,0 +1,58 @@
+"""Columns of a workbook whose numbers are stored as text."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Sequence
+
+_NUMBER = re.compile(r"[+-]?(?:\d+([.,])?\d*|([.,])\d+)(?:[eE][+-]?\d+)?", re.ASCII)
+_MAY_BE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
+FEWEST = 5
+
+Row = tuple[object, ...]
+
+
+def numbers_of_texts(rows: list[Row]) -> tuple[list[Row], str]:
+    """Turn the cells of columns that hold numbers as text only into numbers.
+
+    All such cells of a sheet must have one decimal mark, and with a comma one of them must prove
+    that it is no thousands mark; otherwise they stay text, and the reading says so. A lone text
+    among numbers stays, too: it is a slip of somebody's hand.
+
+    Returns
+    -------
+    rows : list of tuple
+        The same rows, or copies with numbers.
+    note : str
+        What was done; empty if nothing.
+    """
+    columns = [column for column in _text_columns(rows) if len(column) >= FEWEST]
+    cells = [str(rows[row][place]).strip() for column in columns for row, place in column]
+    marks = {mark for cell in cells for mark in ".," if mark in cell}
+    unproven = all(_MAY_BE_THOUSANDS.fullmatch(cell) for cell in cells if "," in cell)
+    if not cells or len(marks) > 1 or ("," in marks and unproven):
+        return rows, ""
+    changed = [list(row) for row in rows]
+    for column in columns:
+        for row, place in column:
+            changed[row][place] = float(str(rows[row][place]).strip().replace(",", "."))
+    mark = f", decimal mark '{next(iter(marks))}'" if marks else ""
+    note = f"{len(columns)} columns hold numbers stored as text{mark}"
+    return [tuple(row) for row in changed], note
+
+
+def _text_columns(rows: Sequence[Row]) -> list[list[tuple[int, int]]]:
+    """Places of the numbers in each column that holds them as text and not as numbers."""
+    found: list[list[tuple[int, int]]] = []
+    for place in range(max(map(len, rows), default=0)):
+        cells = [(row, cells[place]) for row, cells in enumerate(rows) if place < len(cells)]
+        if any(isinstance(cell, int | float) and not isinstance(cell, bool) for _, cell in cells):
+            continue
+        found.append(
+            [
+                (row, place)
+                for row, cell in cells
+                if isinstance(cell, str) and _NUMBER.fullmatch(cell.strip())
+            ]
+        )
+    return found
