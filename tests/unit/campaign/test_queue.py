@@ -47,8 +47,8 @@ def test_memory_grows_with_the_cases_side_by_side_and_with_each_attempt():
 
 def test_a_case_of_several_cores_counts_once():
     options = load(MODULES["abaqus"]).options(cpus=4, case_memory_mb=5000.0)
-    assert batch_memory_mb(4, options) == 5600
-    assert batch_memory_mb(8, options) == 10600
+    assert batch_memory_mb(4, options) == 5800
+    assert batch_memory_mb(8, options) == 10800
 
 
 @pytest.mark.parametrize("tokens", [0, 5])

@@ -8,7 +8,7 @@ from typing import Protocol
 from nptcs.campaign.schedule import Needs
 from nptcs.config.root import Campaign
 
-JOB_MEMORY_MB = 600.0
+JOB_MEMORY_MB = 800.0
 """Memory of a job besides its cases: Snakemake, the script and the server that starts the cases."""
 JOB_MINUTES = 2.0
 """Time of a job besides its cases: Snakemake and the imports start again on the node."""
@@ -74,7 +74,7 @@ def batch_memory_mb(cores: int, options: JobNeeds, attempt: int = 1) -> int:
     --------
     >>> from nptcs.solvers.contract import SolverOptions
     >>> batch_memory_mb(2, SolverOptions(case_memory_mb=300.0))
-    1200
+    1400
     """
     cases = cases_at_a_time(cores, options) * options.case_memory_mb
     return ceil(JOB_MEMORY_MB + cases * attempt)
