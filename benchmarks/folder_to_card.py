@@ -118,9 +118,10 @@ def main() -> int:
             (folder / part).symlink_to(ROOT / part)
         (folder / "Snakefile").symlink_to(ROOT / "Snakefile")
         config = yaml.safe_load((ROOT / "config" / "small.yaml").read_text(encoding="utf-8"))
-        study = config["studies"][0] | {"solvers": ["lca"], "solver_options": {}}
-        lab = {"specimen_sheet": "lab/specimens.csv", "formats": "config/formats"}
-        config = {"lab_data": lab, "studies": [study]}
+        config["lab_data"] = {
+            "specimen_sheet": "lab/specimens.csv",
+            "formats": "config/formats",
+        }
         write_text(folder / "mine.yaml", yaml.safe_dump(config))
         print(f"{files} files of 32 specimens in 4 series")
         fills = [f"{series}: {cells}" for series, cells in SERIES.items()]
