@@ -117,7 +117,7 @@ def main() -> int:
         for part in ("config", "workflow", "raw_data", "profiles"):
             (folder / part).symlink_to(ROOT / part)
         (folder / "Snakefile").symlink_to(ROOT / "Snakefile")
-        config = yaml.safe_load((ROOT / "config" / "small.yaml").read_text(encoding="utf-8"))
+        config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
         config["lab_data"] = {
             "specimen_sheet": "lab/specimens.csv",
             "formats": "config/formats",
