@@ -93,16 +93,16 @@ def rubber(mesh: Section, n: int, c10_mpa: float, ratio: float) -> Array:
     weight = area * weights * radius
     count = len(corners)
     # strains rr, θθ, zz, rθ, θz, rz by u_r, u_θ, u_z of the nodes
-    strain = np.zeros((count, len(points), 6, 9, 3))
+    by_node = np.zeros((count, len(points), 6, 9, 3))
     over = shape[None] / radius[..., None]
     by_r, by_z = gradient[..., 0], gradient[..., 1]
-    strain[..., 0, :, 0] = by_r
-    strain[..., 1, :, 0], strain[..., 1, :, 1] = over, n * over
-    strain[..., 2, :, 2] = by_z
-    strain[..., 3, :, 0], strain[..., 3, :, 1] = -n * over, by_r - over
-    strain[..., 4, :, 1], strain[..., 4, :, 2] = by_z, -n * over
-    strain[..., 5, :, 0], strain[..., 5, :, 2] = by_z, by_r
-    strain = strain.reshape(count, len(points), 6, 27)
+    by_node[..., 0, :, 0] = by_r
+    by_node[..., 1, :, 0], by_node[..., 1, :, 1] = over, n * over
+    by_node[..., 2, :, 2] = by_z
+    by_node[..., 3, :, 0], by_node[..., 3, :, 1] = -n * over, by_r - over
+    by_node[..., 4, :, 1], by_node[..., 4, :, 2] = by_z, -n * over
+    by_node[..., 5, :, 0], by_node[..., 5, :, 2] = by_z, by_r
+    strain = by_node.reshape(count, len(points), 6, 27)
     shear = 2.0 * c10_mpa
     deviator = shear * np.diag([2.0, 2.0, 2.0, 1.0, 1.0, 1.0])
     deviator[:3, :3] -= 2.0 * shear / 3.0
@@ -208,9 +208,8 @@ def print_stiffness(c10_mpa: float, half_contact_mm: float) -> None:
 def print_waves(c10_mpa: float) -> None:
     """Print how much softer the wide ring is against single waves, in %."""
     print("single waves of pressure on the tread, S-C 1, stiffness against plane strain in %:")
-    spoke = float(
-        pd.read_csv(PUBLISHED).set_index("spoke_c10_mpa").loc[1, "tension_stiffness_n_per_mm"]
-    )
+    published = pd.read_csv(PUBLISHED).set_index("spoke_c10_mpa")["tension_stiffness_n_per_mm"]
+    spoke = float(published[1])
     for n in (5, 10, 20, 40, 80, 135):
         plain = compliance(n, c10_mpa, NEARLY_INCOMPRESSIBLE, spoke, False)[0, 0]
         wide = compliance(n, c10_mpa, NEARLY_INCOMPRESSIBLE, spoke, True)[0, 0]

@@ -1,6 +1,6 @@
 """Runs that are killed at random moments, and the same command again: what is lost or left behind.
 
-    python benchmarks/kill_trials.py [--trials 200] [--kills 7] [--seed 1]
+    python benchmarks/kill_trials.py [--trials 200] [--seed 1]
 
 A small study of a stub solver, which runs a command for each case, is started by Snakemake and hit:
 SIGKILL to the whole process group, to Snakemake alone, to the script of the rule, to the process of
@@ -45,7 +45,7 @@ from nptcs.solvers.external import run_command
 def solve(inputs):
     c = inputs.values["spoke_c10_mpa"]
     with tempfile.TemporaryDirectory(prefix="stub-") as folder:
-        run_command(["sleep", "0.15"], Path(folder), 60.0)
+        run_command(["sleep", "0.5"], Path(folder), 60.0)
     curve = {"displacement_mm": [0.0, c], "force_n": [0.0, 3.0 * c]}
     return SolverResult(status=Status.OK, vertical_stiffness_n_per_mm=100.0 + c,
                         displacement_mm=inputs.load_n / (100.0 + c), curve=curve)
@@ -214,7 +214,7 @@ def hit(project: Project, victim: str, moment: Callable[[float, int], bool], cou
     if victim in HITS or victim == "script" or not struck:
         run.wait()
     else:
-        _, left = psutil.wait_procs(members, timeout=3 * WITHIN_S)
+        _, left = psutil.wait_procs(members[1:], timeout=3 * WITHIN_S)
         took = time.monotonic() - ended
         run.wait()
         count.slowest_end_s = max(count.slowest_end_s, took)
@@ -252,8 +252,8 @@ def settle(project: Project) -> None:
 
 
 def leftovers(project: Project) -> list[Path]:
-    """Name what is in the temporary folder."""
-    return sorted(project.temp.iterdir())
+    """Name what is in the temporary folder, but for Snakemake's, which the next run removes."""
+    return sorted(project.temp.glob("[!s]*"))
 
 
 def examine(project: Project, before: dict[Path, int], count: Count) -> None:
@@ -276,20 +276,27 @@ def examine(project: Project, before: dict[Path, int], count: Count) -> None:
 def moments(seed: random.Random) -> Iterator[Callable[[float, int], bool]]:
     """Yield moments: some while cases are solved, some at any time from the first second on."""
     while True:
-        solved, seconds = seed.randint(0, 6), seed.uniform(0.3, 6.0)
+        solved, seconds = seed.randint(0, 6), seed.uniform(0.3, 12.0)
         if seed.random() < 0.7:
             yield lambda _, new, solved=solved: new >= solved + 1
         else:
             yield lambda passed, _, seconds=seconds: passed >= seconds
 
 
-def runs_of(trials: int, seed: random.Random) -> list[str]:
-    """Return whom to hit in each run, so that the hits make up the trials."""
-    order: list[str] = []
-    while sum(HITS.get(victim, 1) for victim in order) < trials:
-        order += VICTIMS
-    seed.shuffle(order)
-    return order
+def chains_of(trials: int, seed: random.Random) -> list[list[str]]:
+    """Return whom to hit in the runs of each project, so that the hits make up the trials.
+
+    A run whose cases are hit solves all that is left; so it is the last of its project.
+    """
+    chains: list[list[str]] = []
+    hits = 0
+    while hits < trials:
+        ending = [victim for victim in VICTIMS if victim not in HITS]
+        seed.shuffle(ending)
+        last = sorted(HITS)[len(chains) % len(HITS)]
+        chains.append([*ending, last])
+        hits += sum(HITS.get(victim, 1) for victim in chains[-1])
+    return chains
 
 
 def chain(
@@ -303,9 +310,9 @@ def chain(
     if not ended:
         print(project.last_log()[-2000:])
         return False, ""
-    stray = [path for path in (project.folder / "results").rglob(f"{UNFINISHED}*")]
+    stray = [*(project.folder / "results").rglob(f"{UNFINISHED}*"), *project.temp.iterdir()]
     for path in stray:
-        print(f"unfinished file left: {path.name}")
+        print(f"left at the end: {path.name}")
     return not stray, project.table()
 
 
@@ -313,16 +320,14 @@ def main() -> int:
     """Run the trials and print what they showed."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--trials", type=int, default=200)
-    parser.add_argument("--kills", type=int, default=7, help="runs hit in one project")
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
     signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background, else
     seed = random.Random(arguments.seed)
     random.seed(arguments.seed)
     counts = {victim: Count() for victim in VICTIMS}
-    order = runs_of(arguments.trials, seed)
+    chains = chains_of(arguments.trials, seed)
     when, ends, equal = moments(seed), 0, 0
-    chains = [order[n : n + arguments.kills] for n in range(0, len(order), arguments.kills)]
     with tempfile.TemporaryDirectory(prefix="kill-trials-") as base:
         undisturbed = Project(Path(base) / "undisturbed")
         if undisturbed.start().wait() != 0:

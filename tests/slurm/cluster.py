@@ -97,7 +97,7 @@ def start(accounting: bool) -> None:
         wait_until("munge answers", lambda: answers("munge", "-n"))
     if accounting:
         start_accounting()
-    run("slurmctld")
+    run("slurmctld", "-c")  # nothing is known of earlier jobs
     wait_until("slurmctld answers", lambda: answers("scontrol", "ping"))
     for node in NODES:
         run("slurmd", "-N", node)
@@ -209,12 +209,15 @@ class Watch:
     def __init__(self, solver: str, least_s: float) -> None:
         self.solver, self.least_s = solver, least_s
         self.since = 0.0
+        self.before = {job for [job] in jobs("%i")}
         self.known: dict[str, str] = {}
         self.killed = self.restarted = False
 
     def look(self) -> None:
         """Look once at the queue and at the nodes."""
         for job, node, state, rule in jobs("%i", "%N", "%T", "%k"):
+            if job in self.before:
+                continue
             text = f"job {job} {rule}: {state} {node}"
             if self.known.get(job) != text:
                 say(text)
@@ -246,7 +249,9 @@ class Watch:
         return process.returncode
 
 
-def study(folder: Path, status: str, config: str, solver: str, least_s: float) -> int:
+def study(
+    folder: Path, status: str, config: str, solver: str, least_s: float, only_cases: bool
+) -> int:
     """Run a study locally and through Slurm, and compare."""
     local, cluster = folder / "local", folder / "cluster"
     given = ("--configfile", config)
@@ -257,7 +262,8 @@ def study(folder: Path, status: str, config: str, solver: str, least_s: float) -
         say(f"local run ends with exit code {code}")
         if code:
             return code
-    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns("results", ".snakemake"))
+    left_out = ("5_solve",) if only_cases else ("results", ".snakemake")
+    shutil.copytree(local, cluster, ignore=shutil.ignore_patterns(*left_out))
     say(f"run through Slurm begins, status by {status}")
     process = snakemake(
         cluster,
@@ -294,6 +300,11 @@ def main() -> int:
     studying.add_argument(
         "--kill-after", type=float, default=5.0, help="seconds that its batch has solved by then"
     )
+    studying.add_argument(
+        "--only-cases",
+        action="store_true",
+        help="take what comes before the cases from the local run",
+    )
     parts.add_parser("stop")
     chosen = parser.parse_args()
     if chosen.part == "start":
@@ -301,7 +312,7 @@ def main() -> int:
     elif chosen.part == "stop":
         stop()
     else:
-        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after)
+        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after, chosen.only_cases)
         return study(chosen.folder.resolve(), *given)
     return 0
 

@@ -9,6 +9,7 @@ import sys
 from pathlib import Path
 
 from snakemake.cli import main
+from snakemake.utils import update_config
 
 from nptcs import provenance
 from nptcs.campaign.plan import known_cases
@@ -41,7 +42,9 @@ def plan(folder):
 
 def unknown():
     """Count the cases that are not in the store of the current folder."""
-    config = read_config({**read_yaml("config/config.yaml"), **read_yaml(CONFIG)})
+    values = read_yaml("config/config.yaml")
+    update_config(values, read_yaml(CONFIG))  # as Snakemake joins them
+    config = read_config(values)
     card = read_model("results/material_card.json", MaterialCard)
     store = RecordStore("results/5_solve/records")
     number = 0

@@ -183,6 +183,15 @@ def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, a
     assert held == set(raw)
 
 
+def test_snakemakes_own_report_has_the_main_outputs_with_captions(project):
+    done = project.snakemake("--report", "snakemake-report.html")
+    assert done.returncode == 0, done.stderr[-3000:]
+    page = project.path("snakemake-report.html").read_text(encoding="utf-8")
+    for caption in sorted(project.path("workflow/report").glob("*.rst")):
+        words = " ".join(caption.read_text(encoding="utf-8").split()[:4])
+        assert words in page, f"the caption {caption.name} is not in the report"
+
+
 def test_a_second_run_on_one_folder_is_refused(project):
     """While one run makes the report, another one is told so and ends; the first ends well."""
     project.path("results/report.html").unlink()

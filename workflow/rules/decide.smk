@@ -3,28 +3,38 @@ ADDED_CASES = (
     "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
 )
 
-DECIDED = (
-    "studies",
-    "solvers",
-    "tyre",
-    "uncertainty",
-    "decisions",
-    "tyre_responses",
-    "campaign",
-)
+DECIDED = ("tyre", "uncertainty", "tyre_responses")
+
+
+def decided_study(study):
+    """A study without titles and labels, which decide no number."""
+    return {
+        **plain(study),
+        "title": "",
+        "factors": study.case_definition()["factors"],
+        "decisions": [{**plain(one), "title": ""} for one in study.decisions],
+        "solver_options": {},
+    }
+
+
+def confirming_options(study_name, solver_name):
+    """Options of a solver that solves chosen designs, without those that change no result."""
+    options = CONFIG.options_of(study_name, solver_name)
+    words = FACTS.solvers[study_name][solver_name].without_effect
+    return {key: value for key, value in options.items() if key not in words}
 
 
 def decide_job():
     settings = plain(CONFIG)
-    solvers = sorted({(d.study, d.solver) for d in CONFIG.decisions})
-    modules = [
-        module_of(name, CONFIG.options_of(study, name)) for study, name in solvers
-    ]
+    asked = sorted({(one.study, one.solver) for one in CONFIG.decisions})
+    modules = [module_of(name, CONFIG.options_of(study, name)) for study, name in asked]
     return {
         "settings": {name: settings[name] for name in DECIDED},
+        "studies": [decided_study(study) for study in CONFIG.studies],
+        "options": [confirming_options(*one) for one in asked],
         "added": ADDED_CASES,
         "added_cases": contents([ADDED_CASES]),
-        "code": code_of("decide", *dict.fromkeys(modules), words=True),
+        "code": code_of("decide", *dict.fromkeys(modules)),
     }
 
 

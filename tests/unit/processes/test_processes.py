@@ -99,7 +99,8 @@ def test_the_lock_of_a_dead_run_is_lifted(locked, sleeper, capsys):
     assert runs.begin_run(locked) is True
     assert locks(locked) == 0
     assert "no process of it lives" in capsys.readouterr().err
-    assert read_name((locked / "runs" / f"{os.getpid()}.json").read_text()) == name_of()
+    noted = (locked / "runs" / f"{os.getpid()}.json").read_text()
+    assert read_name(noted.splitlines()[0]) == name_of()
 
 
 def test_an_earlier_run_with_our_number_is_dead(locked):
@@ -126,6 +127,19 @@ def test_a_run_on_another_machine_is_named_with_the_command_to_type(locked, caps
 def test_a_lock_of_which_nothing_is_noted_stays(locked):
     assert runs.begin_run(locked) is False
     assert locks(locked) == 2
+
+
+def test_the_temporary_folder_of_a_dead_run_is_removed_and_no_other(locked, sleeper, tmp_path):
+    for name in ("snakemake_a", "precious"):
+        (tmp_path / name).mkdir()
+        (tmp_path / name / "file").touch()
+    dead = ended(sleeper)
+    for number, name in enumerate(("snakemake_a", "precious")):
+        note = locked / "runs" / f"{number}.json"
+        note.write_text(f"{dead.text()}\n{tmp_path / name}\n")
+    assert runs.begin_run(locked) is True
+    assert not (tmp_path / "snakemake_a").exists()
+    assert (tmp_path / "precious/file").exists()
 
 
 def test_a_note_that_was_cut_off_is_of_a_dead_run(locked):
@@ -165,6 +179,21 @@ def test_nothing_is_left_of_a_process_that_was_killed(tmp_path):
     process.communicate()
     assert gone(lambda: not lives(command))
     assert gone(lambda: list(tmp_path.iterdir()) == [])
+
+
+def test_a_long_temporary_folder_leaves_sockets_a_short_name(tmp_path):
+    deep = tmp_path / ("d" * 60)
+    deep.mkdir()
+    code = (
+        "from nptcs.processes.scratch import *\n"
+        "print(scratch_folder(), socket_folder(), socket_folder() == socket_folder())"
+    )
+    process = python(code, TMPDIR=str(deep))
+    scratch_of, sockets, same = process.communicate()[0].decode().split()
+    assert Path(scratch_of).parent == deep
+    assert len(sockets) <= scratch.LONGEST
+    assert same == "True"
+    assert gone(lambda: not Path(sockets).exists() and not Path(scratch_of).exists())
 
 
 def test_a_process_ends_with_its_run_and_so_does_its_command(tmp_path, sleeper):

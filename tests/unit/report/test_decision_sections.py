@@ -158,7 +158,16 @@ def decided(results):
     ]
     return replace(
         results,
-        config=results.config.model_copy(update={"decisions": tuple(named)}),
+        config=results.config.model_copy(
+            update={
+                "studies": tuple(
+                    study.model_copy(
+                        update={"decisions": tuple(named) if study.name == "plate" else ()}
+                    )
+                    for study in results.config.studies
+                )
+            }
+        ),
         tables={
             **results.tables,
             "uncertainty.csv": uncertainty,

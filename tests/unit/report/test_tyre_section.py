@@ -90,6 +90,16 @@ def test_what_is_missing_is_never_a_number():
     assert table.loc["plate_001", "plate_mass", ""].status == "not assessed"
 
 
+def test_a_contact_of_too_few_points_says_so():
+    coarse = record("plate_001", extra={"contact_cells": 3.1, "largest_spoke_force_n": 90.0})
+    table = responses(coarse)
+    for name in ("contact_length", "largest_pressure", "mean_pressure"):
+        row = table.loc["plate_001", name, "5000 N"]
+        assert row.status == "not assessed"
+        assert "only 3.1 contact points long" in row.note
+    assert table.loc["plate_001", "largest_spoke_force", "5000 N"].status == "ok"
+
+
 def test_margins_need_tested_strengths_and_the_mass_a_density():
     table = responses(
         record("plate_001"), settings=TyreResponseSettings(plate_density_kg_per_m3=1550)

@@ -154,3 +154,88 @@ def test_a_folded_element_is_refused():
     positions, block = rubber()
     with pytest.raises(FloatingPointError, match="inside out"):
         block.respond(-1.5 * positions)
+
+
+def stiff():
+    root = np.random.default_rng(0).normal(size=(6, 6))
+    return linear(1e5 * root @ root.T)
+
+
+@pytest.mark.parametrize("make", [rubber, stiff])
+def test_forces_alone_are_those_of_the_whole_response(make):
+    positions, block = make()
+    rng = np.random.default_rng(2)
+    displacement = 0.05 * rng.normal(size=positions.shape)
+    block.respond(displacement)
+    block.follow(0.01 * rng.normal(size=positions.shape))
+    response = block.respond(displacement)
+    energy, force = block.forces(displacement)
+    assert energy == pytest.approx(response.energy)
+    assert force == pytest.approx(response.force, rel=1e-9, abs=1e-9 * np.abs(force).max())
+
+
+def test_stresses_follow_a_step_to_first_order():
+    positions, block = stiff()
+    rng = np.random.default_rng(3)
+    displacement, step = (0.05 * rng.normal(size=positions.shape) for _ in range(2))
+
+    def missed(part):
+        block.release()
+        block.respond(displacement)
+        block.follow(part * step)
+        followed = block.inner()
+        block.release()
+        block.respond(displacement + part * step)
+        return np.abs(followed - block.inner()).max() / np.abs(block.inner()).max()
+
+    assert missed(1e-3) < 1e-3
+    assert missed(1e-3) == pytest.approx(missed(1e-2) / 100.0, rel=0.1)
+
+
+def test_half_a_step_takes_half_of_the_stress():
+    positions, block = stiff()
+    displacement = 0.05 * np.random.default_rng(4).normal(size=positions.shape)
+    block.respond(np.zeros_like(positions))
+    before = block.inner()
+    block.follow(displacement)
+    whole = block.inner()
+    block.put_inner(before)
+    block.follow(displacement, 0.5)
+    assert block.inner() == pytest.approx(0.5 * (before + whole))
+
+
+def solved(block, displacement, free, tries=20):
+    """Newton's method for the free dofs of a group; how many steps it takes."""
+    dofs = (block.nodes[:, :, None] * 3 + np.arange(3)).reshape(len(block.nodes), -1)
+    for count in range(tries):
+        response = block.respond(displacement)
+        force, matrix = np.zeros(displacement.size), np.zeros((displacement.size,) * 2)
+        for where, own, stiffness in zip(dofs, response.force, response.tangent, strict=True):
+            force[where] += own
+            matrix[np.ix_(where, where)] += stiffness
+        step = np.zeros(displacement.size)
+        step[free] = -np.linalg.solve(matrix[np.ix_(free, free)], force[free])
+        step = step.reshape(-1, 3)
+        displacement = displacement + step
+        block.follow(step)
+        if np.abs(step).max() < 1e-10:
+            return count
+    return tries
+
+
+def test_a_stretched_guess_of_a_turned_plate_settles_at_once():
+    """Stresses of their own: with those of the stretched guess the first tangents mislead."""
+    positions, block = linear(1e5 * np.diag([1.0, 1.0, 1.0, 0.3, 0.3, 0.3]), wobble=0.0)
+    turned = positions @ (turn(0.9) - np.eye(3)).T
+    free = np.repeat(positions[:, 0] > 0.0, 3).nonzero()[0]
+    guess = turned + np.where(positions[:, :1] > 0.0, 0.1 * (positions + turned), 0.0)
+    block.respond(np.zeros_like(positions))
+    block.put_inner(np.zeros_like(block.inner()))
+    own = solved(block, guess, free)
+
+    def forget(step, part=1.0):
+        block.release()
+
+    block.release()
+    block.follow = forget
+    assert own < solved(block, guess, free)

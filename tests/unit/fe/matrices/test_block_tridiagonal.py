@@ -40,5 +40,5 @@ def test_an_indefinite_chain_is_refused_by_cholesky_and_solved_by_elimination():
 
 
 def test_elements_that_join_rows_apart_are_refused():
-    with pytest.raises(ValueError, match="do not meet"):
+    with pytest.raises(ValueError, match="not neighbours"):
         BlockPattern([np.arange(ROW * 3)[None]], ROW, ROW * 3)

@@ -154,6 +154,6 @@ def test_the_mesh_of_the_other_ring_is_refused():
 
 def test_free_edges_soften_the_band_and_plane_strain_holds_it():
     assert FeModel().band_bulk_to_shear() == 10.0
-    for held in (FeModel(axial="plane_strain"), FeModel(ring="paper_mesh")):
-        assert held.band_bulk_to_shear() == held.spoke_mesh.bulk_to_shear_ratio
-    assert FeModel(ring="paper_mesh", axial="free_edges").band_bulk_to_shear() == 10.0
+    assert FeModel(ring="paper_mesh").band_bulk_to_shear() == 10.0
+    held = FeModel(axial="plane_strain")
+    assert held.band_bulk_to_shear() == held.spoke_mesh.bulk_to_shear_ratio

@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import json
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
 from nptcs.archive.crate import CONFIGURATION, MANIFEST, METADATA
@@ -97,12 +97,9 @@ def _unsound_results(folder: Path) -> Iterator[str]:
         yield str(error)
         return
     surfaces = [study.name for study in config.studies if study.terms]
-    checks: Mapping[str, object] = {
-        file: table.contract for file, table, _ in result_files(surfaces)
-    }
-    for file, contract in checks.items():
+    for file, table, _ in result_files(surfaces):
         try:
-            read_table(folder / "results" / "tables" / file, contract)  # type: ignore[arg-type]
+            read_table(folder / "results" / "tables" / file, table.contract)
         except InputError as error:
             yield str(error)
     try:

@@ -117,7 +117,11 @@ def check_rounding(asked: Asked) -> Iterator[InputError]:
                 column=f"studies.{study.name}.factors",
             )
         elif study.terms and solver.loads_tyre and len(realised.columns):
-            yield from _aliased(study, design.assign(**realised), solver.name)
+            yield from _aliased(
+                study,
+                design.assign(**{str(name): realised[name] for name in realised}),
+                solver.name,
+            )
 
 
 def realised_values(solver: Solver, asked: Asked) -> pd.DataFrame:
@@ -180,12 +184,13 @@ def check_calibration_cases(asked: Asked) -> Iterator[InputError]:
         tables = read_tables(checked.tables())
     except InputError:
         return  # `check_tables` names it
-    design = asked.design.set_index("case")
+    design = asked.design
     for name, numbers in study.calibration_cases.items():
         for number in numbers:
-            row = design.loc[number].to_dict()
-            case_id = str(row.pop("case_id"))
-            inputs = CaseInputs(case_id, row, study.load_n, asked.tyre, checked, tables=tables)
+            case = design[design["case"] == number].iloc[0]
+            values = {str(k): float(v) for k, v in case.items() if k not in ("case_id", "case")}
+            named = (str(case["case_id"]), values, study.load_n, asked.tyre, checked)
+            inputs = CaseInputs(*named, tables=tables)
             result = solver.solve(inputs)
             if result.status != Status.OK:
                 yield InputError(
@@ -199,7 +204,8 @@ def check_calibration_cases(asked: Asked) -> Iterator[InputError]:
 
 def rounding_notes(asked: Asked) -> dict[str, str]:
     """Say by solver which values it uses instead of given ones: ``spacing_mm 15 → 14.62``."""
-    design, notes = asked.design, {}
+    design = asked.design
+    notes: dict[str, str] = {}
     for solver, _ in asked.solvers():
         realised = realised_values(solver, asked)
         words = [

@@ -7,11 +7,10 @@ from __future__ import annotations
 
 import json
 import time
-from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 from statistics import median
-from typing import TYPE_CHECKING, TypedDict
+from typing import TYPE_CHECKING, TypedDict, cast
 
 if TYPE_CHECKING:
     from nptcs.campaign.record import CaseRecord
@@ -100,14 +99,10 @@ class ProgressWriter:
             temporary.replace(self.file)
 
 
-WriterOf = Callable[[str, str, int], ProgressWriter]
-"""``(study, solver, cases at a time) → writer``."""
-
-
 def read_progress(log: str | Path) -> Progress | None:
     """Read how far the cases of a job are; None while nothing is known."""
     try:
         content = json.loads(progress_file(log).read_text(encoding="utf-8"))
-        return Progress(**{name: content[name] for name in Progress.__annotations__})
+        return cast(Progress, {name: content[name] for name in Progress.__annotations__})
     except (OSError, ValueError, KeyError, TypeError):
         return None

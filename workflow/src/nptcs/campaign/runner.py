@@ -19,7 +19,7 @@ from pathlib import Path
 from nptcs.campaign import worker
 from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
 from nptcs.processes.marked import MARK, end_marked
-from nptcs.processes.scratch import scratch_folder
+from nptcs.processes.scratch import scratch_folder, socket_folder
 from nptcs.solvers.contract import SolverResult, Status
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -197,9 +197,11 @@ def case_environment() -> Iterator[None]:
     changes = {**dict.fromkeys(THREAD_LIMITS, "1"), MARK: str(scratch_folder())}
     before = {name: os.environ.get(name) for name in changes}
     os.environ.update(changes)
+    temporary, tempfile.tempdir = tempfile.tempdir, str(socket_folder())
     try:
         yield
     finally:
+        tempfile.tempdir = temporary
         for name, value in before.items():
             if value is None:
                 del os.environ[name]

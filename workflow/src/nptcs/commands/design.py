@@ -81,7 +81,10 @@ def run(arguments: argparse.Namespace) -> int:
     path = Path(arguments.config)
     if not path.is_file():
         raise InputError("this file does not exist", "name a configuration file", path)
-    config = read_config(read_yaml(path) or {}, str(path))
+    values = read_yaml(path) or {}
+    if not isinstance(values, dict):
+        raise InputError("is not a configuration", "write 'key: value' lines", path)
+    config = read_config(values, str(path))
     decision = decision_of(arguments, config)
     results: Path = arguments.results
     tables = {name: str(results / "tables" / file) for name, file in TABLES.items()}

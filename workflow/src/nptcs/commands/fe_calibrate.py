@@ -72,7 +72,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--axial",
         choices=get_args(AxialFreedom),
-        help="freedom of band and tread along the axis (default: that of the ring)",
+        help="freedom of band and tread along the axis (default: free_edges)",
     )
     parser.add_argument(
         "--spoke-cache", type=Path, help="folder in which runs share the tables of equal spokes"

@@ -6,9 +6,8 @@ from typing import Self
 
 from pydantic import Field, model_validator
 
-from nptcs.config.base import Strict
+from nptcs.config.base import Name, Strict
 from nptcs.config.goals import Goal, GoalKind, read_goals
-from nptcs.config.study import Name
 from nptcs.errors import InputError
 
 
@@ -22,7 +21,7 @@ class Decision(Strict):
 
     name: Name = Field(description="Name in tables and files")
     title: str = Field("", description="Heading in the report; empty: the goals in words")
-    study: Name = Field(description="Study whose solved cases answer the question")
+    study: str = Field("", description="The study that asks; may be left out")
     solver: Name = Field(description="Solver whose cases are used, and which confirms the design")
     surface: str = Field(
         "gaussian process on the mean",

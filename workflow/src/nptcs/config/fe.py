@@ -27,14 +27,14 @@ class SpokeGeometry(Strict):
     height_mm: float = Field(84.1, gt=0, description="From the rim to the band")
     leg_thickness_mm: float = Field(2.5, gt=0, description="Normal to the leg")
     block_thickness_mm: float = Field(
-        12.251, gt=0, description="Rubber block at mid-height, normal to the leg"
+        11.768, gt=0, description="Rubber block at mid-height, normal to the leg"
     )
     block_half_length_mm: float = Field(5.8, gt=0, description="Half the block's height")
-    block_ramp_mm: float = Field(4.558, gt=0, description="Height of the ramp from leg to block")
+    block_ramp_mm: float = Field(4.327, gt=0, description="Height of the ramp from leg to block")
     foot_thickness_mm: float = Field(
-        13.053, gt=0, description="At the rim and the band, normal to the leg"
+        13.548, gt=0, description="At the rim and the band, normal to the leg"
     )
-    foot_taper_mm: float = Field(10.299, gt=0, description="Height of the taper from foot to leg")
+    foot_taper_mm: float = Field(10.617, gt=0, description="Height of the taper from foot to leg")
     plate_foot_gap_mm: float = Field(5.0, gt=0, description="Plate's end above the rim")
     plate_mid_gap_mm: float = Field(5.5, gt=0, description="Plate's end short of mid-height")
     plate_layer_mm: float = Field(
@@ -156,9 +156,9 @@ class EnergyTableOptions(Strict):
     )
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
-        description="States other than β = φ = 0: alternate has one at every second level of the "
-        "elongation, neighbouring rows taking turns; every has all of them, for nearly twice the "
-        "time",
+        description="States other than β = φ = 0: alternate has one at both ends and at every "
+        "second level of the elongation, neighbouring rows taking turns; every has all of them, "
+        "for half as much time again",
     )
     accepted_work: float = Field(
         1e-9,
@@ -251,14 +251,14 @@ class GroundContact(Strict):
 SECTIONS: Mapping[RingKind, SpokeGeometry] = {
     "paper_mesh": SpokeGeometry(calibrated_with="paper_mesh"),
     "converged": SpokeGeometry(
-        leg_angle_deg=29.545,
-        leg_thickness_mm=2.763,
-        block_thickness_mm=11.429,
+        leg_angle_deg=29.502,
+        leg_thickness_mm=2.547,
+        block_thickness_mm=10.690,
         block_half_length_mm=5.8,
-        block_ramp_mm=4.124,
+        block_ramp_mm=4.539,
         foot_thickness_mm=14.0,
-        foot_taper_mm=10.275,
-        plate_foot_gap_mm=4.737,
+        foot_taper_mm=11.0,
+        plate_foot_gap_mm=4.861,
         plate_mid_gap_mm=5.5,
         calibrated_with="converged",
     ),
@@ -323,9 +323,9 @@ class FeSpokeModel(Strict):
 
 
 AXIAL_BULK_TO_SHEAR = 10.0
-"""κ/2C10 with which a ring in plane strain is as soft as one 215 mm wide with free edges: a slice
-of bricks, whose wires are stiff along the circumference only, is 0.4 to 0.9 % softer on ground with
-the friction of 0.3 than a ring held along its axis (docs/methods/fe-theory.md)."""
+"""κ/2C10 with which a ring in plane strain is as soft as one 215 mm wide with free edges on ground
+that neither slips nor sticks altogether along the axis (``benchmarks/fe_axial_freedom.py``,
+docs/methods/fe-theory.md)."""
 
 
 class FeModel(FeSpokeModel):
@@ -334,9 +334,8 @@ class FeModel(FeSpokeModel):
     axial: AxialFreedom = Field(
         "free_edges",
         description="Freedom of band and tread along the axis. free_edges: of a tyre as wide as "
-        "the paper's, by a bulk to shear ratio of 10 in plane strain; plane_strain: none, nearly "
-        "incompressible, the default of the ring paper_mesh, whose membranes buckle in softer "
-        "rubber",
+        "the paper's, by a bulk to shear ratio of 10 in plane strain, with which the sections "
+        "were calibrated; plane_strain: none, nearly incompressible",
     )
     table: EnergyTableOptions = Field(
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
@@ -349,14 +348,6 @@ class FeModel(FeSpokeModel):
     )
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")
-
-    @model_validator(mode="before")
-    @classmethod
-    def _axial_freedom_of_the_ring(cls, values: Any) -> Any:
-        if not isinstance(values, dict):
-            return values
-        ring = values.get("ring", cls.model_fields["ring"].default)
-        return {"axial": "plane_strain", **values} if ring == "paper_mesh" else values
 
     @model_validator(mode="after")
     def _mesh_of_the_ring(self) -> Self:

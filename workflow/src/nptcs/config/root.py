@@ -122,9 +122,6 @@ class Config(Strict):
     campaign: Campaign = Campaign()
     sensitivity: Sensitivity = Sensitivity()
     uncertainty: Uncertainty = Uncertainty()
-    decisions: tuple[Decision, ...] = Field(
-        (), description="Questions to studies: which design meets these goals"
-    )
     tyre_responses: TyreResponseSettings = TyreResponseSettings()
     lca_validation: LcaValidation = LcaValidation()
     report: ReportSettings = ReportSettings()
@@ -151,18 +148,14 @@ class Config(Strict):
             raise ValueError(f"sensitivity.distributions: not a factor of any study: {stray}")
         return self
 
-    @model_validator(mode="after")
-    def _uncertainty_is_of_studies(self) -> Self:
-        varied = {factor.name for study in self.studies for factor in study.factors}
-        held = {name for study in self.studies for name in study.fixed}
-        if stray := sorted(set(self.uncertainty.tolerances) - varied - held):
-            raise ValueError(f"uncertainty.tolerances: not a factor of any study: {stray}")
-        if stray := sorted(set(self.uncertainty.rubbers) - varied - held):
-            raise ValueError(f"uncertainty.rubbers: no study has {stray}")
-        name = self.uncertainty.rubber_study
-        if name is not None and name not in {study.name for study in self.studies}:
-            raise ValueError(f"uncertainty.rubber_study: there is no study {name!r}")
-        return self
+    @property
+    def decisions(self) -> tuple[Decision, ...]:
+        """The decisions of all studies, each with the name of its study."""
+        return tuple(
+            decision.model_copy(update={"study": study.name})
+            for study in self.studies
+            for decision in study.decisions
+        )
 
     @model_validator(mode="after")
     def _decisions_are_of_studies(self) -> Self:
@@ -171,12 +164,13 @@ class Config(Strict):
             raise ValueError(f"decisions: a name is used twice: {names}")
         if "reference" in names:
             raise ValueError("decisions: the name 'reference' is that of the reference design")
-        studies = {study.name: study for study in self.studies}
+        for study in self.studies:
+            for decision in study.decisions:
+                if decision.study not in ("", study.name):
+                    raise ValueError(
+                        f"decisions.{decision.name}.study: it is a decision of study {study.name}"
+                    )
         for decision in self.decisions:
-            if decision.study not in studies:
-                raise ValueError(
-                    f"decisions.{decision.name}.study: there is no study {decision.study!r}"
-                )
             self.check_decision(decision)
         return self
 

@@ -3,17 +3,16 @@
 from __future__ import annotations
 
 from itertools import pairwise
-from typing import Annotated, Any, ClassVar, Self
+from typing import Any, ClassVar, Self
 
 from pydantic import Field, field_validator, model_validator
 
-from nptcs.config.base import Strict
+from nptcs.config.base import Name, Strict
+from nptcs.config.decisions import Decision
 from nptcs.config.design import Design, DOptimal, FullFactorial, SplitPlot, number_of_cases
 from nptcs.config.response import ResponseChoice
 from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
 from nptcs.terms import parse
-
-Name = Annotated[str, Field(pattern=r"^[a-z][a-z0-9_]*$")]
 
 
 class MeasuredRubber(Strict):
@@ -70,6 +69,9 @@ class Study(Strict):
         default_factory=dict,
         description="Reference design, a value for each factor: how uncertain its responses are "
         "is reported; empty: none",
+    )
+    decisions: tuple[Decision, ...] = Field(
+        (), description="Which design meets these goals? Answered from the study's solved cases"
     )
     fixed: dict[Name, Level] = Field(
         default_factory=dict, description="Values that all cases share: a number or {rubber: NAME}"
@@ -136,6 +138,7 @@ class Study(Strict):
     AFTERWARDS: ClassVar[frozenset[str]] = frozenset(
         {
             "reference",
+            "decisions",
             "terms",
             "least_cases",
             "surfaces",

@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 
 import numpy as np
 import pandas as pd
 
-from nptcs.campaign.batch import report_progress
 from nptcs.campaign.cases import cases_table
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
@@ -101,7 +101,7 @@ class SolverRun:
         ply = source.materials.ply.values() if source.materials.ply is not None else None
         table = designs.assign(**fixed)
         jobs = make_jobs(results.study, results.solver, self.options, self.tyre, table, ply)
-        records = run_cases(jobs, self.store, self.cores, report_progress)
+        records = run_cases(jobs, self.store, self.cores, say)
         return records, replace(
             results,
             cases=cases_table(records),
@@ -166,3 +166,10 @@ def compare(outcome: Outcome, results: StudyResults) -> dict[ResponseName, Compa
             solved = np.nan
         compared[name] = Compared(value, value - slack, value + slack, solved)
     return compared
+
+
+def say(record: CaseRecord, reused: bool, done: int, total: int) -> None:
+    """Write a line per solved design to the screen or the log."""
+    how = "known" if reused else f"{record.wall_time_s:.1f} s"
+    line = f"{record.solver} {done}/{total} {record.case_id} {record.result.status.value} ({how})"
+    print(line, file=sys.stderr, flush=True)

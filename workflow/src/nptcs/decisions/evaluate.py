@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy import stats
@@ -16,6 +16,9 @@ from nptcs.uncertainty.propagate import assessed, distribution, moments
 
 SMALLEST_SD = 1e-9
 """Share of a response below which its standard deviation counts as none."""
+
+NEGLIGIBLE = 2e-3
+"""Share of the variance below which the search leaves an input out; samples have all."""
 
 LEAST_DESIRABILITY = 1e-6
 """Desirability of the worst candidate: its logarithm must exist."""
@@ -80,6 +83,25 @@ class Problem:
         probabilities = np.column_stack(columns) if columns else np.ones((len(x), 0))
         return Evaluation(x, mean, sd, probabilities)
 
+    def screened(self, x: Array) -> Problem:
+        """Return the problem without inputs that matter to no response at any of these designs.
+
+        For the search: each input that is left out has less than `NEGLIGIBLE` of the variance.
+        """
+        largest = np.zeros(len(self.inputs))
+        for fitted in self.fitted.values():
+            followed, _ = assessed(fitted.model, self.inputs)
+            variances = moments(fitted.model, followed, x).variances
+            total = np.maximum(variances.sum(axis=1), np.finfo(float).tiny)
+            for column, one in enumerate(followed):
+                place = next(n for n, other in enumerate(self.inputs) if other is one)
+                share = float((variances[:, column] / total).max())
+                largest[place] = max(largest[place], share)
+        kept = tuple(
+            one for one, share in zip(self.inputs, largest, strict=True) if share > NEGLIGIBLE
+        )
+        return replace(self, inputs=kept)
+
     def sampled(self, point: Array, samples: int, seed: int) -> dict[ResponseName, Array]:
         """Sample all responses of one design together: each of shape (samples,)."""
         names = list(self.fitted)
@@ -113,15 +135,20 @@ def at_least_all(probabilities: Array) -> Array:
     return bound
 
 
-def margins(goals: Sequence[Goal], found: Evaluation) -> Array:
-    """Distance to the nearest limit in standard deviations, negative outside, (m, goals)."""
-    columns = []
+def nearness(goals: Sequence[Goal], found: Evaluation) -> Array:
+    """Order designs of which none is acceptable, the nearest highest, shape (m,).
+
+    The probability less the largest relative distance of a mean response outside its limits.
+    """
+    distances = [np.zeros(len(found.x))]
     for goal in goals:
         low, high = goal.limits
         mean = found.mean[goal.response]
-        scale = np.maximum(found.sd[goal.response], SMALLEST_SD * np.maximum(np.abs(mean), 1e-300))
-        columns.append(np.minimum((mean - low) / scale, (high - mean) / scale))
-    return np.column_stack(columns) if columns else np.full((len(found.x), 1), np.inf)
+        outside = np.maximum(np.maximum(low - mean, mean - high), 0.0)
+        limit = low if np.isfinite(low) else high
+        distances.append(outside / max(abs(limit), 1e-300))
+    result: Array = found.probability - np.max(distances, axis=0)
+    return result
 
 
 @dataclass(frozen=True)

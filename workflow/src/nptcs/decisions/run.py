@@ -135,8 +135,10 @@ def source_of(run: FinishedRun, study: Study, solver: str, with_added: SolverRun
     results = results_of(study, solver, *tables)
     rubbers = run.config.uncertainty.rubber_study
     varied: StudyResults | None = None
-    if rubbers is not None and solver in run.config.study(rubbers).solvers:
-        varied = results_of(run.config.study(rubbers), solver, *tables)
+    if rubbers in {one.name for one in run.config.studies} and (
+        solver in run.config.study(str(rubbers)).solvers
+    ):
+        varied = results_of(run.config.study(str(rubbers)), solver, *tables)
     module = load(module_of(solver, run.config.options_of(study.name, solver)))
     ply = _ply(run, study) if module.needs_ply or study.needs_ply() else None
     source = Source(

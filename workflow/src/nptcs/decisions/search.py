@@ -7,13 +7,23 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.optimize import minimize
 
-from nptcs.arrays import Array, Mask
+from nptcs.arrays import Array, Mask, Rows
 from nptcs.config.goals import GoalKind
-from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, margins
+from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, nearness
 from nptcs.decisions.space import DesignSpace
+from nptcs.doe.whole_plates import SPACING
 
-STARTS = 2
+STARTS = 1
 """Candidates of a cell from which the search goes on."""
+
+NEAREST = 2
+"""Candidates from which the nearest design is looked for where none is acceptable."""
+
+SCREENED = 8
+"""Candidates of a cell at which the inputs are screened."""
+
+FURTHER = 2
+"""Cells beyond those that are listed, and cells without an acceptable candidate."""
 
 APART = 0.1
 """Share of a factor's range by which two designs with equal plates must differ to be two."""
@@ -77,7 +87,9 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
     -------
     Found
     """
-    parts = [problem.evaluate(space.candidates(cell)) for cell in space.cells]
+    spread = [space.candidates(cell) for cell in space.cells]
+    problem = problem.screened(np.vstack([points[:SCREENED] for points in spread]))
+    parts = [problem.evaluate(points) for points in spread]
     candidates = joined(parts)
     acceptable = candidates.probability >= probability
     if not acceptable.any():
@@ -87,26 +99,31 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
             return Found(nearest, np.zeros(1), False, candidates, acceptable, none)
         scale = desirability(problem, nearest)
         return Found(nearest, scale.of(nearest), True, candidates, acceptable, nearest)
-    scale = desirability(problem, chosen(candidates, np.flatnonzero(acceptable)))
-    best = [_best_of_cell(problem, space, part, scale, probability) for part in parts]
-    designs = joined([one for one in best if one is not None])
-    rest = _make(problem, space, chosen(candidates, np.flatnonzero(acceptable)), scale, top)
-    pool = joined([designs, chosen(rest, np.flatnonzero(rest.probability >= probability))])
+    accepted = chosen(candidates, np.flatnonzero(acceptable))
+    scale = desirability(problem, accepted)
+    promising = _promising(problem, parts, scale, probability, top)
+    best = [_best_of_cell(problem, space, part, scale, probability) for part in promising]
+    found = [one for one in best if one is not None]
+    rest = _make(problem, space, accepted, scale, top)
+    pool = joined([*found, chosen(rest, np.flatnonzero(rest.probability >= probability))])
+    if not len(pool.x):  # nothing that can be made in these steps is acceptable
+        pool = chosen(accepted, np.array([int(rank(problem, scale, accepted).argmax())]))
+    # what was found may be better than any candidate: it has the desirability 1
+    scale = desirability(problem, joined([accepted, pool]))
     value = rank(problem, scale, pool)
     picked = _different(pool.x, np.argsort(-value, kind="stable"), space, top)
     designs = chosen(pool, picked)
-    everything = joined([chosen(candidates, np.flatnonzero(acceptable)), designs])
+    everything = joined([accepted, designs])
     front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
     return Found(designs, scale.of(designs), True, candidates, acceptable, front)
 
 
 def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation) -> Evaluation:
-    """Return the design that can be made whose worst goal lies least outside its limits.
+    """Return the design that can be made and comes nearest to the goals.
 
-    Distances are in standard deviations of the response (Nelder–Mead from the best candidates).
+    By `nearness`, improved from the best candidates (Nelder–Mead).
     """
-    worst = margins(problem.must_hold, candidates).min(axis=1)
-    order = np.argsort(-worst, kind="stable")[:STARTS]
+    order = np.argsort(-nearness(problem.must_hold, candidates), kind="stable")[:NEAREST]
     free = space.free
     found = [candidates.x[place] for place in order]
     if free:
@@ -117,7 +134,7 @@ def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation)
                 point = start.copy()
                 point[free] = space.lower[free] + np.clip(unit, 0.0, 1.0) * span
                 there = problem.evaluate(point[None, :])
-                return -float(margins(problem.must_hold, there).min())
+                return -float(nearness(problem.must_hold, there)[0])
 
             first = (start[free] - space.lower[free]) / span
             ended = minimize(shortfall, first, method="Nelder-Mead", options={"maxfev": 120})
@@ -125,7 +142,7 @@ def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation)
             point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
             found.append(point)
     pool = problem.evaluate(np.unique(np.vstack([space.can_be_made(p) for p in found]), axis=0))
-    return chosen(pool, np.array([int(margins(problem.must_hold, pool).min(axis=1).argmax())]))
+    return chosen(pool, np.array([int(nearness(problem.must_hold, pool).argmax())]))
 
 
 def rank(problem: Problem, scale: Desirability, found: Evaluation) -> Array:
@@ -161,7 +178,7 @@ def joined(parts: list[Evaluation]) -> Evaluation:
     )
 
 
-def chosen(found: Evaluation, places: Array) -> Evaluation:
+def chosen(found: Evaluation, places: Rows) -> Evaluation:
     """Return some of the designs of an evaluation."""
     return Evaluation(
         found.x[places],
@@ -169,6 +186,27 @@ def chosen(found: Evaluation, places: Array) -> Evaluation:
         {name: values[places] for name, values in found.sd.items()},
         found.probabilities[places],
     )
+
+
+def _promising(
+    problem: Problem, parts: list[Evaluation], scale: Desirability, probability: float, top: int
+) -> list[Evaluation]:
+    """Choose the cells in which the search goes on.
+
+    Those with the best acceptable candidates, and those without any that come nearest.
+    """
+    acceptable = [part.probability >= probability for part in parts]
+    merit = [
+        float(rank(problem, scale, part)[holds].max()) if holds.any() else -np.inf
+        for part, holds in zip(parts, acceptable, strict=True)
+    ]
+    order = np.argsort([-value for value in merit], kind="stable")
+    with_any = [parts[n] for n in order if np.isfinite(merit[n])]
+    nearest = sorted(
+        (part for part, value in zip(parts, merit, strict=True) if not np.isfinite(value)),
+        key=lambda part: -float(part.probability.max()),
+    )
+    return [*with_any[: top + FURTHER], *nearest[:FURTHER]]
 
 
 def _best_of_cell(
@@ -233,7 +271,7 @@ def _improved(
             "fun": lambda unit: around(unit)[1][0] - probability,
             "jac": lambda unit: slope(around(unit)[1], unit),
         },
-        options={"maxiter": 30, "ftol": 1e-6},
+        options={"maxiter": 20, "ftol": 1e-6},
     )
     point = start.copy()
     point[free] = space.lower[free] + np.clip(ended.x, 0.0, 1.0) * span
@@ -250,7 +288,7 @@ def _make(
     return problem.evaluate(np.unique(made, axis=0))
 
 
-def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
+def _different(x: Array, order: Rows, space: DesignSpace, top: int) -> Rows:
     """Pick designs in an order, each different from those before it."""
     span = np.where(space.upper > space.lower, space.upper - space.lower, 1.0)
     picked: list[int] = []
@@ -271,6 +309,6 @@ def _different(x: Array, order: Array, space: DesignSpace, top: int) -> Array:
 def _other_plates(one: Array, other: Array, space: DesignSpace) -> bool:
     if not space.plates:
         return False
-    place = space.factors.index("spacing_mm")
+    place = space.factors.index(SPACING)
     counts = [round(space.tread_width_mm / point[place]) for point in (one, other)]
     return counts[0] != counts[1]

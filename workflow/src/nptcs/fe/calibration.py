@@ -159,7 +159,8 @@ def calibrate(
 ) -> FeModel:
     """Find the section by rounds of damped Gauss–Newton steps.
 
-    A round that makes the misfit worse is taken back; what it has shown corrects the slopes.
+    The slopes are found at the first section; what every round has shown corrects them. A round
+    that makes the misfit worse is taken back.
 
     Parameters
     ----------
@@ -177,21 +178,22 @@ def calibrate(
     """
     start = np.log([getattr(problem.model.geometry, name) for name in FREE])
     best, step, smallest = start, np.zeros_like(start), np.inf
+    reached = best_misfit = np.empty(0)
+    slopes: Array | None = None
     with ProcessPoolExecutor(workers) as pool:
         for last in range(rounds + 1):
             free, computed = _reach(problem, best, step, pool.map)
             spokes, tyres = np.split(np.exp(computed), [2 * len(problem.spokes)])
             report(Round(free.copy(), spokes.reshape(-1, 2), tyres))
+            if slopes is not None:
+                slopes = _corrected(slopes, free - best, computed - reached)
             misfit = _misfit(problem, computed, free - start)
-            better = float(misfit @ misfit) < smallest
-            if better:
+            if float(misfit @ misfit) < smallest:
                 best, reached, best_misfit = free, computed, misfit
                 smallest = float(misfit @ misfit)
             if last < rounds:
-                if better:
+                if slopes is None:
                     slopes = _slopes(problem, best, pool.map)
-                else:
-                    slopes = _corrected(slopes, free - best, computed - reached)
                 step = _step(problem, slopes, best_misfit, best, problem.damping)
     return problem.with_section(best)
 

@@ -42,11 +42,30 @@ class RunHandler(LogHandlerBase):
         elif self.stream.isatty() and os.environ.get("TERM") != "dumb":
             threading.Thread(target=self._refresh, daemon=True).start()
 
-    writes_to_stream = True
-    writes_to_file = False
-    has_filter = True
-    has_formatter = True
-    needs_rulegraph = False
+    @property
+    def writes_to_stream(self) -> bool:
+        """Tell Snakemake that it need not write to the screen itself."""
+        return True
+
+    @property
+    def writes_to_file(self) -> bool:
+        """Tell Snakemake to keep its own log file."""
+        return False
+
+    @property
+    def has_filter(self) -> bool:
+        """Tell Snakemake that all events are wanted."""
+        return True
+
+    @property
+    def has_formatter(self) -> bool:
+        """Tell Snakemake that events are put into words here."""
+        return True
+
+    @property
+    def needs_rulegraph(self) -> bool:
+        """Tell Snakemake that its graph of rules is not needed."""
+        return False
 
     def emit(self, record: logging.LogRecord) -> None:
         """Note an event of Snakemake, or show a message."""
@@ -82,14 +101,17 @@ class RunHandler(LogHandlerBase):
             self._say(text)
 
     def _say(self, text: str) -> None:
-        with self._lock_of_stream():
-            self.stream.write(f"{CLEAR if self.line_shown else ''}{text}\n")
-            self.line_shown = False
-            self.stream.flush()
+        self._write(f"{CLEAR if self.line_shown else ''}{text}\n", line=False)
 
-    def _lock_of_stream(self) -> threading.RLock:
-        assert self.lock is not None
-        return self.lock  # type: ignore[return-value]
+    def _write(self, text: str, line: bool) -> None:
+        """Write to the screen; `line` tells whether the line that refreshes is left there."""
+        self.acquire()
+        try:
+            self.stream.write(text)
+            self.stream.flush()
+            self.line_shown = line
+        finally:
+            self.release()
 
     def _refresh(self) -> None:
         """Show the line again and again until the run ends."""
@@ -98,10 +120,7 @@ class RunHandler(LogHandlerBase):
                 continue
             self.run.look()
             width = shutil.get_terminal_size().columns
-            with self._lock_of_stream():
-                self.stream.write(CLEAR + status_line(self.run, width))
-                self.line_shown = True
-                self.stream.flush()
+            self._write(CLEAR + status_line(self.run, width), line=True)
 
     def close(self) -> None:
         """Say at the end what was done, what failed, and where the report is."""

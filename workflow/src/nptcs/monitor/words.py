@@ -23,6 +23,9 @@ SAID = re.compile(
 )
 """Messages of Snakemake that are not errors and that a person needs."""
 
+TRACE = re.compile(r'(\n\s+File "[^\n]*)+\s*$')
+"""Lines in which Snakemake says where its own file was being read."""
+
 PLACE = re.compile(r"^WorkflowError(?: in file [^\n]*)?:?\n")
 
 
@@ -84,5 +87,5 @@ def first_line(log: str) -> str:
 
 def error_message(text: str) -> str:
     """Take from an error of Snakemake what a user needs; empty for what was said already."""
-    text = PLACE.sub("", text, count=1)
+    text = TRACE.sub("", PLACE.sub("", text, count=1))
     return "" if CHATTER.match(text) else text.strip()

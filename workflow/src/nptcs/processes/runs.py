@@ -5,6 +5,7 @@ from __future__ import annotations
 import atexit
 import fcntl
 import os
+import shutil
 import sys
 import time
 from collections.abc import Iterator
@@ -16,7 +17,7 @@ from nptcs.processes.identity import RUN, ProcessName, lives, name_of, read_name
 UNLOCK = "snakemake --unlock"
 
 
-def begin_run(folder: Path) -> bool:
+def begin_run(folder: Path, temporary: Path | None = None) -> bool:
     """Note that this process is a run, and remove the locks of runs that have died.
 
     Parameters
@@ -24,6 +25,8 @@ def begin_run(folder: Path) -> bool:
     folder : Path
         Snakemake's own folder, ``.snakemake``, in which it keeps its locks. Snakemake looks at them
         after it has read the Snakefile.
+    temporary : Path, optional
+        Temporary folder of this run of Snakemake, which the next run removes if this one is killed.
 
     Returns
     -------
@@ -45,8 +48,9 @@ def begin_run(folder: Path) -> bool:
         elif locks and dead and len(dead) == len(state):
             _lift(locks, dead)
         for file in dead:
+            _remove_temporary(file)
             file.unlink(missing_ok=True)
-        mine.write_text(os.environ[RUN], encoding="utf-8")
+        mine.write_text(f"{os.environ[RUN]}\n{temporary or ''}\n", encoding="utf-8")
     atexit.register(_forget, mine, os.getpid())
     return bool(dead)
 
@@ -58,9 +62,17 @@ def begin_job() -> None:
 
 def _read(file: Path) -> ProcessName | None:
     try:
-        return read_name(file.read_text(encoding="utf-8"))
+        return read_name(file.read_text(encoding="utf-8").partition("\n")[0])
     except (OSError, UnicodeDecodeError):
         return None
+
+
+def _remove_temporary(note: Path) -> None:
+    """Remove the temporary folder that Snakemake had made for a run that is dead."""
+    with suppress(OSError, UnicodeDecodeError):
+        folder = Path(note.read_text(encoding="utf-8").partition("\n")[2].strip())
+        if folder.name.startswith("snakemake") and folder.is_dir() and not folder.is_symlink():
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 def _lift(locks: list[Path], dead: list[Path]) -> None:

@@ -17,6 +17,10 @@ PREFIX = "nptcs-"
 OWNER = "owner.json"
 """File in a scratch folder that names the process to which it belongs."""
 
+SHORT = "/tmp"
+LONGEST = 70
+"""Characters of a folder's name; a socket's whole name may have 107 (macOS: 103)."""
+
 YOUNG_S = 3600.0
 """A folder without an owner's name may be one that is just being made."""
 
@@ -28,13 +32,22 @@ def scratch_folder() -> Path:
     process has ended in whatever way, and ends what still carries its mark
     (`nptcs.processes.marked`). Folders whose owner and warden were both killed are removed here.
     """
-    return _folder_of(os.getpid())
+    return _folder_of(os.getpid(), tempfile.gettempdir())
+
+
+def socket_folder() -> Path:
+    """Return a folder of this process whose name is short enough for sockets in it.
+
+    It is the scratch folder, unless the system's temporary folder has a long name, as on clusters.
+    """
+    folder = scratch_folder()
+    return folder if len(str(folder)) <= LONGEST else _folder_of(os.getpid(), SHORT)
 
 
 @cache
-def _folder_of(pid: int) -> Path:
-    sweep(Path(tempfile.gettempdir()))
-    folder = Path(tempfile.mkdtemp(prefix=PREFIX)).resolve()
+def _folder_of(pid: int, parent: str) -> Path:
+    sweep(Path(parent))
+    folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent)).resolve()
     (folder / OWNER).write_text(name_of(pid).text(), encoding="utf-8")
     _start_warden(folder)
     return folder

@@ -8,9 +8,10 @@ import signal
 import sys
 import threading
 import time
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from types import FrameType
+from typing import Any
 
 from nptcs.processes.identity import RUN, read_name, wait_for_end
 from nptcs.processes.marked import end_children
@@ -59,10 +60,13 @@ def stop_jobs_on_signals(arguments: Sequence[str]) -> None:
             signal.signal(number, _stopping(before, command_again(arguments)))
 
 
-def _stopping(before, again: str):  # type: ignore[no-untyped-def]
+Handler = Callable[[int, FrameType | None], Any]
+
+
+def _stopping(before: Handler, again: str) -> Handler:
     def stop(number: int, frame: FrameType | None) -> None:
         print(
-            "\nStopping: the running cases are ended; all cases that were solved are kept.\n"
+            "\nStopping: the running jobs are ended; all cases that were solved are kept.\n"
             f"To go on, type the same command again:\n    {again}",
             file=sys.stderr,
             flush=True,

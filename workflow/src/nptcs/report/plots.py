@@ -21,7 +21,7 @@ from matplotlib.figure import Figure
 from nptcs.files import write_text
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
-from nptcs.report.figures.style import to_svg
+from nptcs.report.figures.style import PANEL, to_svg
 from nptcs.seal import BrokenSealError, open_object, sealed_object
 
 KIND = "Figure"
@@ -103,8 +103,8 @@ def plot(
         if kept is not None and key is not None:
             kept.write(key, svg)
     size = SIZE.search(svg)
-    assert size is not None
-    width, height = (round(float(side) * PIXELS_PER_POINT) for side in size.groups())
+    points = size.groups() if size else (72 * side for side in PANEL)
+    width, height = (round(float(side) * PIXELS_PER_POINT) for side in points)
     return Plot(data_uri(svg), alt, width, height, synthetic)
 
 

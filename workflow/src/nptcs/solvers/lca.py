@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 import pandas as pd
@@ -199,7 +199,7 @@ def solve_table(inputs: TableInputs) -> pd.DataFrame:
     dimensions, room = inputs.tyre.model_dump(), _room_mm(inputs.tyre)
     with np.errstate(invalid="ignore"):
         stiffness = section_stiffness(dimensions, band, options.section)
-    designs = {
+    designs: dict[str, Any] = {
         **dict(zip(SECTION_STIFFNESS, stiffness, strict=True)),
         "radius_mm": inputs.tyre.band_radius_mm,
         "width_mm": inputs.tyre.tread_width_mm,

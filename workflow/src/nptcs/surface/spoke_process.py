@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 from scipy import stats
+from scipy.linalg import cho_solve
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
 
@@ -31,6 +32,9 @@ SPOKE = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")
 FEWEST_SPOKES = 20
 SHARE_KEPT = 1e-7
 """Principal components below this share of the largest singular value are rounding."""
+
+STARTS = (1.0, 5.0, 30.0)
+"""Lengths from which the search for hyperparameters starts: the likelihood has local maxima."""
 
 LENGTH_BOUNDS = (0.1, 1e4)
 """Length scales, in standard deviations of a feature."""
@@ -87,7 +91,7 @@ class SpokeProcess:
         return np.exp(mean) if self.logarithmic else mean
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
-        """Bounds of the prediction interval, of shape (m,) each: the processes' and the misfit."""
+        """Bounds of the prediction interval, two of shape (m,): processes and misfit."""
         mean, deviation = self._moments(x, errors=True)
         half_width = stats.norm.ppf(0.5 + confidence / 2) * deviation
         low, high = mean - half_width, mean + half_width
@@ -228,6 +232,20 @@ class SpokeProcess:
             for kernel, score in zip(kernels, scores.T, strict=True)
         ]
 
+    @cached_property
+    def _inflation(self) -> list[float]:
+        """Factor of each process's standard error: what spokes that are left out show of it.
+
+        With the hyperparameters kept, the error at a left-out spoke in standard errors is
+        (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms, at least 1.
+        """
+        factors = []
+        for process in self._processes:
+            inverse = cho_solve((process.L_, True), np.eye(len(process.L_)))
+            scores = np.ravel(process.alpha_) / np.sqrt(np.diag(inverse))
+            factors.append(max(1.0, float(np.sqrt(np.mean(scores**2)))))
+        return factors
+
     def _moments(self, x: Array, errors: bool) -> tuple[Array, Array]:
         """Mean and standard deviation of the (logarithm of the) response at points (m, n)."""
         designs, place = np.unique(x[:, self._columns(SPOKE)], axis=0, return_inverse=True)
@@ -235,10 +253,12 @@ class SpokeProcess:
         mean, directions = self._components
         weights = ring @ directions.T
         value, variance = ring @ mean, np.full(len(x), self._on_spokes[1] ** 2)
-        for process, weight in zip(self._processes, weights.T, strict=True):
+        for process, weight, factor in zip(
+            self._processes, weights.T, self._inflation, strict=True
+        ):
             if errors:
                 score, deviation = process.predict(unit, return_std=True)
-                variance += (weight * deviation[place.ravel()]) ** 2
+                variance += (factor * weight * deviation[place.ravel()]) ** 2
             else:
                 score = process.predict(unit)
             value += weight * score[place.ravel()]
@@ -305,18 +325,28 @@ def _features(designs: Array, ply: Mapping[str, float]) -> Array:
     return spoke_features(np.hstack([plates, designs[:, 1:]]), ply)
 
 
-def _kernel(features: int) -> Kernel:
-    smooth = ConstantKernel(1.0, VARIANCE_BOUNDS) * RBF(np.ones(features), LENGTH_BOUNDS)
+def _kernel(features: int, length: float = 1.0) -> Kernel:
+    smooth = ConstantKernel(1.0, VARIANCE_BOUNDS) * RBF(np.full(features, length), LENGTH_BOUNDS)
     return smooth + WhiteKernel(1e-6, NOISE_BOUNDS)
 
 
 def _fitted_theta(unit: Array, score: Array) -> Array:
-    process = GaussianProcessRegressor(_kernel(unit.shape[1]), optimizer=maximise, normalize_y=True)
-    try:
-        with bounds_are_answers():
-            process.fit(unit, score)
-    except SearchError as error:
+    """Hyperparameters with the largest likelihood that the searches from all starts find."""
+    found: list[tuple[float, Array]] = []
+    fault = ""
+    for length in STARTS:
+        process = GaussianProcessRegressor(
+            _kernel(unit.shape[1], length), optimizer=maximise, normalize_y=True
+        )
+        try:
+            with bounds_are_answers():
+                process.fit(unit, score)
+        except SearchError as error:
+            fault = str(error)
+            continue
+        found.append((process.log_marginal_likelihood_value_, process.kernel_.theta))
+    if not found:
         raise InputError(
-            str(error), column="surfaces", remedy="leave this surface out, or solve more spokes"
-        ) from None
-    return np.asarray(process.kernel_.theta)
+            fault, column="surfaces", remedy="leave this surface out, or solve more spokes"
+        )
+    return np.asarray(max(found, key=lambda one: one[0])[1])

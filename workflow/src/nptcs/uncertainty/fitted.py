@@ -148,14 +148,17 @@ def fit_response(
     fitted = _surface(results, response, surface, cases, registry)
     lamination, no_ply = _lamination(fitted.surface, response, cases)
     effect, no_rubbers = _rubber_effect(results, response, rubbers)
+    least, unknown = fitted.left_out_rms, ""
+    if not np.isfinite(least):
+        least, unknown = 0.0, "error at left-out cases not assessed: the surface's interval alone"
     return FittedResponse(
         response=response,
         unit=results.unit(response),
-        model=SurfaceResponse(fitted.surface, fitted.left_out_rms, lamination, effect),
+        model=SurfaceResponse(fitted.surface, least, lamination, effect),
         surface=fitted.name,
         cases=len(fitted.surface.y),
         left_out=int((~has).sum()),
-        notes=tuple(filter(None, [no_ply, no_rubbers])),
+        notes=tuple(filter(None, [no_ply, no_rubbers, unknown])),
     )
 
 

@@ -107,7 +107,11 @@ def uncertain_inputs(
         When the configuration names a rubber that has no card.
     """
     found = [*_tolerances(settings.tolerances, values)]
-    missing: dict[str, str] = {}
+    missing = {
+        name: "not a factor or fixed value of this study"
+        for name in settings.tolerances
+        if name not in values
+    }
     if ply is not None:
         tests, untested = ply_inputs(ply, settings.card)
         found += tests

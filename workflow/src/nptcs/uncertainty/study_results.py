@@ -79,7 +79,7 @@ class StudyResults:
             found = pd.Series(dict(self._stiffness(response)), dtype=float)
         else:
             found = self._tabulated(response)
-        values = found.reindex(self.solved["case_id"]).to_numpy(float)
+        values: Array = np.asarray(found.reindex(self.solved["case_id"]), dtype=float)
         if not np.isfinite(values).any():
             raise InputError(
                 f"no case of study {self.study.name} by {self.solver} has {response}",
@@ -102,7 +102,7 @@ class StudyResults:
         at, _, unit = response.at.partition(" ")
         place = float(at)
         solved = self.solved.set_index("case_id")
-        if response.name == "secant_stiffness" and unit == "N" and place == self.study.load_n:
+        if response == self.at_its_load(ResponseName("secant_stiffness")):
             yield from solved[AT_STUDY_LOAD].items()  # type: ignore[misc]
             return
         for case_id, rows in self.curves.groupby("case_id"):

@@ -17,15 +17,25 @@ from typing import Protocol
 import numpy as np
 
 from nptcs.arrays import Array, Index
+from nptcs.fe.elements.kinematics import (
+    COLUMNS,
+    ROWS,
+    VOIGT,
+    add_crossed,
+    add_isotropic,
+    deformation_by_node,
+    displacement_gradient,
+    gradient_products,
+    gradients_by_node,
+    green_strain,
+    internal_force,
+    moduli_tangent,
+)
 from nptcs.fe.elements.neo_hooke import neo_hookean
 
-# Voigt order of strains and stresses: 11, 22, 33, 12, 23, 13, with engineering shear strains
-VOIGT = np.array([[0, 3, 5], [3, 1, 4], [5, 4, 2]])
 # rubber is worked on in parts whose arrays stay in a processor's cache: this halves the time when
 # two processes run at once
 CACHE_BYTES = 400_000
-_I = np.array([0, 1, 2, 0, 1, 0])
-_J = np.array([0, 1, 2, 1, 2, 2])
 
 
 @dataclass
@@ -84,95 +94,6 @@ def element_dofs(nodes: Index, dim: int) -> Index:
     return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
 
 
-def deformation_gradient(gradient: Array, displacement: Array, frame: Array | None) -> Array:
-    """F = Q + Σ u_a ⊗ ∂N_a/∂X, array (elements, points, 3, 3).
-
-    Parameters
-    ----------
-    gradient : array (elements, points, nodes, directions)
-    displacement : array (elements, nodes, dim)
-    frame : array (elements, points, 3, 3) or None
-        Q: axes of the local frame in which `gradient` is given, as columns; none for the identity.
-    """
-    return _deformation(_by_node(gradient), gradient.shape[3], displacement, frame)
-
-
-def _deformation(left: Array, directions: int, displacement: Array, frame: Array | None) -> Array:
-    """`deformation_gradient` from the gradients by node."""
-    part = _gradients(left, directions, displacement)
-    dim = part.shape[2]
-    if frame is None:
-        whole = np.zeros((*part.shape[:2], 3, 3))
-        whole[..., [0, 1, 2], [0, 1, 2]] = 1.0
-    else:
-        whole = frame.copy()
-    whole[..., :dim, :directions] += part
-    return whole
-
-
-def _gradients(left: Array, directions: int, displacement: Array) -> Array:
-    """Σ u_a ⊗ ∂N_a/∂X, array (elements, points, dim, directions)."""
-    elements, _, dim = displacement.shape
-    part = np.matmul(displacement.swapaxes(1, 2), left).reshape(elements, dim, -1, directions)
-    return part.swapaxes(1, 2)
-
-
-def _by_node(gradient: Array) -> Array:
-    """Gradients as (elements, nodes, points × directions): the constant factor of all products."""
-    elements, _, nodes, _ = gradient.shape
-    return np.ascontiguousarray(gradient.transpose(0, 2, 1, 3).reshape(elements, nodes, -1))
-
-
-def _internal_force(left: Array, stress: Array) -> Array:
-    """f_ai = Σ ∂N_a/∂X_J P_iJ: array (elements, nodes × dim); P carries the weights."""
-    right = stress.swapaxes(2, 3).reshape(len(left), left.shape[2], -1)
-    return np.matmul(left, right).reshape(len(left), -1)
-
-
-def _tangent(left: Array, columns: Array, moduli: Array) -> Array:
-    """K_aibj for moduli (elements, points, J, i, j, L) that carry the weights.
-
-    `columns` are the gradients as (elements, points, directions, nodes).
-    """
-    elements, points, directions, nodes = columns.shape
-    dim = moduli.shape[3]
-    spread = np.matmul(moduli.reshape(elements, points, -1, directions), columns)
-    spread = spread.reshape(elements, points * directions, dim * dim * nodes)
-    product = np.matmul(left, spread).reshape(elements, nodes, dim, dim, nodes)
-    return product.swapaxes(3, 4).reshape(elements, nodes * dim, nodes * dim)
-
-
-def _products(gradient: Array, tensor: Array) -> Array:
-    """∂N_a/∂X_J T_iJ, array (elements, points, nodes × dim)."""
-    product: Array = np.matmul(gradient, tensor.swapaxes(-1, -2))
-    return product.reshape(*product.shape[:2], -1)
-
-
-def _add_crossed(tangent: Array, left: Array, right: Array, dim: int) -> None:
-    """Add Σ left_aj right_bi to K_aibj; both (elements, points, nodes × dim)."""
-    shape = (len(tangent), -1, dim, tangent.shape[2] // dim, dim)
-    crossed = np.matmul(left.swapaxes(1, 2), right)
-    target = tangent.reshape(shape)
-    target += crossed.reshape(shape).swapaxes(2, 4)
-
-
-def _add_isotropic(tangent: Array, left: Array, scale: Array, dim: int) -> None:
-    """Add Σ a ∂N_a/∂X_J ∂N_b/∂X_J to K_aibi; a (elements, points × directions) weighted."""
-    both = np.matmul(left * scale[:, None], left.swapaxes(1, 2))
-    target = tangent.reshape(len(tangent), -1, dim, tangent.shape[2] // dim, dim)
-    for i in range(dim):
-        target[:, :, i, :, i] += both
-
-
-def green_strain(deformation: Array) -> Array:
-    """Green–Lagrange strain in Voigt order, array (…, 6)."""
-    right = np.matmul(deformation.swapaxes(-1, -2), deformation)
-    strain: Array = 0.5 * right[..., _I, _J]
-    strain[..., :3] -= 0.5
-    strain[..., 3:] *= 2.0
-    return strain
-
-
 @dataclass
 class LinearGroup:
     """Saint-Venant–Kirchhoff material: S = C E in the local frame of each point.
@@ -188,6 +109,9 @@ class LinearGroup:
         MPa, Voigt order; rows of zeros for components that carry nothing.
     frame : array (elements, points, 3, 3) or None
         Local axes as columns.
+    stress : array (elements, points, 6) or None
+        Second Piola–Kirchhoff stress that the last Newton step led to (`follow`), MPa: the tangent
+        takes it, forces do not. None before the first step: that of the displacements.
     """
 
     nodes: Index
@@ -198,7 +122,7 @@ class LinearGroup:
     stress: Array | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
-        self._left = _by_node(self.gradient)
+        self._left = gradients_by_node(self.gradient)
         self._columns = np.ascontiguousarray(self.gradient.swapaxes(2, 3))
         directions = self.gradient.shape[3]
         material = self.stiffness[:, VOIGT[:, :, None, None], VOIGT[None, None]]
@@ -210,7 +134,7 @@ class LinearGroup:
 
     def _deformed(self, displacement: Array) -> Array:
         directions = self.gradient.shape[3]
-        return _deformation(self._left, directions, displacement[self.nodes], self.frame)
+        return deformation_by_node(self._left, directions, displacement[self.nodes], self.frame)
 
     def _of_strain(self, strain: Array) -> Array:
         return np.matmul(self.stiffness, strain[..., None])[..., 0]
@@ -224,7 +148,7 @@ class LinearGroup:
         stress = self._of_strain(self._strain)
         energy = 0.5 * float(np.sum(self.weight[..., None] * stress * self._strain))
         piola = weight * np.matmul(self._last, stress[..., VOIGT])
-        force = _internal_force(self._left, piola[..., :dim, :directions])
+        force = internal_force(self._left, piola[..., :dim, :directions])
         # A_iJjL = F_iM C_MJNL F_jN + δ_ij S_JL, kept in the order J, i, j, L
         rows = self._last[..., :dim, :]
         half = np.einsum("egiM,gMJNL->egiJNL", rows, self._material)
@@ -233,7 +157,7 @@ class LinearGroup:
         for i in range(dim):
             moduli[:, :, :, i, i, :] += carried[..., :directions, :directions]
         moduli *= weight[..., None, None]
-        return Response(energy, force, _tangent(self._left, self._columns, moduli))
+        return Response(energy, force, moduli_tangent(self._left, self._columns, moduli))
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the stresses eliminated as in the last `respond`."""
@@ -246,16 +170,16 @@ class LinearGroup:
         piola = np.matmul(deformation, own[..., VOIGT])
         piola += np.matmul(self._last, (stress - own)[..., VOIGT])
         piola *= self.weight[..., None, None]
-        return energy, _internal_force(self._left, piola[..., :dim, :directions])
+        return energy, internal_force(self._left, piola[..., :dim, :directions])
 
     def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: S = C (E + B du)."""
         directions = self.gradient.shape[3]
-        change = _gradients(self._left, directions, step[self.nodes])
+        change = displacement_gradient(self._left, directions, step[self.nodes])
         dim = change.shape[2]
         both = np.matmul(self._last[..., :dim, :].swapaxes(-1, -2), change)
         added = np.zeros_like(self._strain)
-        for place, (i, j) in enumerate(zip(_I, _J, strict=True)):
+        for place, (i, j) in enumerate(zip(ROWS, COLUMNS, strict=True)):
             if j < directions:
                 added[..., place] += both[..., i, j]
                 if i != j:
@@ -311,7 +235,7 @@ class RubberGroup:
         shape = self.pressure_shape
         self._mass = np.einsum("gm,gk,eg->emk", shape, shape, self.weight)
         self._inverse_mass = self.bulk_mpa * np.linalg.inv(self._mass)
-        self._left = _by_node(self.gradient)
+        self._left = gradients_by_node(self.gradient)
 
     def respond(self, displacement: Array) -> Response:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
@@ -333,7 +257,7 @@ class RubberGroup:
         with an older matrix, for displacements and pressures.
         """
         dim, directions = displacement.shape[1], self.gradient.shape[3]
-        deformation = _deformation(self._left, directions, displacement[self.nodes], None)
+        deformation = deformation_by_node(self._left, directions, displacement[self.nodes], None)
         law = neo_hookean(self.c10_mpa, deformation, self.pressure @ self.pressure_shape.T)
         opened = (self.weight * (law.volume - 1.0)) @ self.pressure_shape
         taken = np.einsum("emk,ek->em", self._mass, self.pressure) / self.bulk_mpa
@@ -342,7 +266,7 @@ class RubberGroup:
         energy += float(np.sum(self.pressure * (opened - 0.5 * taken)))
         scale, across = self.weight * law.scale, self.weight * (law.pull - law.third)
         stress = scale[..., None, None] * deformation + across[..., None, None] * law.inverse
-        force = _internal_force(self._left, stress[..., :dim, :directions])
+        force = internal_force(self._left, stress[..., :dim, :directions])
         return energy, force + np.matmul(self._lift, self._mismatch[..., None])[..., 0]
 
     def _respond(self, part: slice, displacement: Array, whole: Response) -> None:
@@ -350,10 +274,10 @@ class RubberGroup:
         gradient, weight, own = self.gradient[part], self.weight[part], self.pressure[part]
         dim, directions = displacement.shape[1], gradient.shape[3]
         local = displacement[self.nodes[part]]
-        deformation = _deformation(self._left[part], directions, local, None)
+        deformation = deformation_by_node(self._left[part], directions, local, None)
         law = neo_hookean(self.c10_mpa, deformation, own @ self.pressure_shape.T)
-        turned = _products(gradient, law.inverse[..., :dim, :directions])
-        moved = _products(gradient, deformation[..., :dim, :directions])
+        turned = gradient_products(gradient, law.inverse[..., :dim, :directions])
+        moved = gradient_products(gradient, deformation[..., :dim, :directions])
         # shared with the forces: P = a F + (p J - a I1/3) G, each with the points' weights
         weighted = weight * np.stack([law.scale, law.third, law.pull])
         scale, third, pull = weighted[..., None]
@@ -373,9 +297,9 @@ class RubberGroup:
         right = np.concatenate([right, coupling.swapaxes(1, 2)], axis=1)
         half = np.matmul(left.swapaxes(1, 2), right)
         tangent = np.add(half, half.swapaxes(1, 2), out=whole.tangent[part])
-        _add_crossed(tangent, (third - pull) * turned, turned, dim)
+        add_crossed(tangent, (third - pull) * turned, turned, dim)
         along = np.repeat(weighted[0], directions, axis=1)
-        _add_isotropic(tangent, self._left[part], along, dim)
+        add_isotropic(tangent, self._left[part], along, dim)
 
     def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: κ M⁻¹ (r_p + Gᵀ du)."""

@@ -8,7 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.fe.elements.groups import LinearGroup, RubberGroup, deformation_gradient
+from nptcs.fe.elements.groups import LinearGroup, RubberGroup
+from nptcs.fe.elements.kinematics import deformation_gradient
 from nptcs.fe.elements.lagrange import jacobians, tensor_shape
 from nptcs.fe.elements.neo_hooke import neo_hookean
 from nptcs.fe.spoke.mesh import ElementSet

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.fe.elements.groups import LinearGroup, deformation_gradient
+from nptcs.fe.elements.groups import LinearGroup
+from nptcs.fe.elements.kinematics import deformation_gradient
 from nptcs.fe.elements.lagrange import jacobians, tensor_shape
 from nptcs.fe.output.fields import rubber_fields
 from nptcs.fe.spoke.equilibrium import SpokeModel, SpokeState

@@ -19,8 +19,9 @@ LARGEST_STEP_MM = 30.0
 STRICT_WORK = 1e-9
 # an older matrix is followed while each step leaves less than this part of the last one's work
 FOLLOWED = 0.25
-# work to which an older matrix is followed, in parts of the accepted work: the matrix of the state
-# itself, which is computed then, has its tangent to first order in the step that is left
+# work to which an older matrix is followed, in parts of the accepted work, if the next step leaves
+# as small a part as the last one did: the state's own matrix, which is computed then, has its
+# tangent to first order in the step that is left
 BELOW_ACCEPTED = 1e-2
 # misfit between energy and work along a row, in parts of the energy, on one equilibrium path
 SAME_PATH = 0.05
@@ -219,13 +220,14 @@ class SpokeModel(SpokePeriod):
         displacement = guess.displacement
         for group, inner in zip(self.mixed, [*guess.pressures, *guess.stresses], strict=True):
             group.put_inner(inner)
-        for _ in range(MAX_ITERATIONS):
+        for count in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
             factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
             step, work = self._step(factor, force)
             energy = sum(response.energy for response in responses)
             accepted = self._accepted_work * max(abs(energy), 1e-6)
-            if work < accepted:
+            # the stresses are those of the displacements only after a step
+            if count and work < accepted:
                 energy -= 0.5 * work
                 return self._condense(motion, displacement, responses, force, factor, energy)
             displacement = self._followed(displacement, factor, step, work, accepted)
@@ -249,13 +251,19 @@ class SpokeModel(SpokePeriod):
     ) -> Array:
         """Take a step, and more with the same matrix as long as their work shrinks."""
         while True:
-            displacement = displacement + step
-            for group in self.mixed:
-                group.follow(step)
+            displacement = self._taken(displacement, step)
             before = work
             step, work = self._step(factor, self._forces(displacement)[1])
-            if work < BELOW_ACCEPTED * accepted or work > FOLLOWED * before:
+            if work > FOLLOWED * before:
                 return displacement
+            if work**2 <= before * BELOW_ACCEPTED * accepted:
+                return self._taken(displacement, step)
+
+    def _taken(self, displacement: Array, step: Array) -> Array:
+        """Displacements after a step, which the stresses of rubber and plates follow."""
+        for group in self.mixed:
+            group.follow(step)
+        return displacement + step
 
     def _condense(
         self,

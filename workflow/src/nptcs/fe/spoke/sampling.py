@@ -40,8 +40,9 @@ class Row:
 class Grid:
     """Where a table is sampled: levels of s, and the rows of states across them.
 
-    The row β = φ = 0 has a state at every level. The other rows have one at every second level
-    and take turns, as the colours of a chessboard, unless the options ask for every state.
+    The row β = φ = 0 has a state at every level. The other rows have one at both ends and at every
+    second level between them, where they take turns as the colours of a chessboard, unless the
+    options ask for every state.
 
     Parameters
     ----------
@@ -78,7 +79,8 @@ class Grid:
         small = abs(beta) < 1e-12 and abs(phi) < 1e-12
         if small or self._options.side_states == "every":
             return tuple(self._levels)
-        return tuple(level for level in self._levels if (level + colour) % 2)
+        ends = self._levels[0], self._levels[-1]
+        return tuple(level for level in self._levels if (level + colour) % 2 or level in ends)
 
     def motions(self, row: Row, levels: Sequence[int]) -> Array:
         """Motions (n, 3) of a row at these levels."""

@@ -17,8 +17,11 @@ from nptcs.fe.tyre.contact import Ground
 from nptcs.fe.tyre.element_groups import ring_rubbers, wire_groups
 from nptcs.fe.tyre.feet import foot_operators
 from nptcs.fe.tyre.mesh import build_ring
+from nptcs.fe.tyre.path import LoadPoint, check_branch, extrapolated
 
 MAX_ITERATIONS = 30
+# from an extrapolated start: beyond that it lies in another contact
+MAX_ITERATIONS_AHEAD = 12
 # from this iteration on, steps that do not shrink are shortened
 CALM_ITERATIONS = 6
 # a soft ground hardens when the steps are this small
@@ -27,8 +30,6 @@ LARGEST_STEP_MM = 6.0
 # last step, after which Newton's method is right to the square of it
 CONVERGED_MM = 1e-5
 SMALLEST_STEP_N = 2.0
-# a step may be this much softer than the last one: beyond that it is another equilibrium
-LARGEST_SOFTENING = 1.4
 FIRST_RISE_MM = 0.5
 SMALLEST_RISE_MM = 0.02
 
@@ -75,41 +76,6 @@ class _Trial:
     reaction_row: Array
     reaction_slope: float
     internal: Array
-
-
-@dataclass(frozen=True)
-class _Point:
-    """A loaded tyre on its path: ring displacements (nodes, 2) mm, ground's rise, stresses MPa."""
-
-    force_n: float
-    displacement: Array
-    rise_mm: float
-    stresses: list[Array]
-
-
-def _extrapolated(before: _Point, last: _Point, force_n: float) -> _Point:
-    """Extrapolate the line of the load through two points."""
-    part = (force_n - last.force_n) / (last.force_n - before.force_n)
-    return _Point(
-        force_n,
-        last.displacement + part * (last.displacement - before.displacement),
-        last.rise_mm + part * (last.rise_mm - before.rise_mm),
-        [b + part * (b - a) for a, b in zip(before.stresses, last.stresses, strict=True)],
-    )
-
-
-def _check_branch(path: LoadPath, force_n: float, rise_mm: float) -> None:
-    """Refuse a step that has left for another equilibrium, in which wires have buckled.
-
-    Raises
-    ------
-    FloatingPointError
-        If the tyre has given way much more for this step than for the last one.
-    """
-    load, rise = np.array(path.force_n[-2:]), np.array(path.rise_mm[-2:])
-    last = float(np.diff(rise)[0] / np.diff(load)[0])
-    if rise_mm - rise[1] > LARGEST_SOFTENING * last * (force_n - load[1]):
-        raise FloatingPointError("the tyre gives way suddenly, as when wires buckle")
 
 
 class TyreModel:
@@ -205,14 +171,17 @@ class TyreModel:
         return self._pattern.solve(trial.matrix, rhs)[self._place]
 
     def _newton(
-        self, displacement: Array, rise: float, load: float | None, path: LoadPath
+        self, start: LoadPoint, load: float | None, path: LoadPath, most: int = MAX_ITERATIONS
     ) -> tuple[Array, float]:
         """Newton's method at a given load, or at a given rise if `load` is None.
 
         A soft ground hardens as soon as the steps are small.
         """
+        displacement, rise = start.displacement, start.rise_mm
+        for group, stresses in zip(self._bodies, start.stresses, strict=True):
+            group.put_inner(stresses)
         before, part, calm = np.inf, 1.0, CALM_ITERATIONS
-        for count in range(MAX_ITERATIONS):
+        for count in range(most):
             path.iterations += 1
             trial = self._trial(displacement, rise)
             solved = self._linear(trial)
@@ -241,7 +210,7 @@ class TyreModel:
                     before, part, calm = np.inf, 1.0, count + CALM_ITERATIONS
             elif max(largest, abs(change)) < CONVERGED_MM:
                 return displacement, rise
-        raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
+        raise FloatingPointError(f"no equilibrium in {most} iterations")
 
     def load(self, loads_n: Sequence[float]) -> TyreState:
         """Press the tyre on the ground through a rising sequence of loads.
@@ -252,28 +221,26 @@ class TyreModel:
             If a load is not reached with steps down to 2 N, or a spoke leaves its table.
         """
         path = LoadPath()
+        before: LoadPoint | None = None
         self.ground.release()
         try:
-            before, last = None, self._first_touch(path)
+            last = self._first_touch(path)
             for load in loads_n:
                 while last.force_n < load:
                     before, last = last, self._advance(before, last, load, path)
         except (FloatingPointError, TableRangeError) as error:
-            last = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
-            raise TyreError(f"{error}; {last}", path) from error
+            end = f"last converged: {path.force_n[-1]:.1f} N at {path.rise_mm[-1]:.3f} mm"
+            raise TyreError(f"{error}; {end}", path) from error
         motion = self.spoke_motion(last.displacement)
         return TyreState(last.displacement, last.rise_mm, motion, path)
 
-    def _first_touch(self, path: LoadPath) -> _Point:
+    def _first_touch(self, path: LoadPath) -> LoadPoint:
         """Raise the ground a little under the unloaded tyre, by less if that does not converge."""
         rise = FIRST_RISE_MM
         while True:
-            displacement = np.zeros_like(self.mesh.positions)
-            for group in self._bodies:
-                group.release()
             self.ground.soften()
             try:
-                displacement, _ = self._newton(displacement, rise, None, path)
+                displacement, _ = self._newton(self._unloaded(rise), None, path)
             except FloatingPointError:
                 rise /= 2.0
                 if rise < SMALLEST_RISE_MM:
@@ -285,25 +252,34 @@ class TyreModel:
             path.rise_mm.append(rise)
             return self._point(reached, displacement, rise)
 
-    def _point(self, force_n: float, displacement: Array, rise_mm: float) -> _Point:
-        stresses = [group.inner() for group in self._bodies]
-        return _Point(force_n, displacement, rise_mm, stresses)
+    def _unloaded(self, rise_mm: float) -> LoadPoint:
+        """Give the tyre as it was before the ground rose."""
+        displacement = np.zeros_like(self.mesh.positions)
+        for group in self._bodies:
+            group.release()
+            group.respond(displacement)
+        return self._point(0.0, displacement, rise_mm)
 
-    def _advance(self, before: _Point | None, last: _Point, load: float, path: LoadPath) -> _Point:
+    def _point(self, force_n: float, displacement: Array, rise_mm: float) -> LoadPoint:
+        stresses = [group.inner() for group in self._bodies]
+        return LoadPoint(force_n, displacement, rise_mm, stresses)
+
+    def _advance(
+        self, before: LoadPoint | None, last: LoadPoint, load: float, path: LoadPath
+    ) -> LoadPoint:
         """One load step from the last point, halved until it converges.
 
         Newton's method begins on the line through the last two points; where it does not converge
         from there, at the last point.
         """
         step = load - last.force_n
-        start = last if before is None else _extrapolated(before, last, load)
+        start = last if before is None else extrapolated(before, last, load)
         while True:
             target = load if step >= load - last.force_n else last.force_n + step
-            for group, stresses in zip(self._bodies, start.stresses, strict=True):
-                group.put_inner(stresses)
+            most = MAX_ITERATIONS if start is last else MAX_ITERATIONS_AHEAD
             try:
-                moved, rise = self._newton(start.displacement, start.rise_mm, target, path)
-                _check_branch(path, target, rise)
+                moved, rise = self._newton(start, target, path, most)
+                check_branch(path.force_n, path.rise_mm, target, rise)
             except (FloatingPointError, TableRangeError):
                 if start is last:
                     step /= 2.0

@@ -25,9 +25,10 @@ from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
-from nptcs.fe.tyre.equilibrium import LoadPath, TyreModel, TyreState
+from nptcs.fe.tyre.equilibrium import MAX_ITERATIONS, LoadPath, TyreModel, TyreState
 from nptcs.fe.tyre.feet import foot_operators
 from nptcs.fe.tyre.mesh import RingMesh
+from nptcs.fe.tyre.path import LoadPoint
 
 
 class Foot(Protocol):
@@ -275,12 +276,12 @@ class DirectTyre(TyreModel):
         return super().load(loads_n)
 
     def _newton(
-        self, displacement: Array, rise: float, load: float | None, path: LoadPath
+        self, start: LoadPoint, load: float | None, path: LoadPath, most: int = MAX_ITERATIONS
     ) -> tuple[Array, float]:
         """Solve as the reduced tyre does; where it fails, spokes return to where they were."""
         before = self.spokes
         try:
-            return super()._newton(displacement, rise, load, path)
+            return super()._newton(start, load, path, most)
         except (FloatingPointError, np.linalg.LinAlgError) as error:
             self.spokes = before
             raise FloatingPointError(str(error)) from error

@@ -52,8 +52,8 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
         axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label="asked for")
         axes.set_xlim(low, high)
     names = [
-        f"{row.plates} plates" if pd.notna(row.plates) else f"design {row.rank}"
-        for row in designs.itertuples()
+        f"{row['plates']} plates" if pd.notna(row["plates"]) else f"design {row['rank']}"
+        for row in designs.to_dict("records")
     ]
     axes.set_yticks(place, names)
     axes.grid(visible=False, axis="y")

@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Mapping
+from typing import Any
+
 from nptcs.config.decisions import Decision
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
@@ -17,7 +20,7 @@ from nptcs.tables.decisions import (
 )
 from nptcs.tables.result_table import ReportSection
 
-COLUMNS = {"feasible": "ok", "infeasible": "bad", "refused": "bad"}
+Row = Mapping[Hashable, Any]
 
 
 def decision_section(results: Results, sheets: Sheets) -> Section:
@@ -28,7 +31,7 @@ def decision_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = []
     for row in table.to_dict("records"):
         blocks.append(Text(_title(results, row), "heading"))
-        blocks.append(Text(_answer(row), COLUMNS[str(row["status"])]))
+        blocks.append(Text(_answer(row), "ok" if row["status"] == "feasible" else "bad"))
         blocks += _confirmation(results, str(row["decision"]))
         blocks += _figures(results, row)
     shown = (Decisions, DecisionDesigns, DecisionFront, DecisionConfirmation)
@@ -42,11 +45,11 @@ def _decision(results: Results, name: str) -> Decision:
     return next(one for one in results.config.decisions if one.name == name)
 
 
-def _title(results: Results, row: dict[str, object]) -> str:
+def _title(results: Results, row: Row) -> str:
     return _decision(results, str(row["decision"])).title or str(row["goals"])
 
 
-def _answer(row: dict[str, object]) -> str:
+def _answer(row: Row) -> str:
     asked = f"Asked of study {row['study']}, solver {row['solver']}: {row['goals']}"
     if row["status"] == "refused":
         return f"{asked}. No answer: {row['message']}"
@@ -80,7 +83,7 @@ def _confirmation(results: Results, decision: str) -> list[PageBlock]:
     return [Facts("Confirmation by a solved case", tuple(facts))] if facts else []
 
 
-def _figures(results: Results, row: dict[str, object]) -> list[PageBlock]:
+def _figures(results: Results, row: Row) -> list[PageBlock]:
     decision = _decision(results, str(row["decision"]))
     designs = results.table(DecisionDesigns)
     designs = designs[designs["decision"] == decision.name]

@@ -63,7 +63,9 @@ def ring_blocks(results: Results) -> list[PageBlock]:
 
 def _ring(errors: pd.DataFrame, solver: str) -> str:
     """Say what a ring is and how far it is from each published study."""
-    rows = errors[errors["solver"].eq(solver) & errors["group"].eq("blind") & errors["compared"]]
+    rows = errors[
+        errors["solver"].eq(solver) & errors["group"].eq("blind") & errors["compared"].gt(0)
+    ]
     parts = [
         f"{row.study}: mean {row.mean_percent:+.2f} %, mean absolute "
         f"{row.mean_absolute_percent:.2f} %, largest {row.largest_percent:+.2f} %, over "

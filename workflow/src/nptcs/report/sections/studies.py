@@ -187,15 +187,12 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         for solver in results.surfaces[study.name]
         for drawn in _surface_plots(results, study, solver)
     ]
+    many = len(results.designs[study.name]) > MOST_MARKS
     held = " Factors that a panel does not show are at the middle level in its title."
     caption = (
         f"{study.title}: each surface over two factors, the discs are the cases on the same "
         "colour scale; and over one factor, the lines are the surface, the marks are the cases"
-        + (
-            f", {MOST_MARKS} of very many."
-            if len(results.designs[study.name]) > MOST_MARKS
-            else "."
-        )
+        + (f", some {MOST_MARKS} of very many." if many else ".")
     )
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     if residuals := _residual_plots(results, study):

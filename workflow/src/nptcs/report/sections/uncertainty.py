@@ -2,6 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Hashable, Mapping
+from typing import Any
+
 import pandas as pd
 
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
@@ -70,7 +73,7 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
     return facts
 
 
-def _short(row: dict[str, object]) -> str:
+def _short(row: Mapping[Hashable, Any]) -> str:
     """Name a source without its standard deviation."""
     return str(row["quantities"]).split(" ± ")[0]
 
