@@ -117,10 +117,11 @@ def main() -> int:
         for part in ("config", "workflow", "raw_data", "profiles"):
             (folder / part).symlink_to(ROOT / part)
         (folder / "Snakefile").symlink_to(ROOT / "Snakefile")
-        config = yaml.safe_load((ROOT / "config" / "small.yaml").read_text(encoding="utf-8"))
-        study = config["studies"][0] | {"solvers": ["lca"], "solver_options": {}}
-        lab = {"specimen_sheet": "lab/specimens.csv", "formats": "config/formats"}
-        config = {"lab_data": lab, "studies": [study]}
+        config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+        config["lab_data"] = {
+            "specimen_sheet": "lab/specimens.csv",
+            "formats": "config/formats",
+        }
         write_text(folder / "mine.yaml", yaml.safe_dump(config))
         print(f"{files} files of 32 specimens in 4 series")
         fills = [f"{series}: {cells}" for series, cells in SERIES.items()]

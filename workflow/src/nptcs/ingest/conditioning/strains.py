@@ -11,6 +11,7 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest, line_slope
 from nptcs.ingest.reading.profiles import normalise
+from nptcs.mechanical_tests import TestType
 from nptcs.tables.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
@@ -148,10 +149,13 @@ def _axes(
 
 
 def _axis_by_sign(signals: Signals, specimen: Specimen, slopes: Mapping[str, float]) -> str | None:
-    """Strain that grows with the load while the other one shrinks, as in a ±45° laminate.
+    """Strain of a ±45° laminate that grows with the load while the other one shrinks.
 
-    Only where the force has the sign of the test: else a load cell may be reversed.
+    Their size does not tell them apart there: its Poisson's ratio is near 1. Only where the force
+    has the sign of the test: else a load cell may be reversed.
     """
+    if specimen.test is not TestType.SHEAR:
+        return None
     growing = [name for name, slope in slopes.items() if slope > 0]
     as_tested = largest(signals.values["force"]) * specimen.test.load_sign > 0
     return growing[0] if len(growing) == 1 and as_tested else None
