@@ -118,6 +118,8 @@ def main() -> int:
             (folder / part).symlink_to(ROOT / part)
         (folder / "Snakefile").symlink_to(ROOT / "Snakefile")
         config = yaml.safe_load((ROOT / "config" / "config.yaml").read_text(encoding="utf-8"))
+        # the study of the tested rubbers needs specimens that this campaign does not have
+        config["studies"] = [one for one in config["studies"] if one["name"] != "tested"]
         config["lab_data"] = {
             "specimen_sheet": "lab/specimens.csv",
             "formats": "config/formats",

@@ -49,8 +49,9 @@ def test_a_series_is_filled_in_once_and_then_accepted(lab, profiles, tmp_path):
         (tmp_path / f"Dimensions{name}.csv").write_text(f"Sample,W1,W2,T\n{rows}\n")
     proposal = propose_sheet(tmp_path, profiles)
     wanted = ["test", "material", "orientation_deg"]
-    travel = [*wanted, "gauge_length_mm"]  # no camera: the crosshead's travel needs a length
-    assert proposal.open_series() == {"UD": (4, wanted), "TD": (4, travel)}
+    assert proposal.open_series() == {"UD": (4, wanted), "TD": (4, wanted)}
+    told = ["gauge_length_mm" in row["remarks"] for row in proposal.rows if "TD" in row["specimen"]]
+    assert told == [True] * 4  # no camera: the crosshead's travel needs a length
     fills = [
         parse_fill("UD: test=tension material=cfrp orientation_deg=0"),
         parse_fill("TD: test=tension, material=cfrp, orientation_deg=90"),

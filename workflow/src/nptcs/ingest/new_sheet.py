@@ -67,7 +67,7 @@ class Proposal:
         found: dict[str, tuple[int, list[str]]] = {}
         for row in self.rows:
             count, wanted = found.get(names[row["force_file"]], (0, []))
-            wanted = list(dict.fromkeys([*wanted, *_open_cells(row, self.travel_only)]))
+            wanted = list(dict.fromkeys([*wanted, *_open_cells(row)]))
             found[names[row["force_file"]]] = (count + 1, wanted)
         return found
 
@@ -75,7 +75,7 @@ class Proposal:
         """Count the rows in which a person still has to fill in each column."""
         wanted: Counter[str] = Counter()
         for row in self.rows:
-            wanted.update(_open_cells(row, self.travel_only))
+            wanted.update(_open_cells(row))
         return dict(wanted)
 
 
@@ -254,23 +254,23 @@ def _obstacle(test: Test, inspection: Inspection, labels: Mapping[str, LabelValu
     return "; ".join(text for text in told if text)
 
 
-def _open_cells(row: Mapping[str, str], travel_only: Collection[str]) -> list[str]:
+def _open_cells(row: Mapping[str, str]) -> list[str]:
     """Columns that a person has to fill in before the sheet is accepted."""
     needed = ["test", "material", "width_mm", "thickness_mm"]
     if not row.get("test", "").startswith("rubber"):
         needed.insert(2, "orientation_deg")
-    if row["force_file"] in travel_only and not row.get("strain_file"):
-        needed.append("gauge_length_mm")
     return [column for column in needed if not row.get(column)]
 
 
 def _remark(row: dict[str, str], travel_only: Collection[str]) -> None:
     """Say what is a proposal and what is to be filled in."""
     proposed = [name for name in ("test", "material", "orientation_deg") if row.get(name)]
-    wanted = _open_cells(row, travel_only)
+    wanted = _open_cells(row)
+    travel = row["force_file"] in travel_only and not row.get("strain_file")
     parts = [
         f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
         f"fill in {', '.join(wanted)}" if wanted else "",
+        "crosshead travel only: a strain needs gauge_length_mm" if travel else "",
         row["remarks"],
     ]
     row["remarks"] = "; ".join(part for part in parts if part)
