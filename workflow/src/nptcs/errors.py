@@ -95,7 +95,7 @@ def explained(error: OSError) -> InputError | None:
     results/a.csv: the disk is full. Remedy: make room on it, then type the same command again; no \
 half written file is left
     """
-    if error.errno not in REMEDIES:
+    if error.errno is None or error.errno not in REMEDIES:
         return None
     message, remedy = REMEDIES[error.errno]
     return InputError(message, remedy, error.filename)

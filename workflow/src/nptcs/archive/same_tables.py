@@ -44,7 +44,8 @@ def compare_tables(before: pd.DataFrame, after: pd.DataFrame) -> tuple[float, tu
     >>> compare_tables(one, one.assign(a=[1.0, 4.0], b=["x", "z"]))
     (0.5, ('b',))
     """
-    largest, texts = 0.0, []
+    largest = 0.0
+    texts: list[str] = []
     for name in before.columns:
         if _is_number(before[name]) and _is_number(after[name]):
             one, two = (table[name].to_numpy(float) for table in (before, after))
@@ -101,7 +102,7 @@ def compare_folders(
         tables[0] = tables[0].rename(columns=dict(columns or {}))
         one, two = (table.drop(columns=list(ignored), errors="ignore") for table in tables)
         if list(one) != list(two) or len(one) != len(two):
-            stray = sorted(set(one) ^ set(two))
+            stray = sorted(map(str, set(one) ^ set(two)))
             found.append(Comparison(name, fault=f"other columns or rows: {stray}"))
             continue
         found.append(Comparison(name, len(one), *compare_tables(one, two)))

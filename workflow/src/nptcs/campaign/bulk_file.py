@@ -40,7 +40,7 @@ def write_bulk(path: str | Path, table: pd.DataFrame) -> None:
     }
     arrays[HEADER] = np.frombuffer(json.dumps(header).encode(), dtype=np.uint8)
     with atomic_path(path) as temporary:
-        np.savez_compressed(temporary, **arrays)
+        np.savez_compressed(temporary, allow_pickle=False, **arrays)
 
 
 def read_bulk(path: str | Path) -> pd.DataFrame:

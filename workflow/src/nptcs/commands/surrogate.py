@@ -56,6 +56,8 @@ def register(subparsers: Any) -> None:
 
 def run_fit(arguments: argparse.Namespace) -> int:
     """Fit, test, write."""
+    import numpy as np
+
     from nptcs.files import write_text
     from nptcs.ring.left_out import left_out_spokes
     from nptcs.ring.stored_surrogate import dump_surrogate
@@ -65,7 +67,7 @@ def run_fit(arguments: argparse.Namespace) -> int:
     surrogate = stored.surrogate
     write_text(arguments.output, dump_surrogate(stored))
     found = left_out_spokes(surrogate, stored.tyre, stored.model)
-    inner = ~found.edge
+    inner = np.logical_not(found.edge)
     print(f"{len(surrogate.tables)} spokes, s from {surrogate.tables[0].low[0]:.3g} mm")
     for spoke in surrogate.unfitted:
         named = dict(zip(DESIGN, spoke.tolist(), strict=True))
@@ -138,6 +140,7 @@ def run_solve(arguments: argparse.Namespace) -> int:
     solved.to_csv(arguments.output, index=False)
     failed = solved[solved["status"] != "ok"]
     print(f"{len(solved)} designs, {len(failed)} without a result: {arguments.output}")
-    for row in failed.head(5).itertuples():
-        print(f"  row {row.Index + 1}: {row.status}: {row.message}")
+    first = zip(failed.index.tolist(), failed["status"], failed["message"], strict=True)
+    for number, status, message in list(first)[:5]:
+        print(f"  row {number + 1}: {status}: {message}")
     return 1 if len(failed) else 0

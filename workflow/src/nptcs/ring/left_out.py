@@ -64,7 +64,7 @@ def left_out_spokes(
     errors, edge = np.full(count, np.nan), np.zeros(count, dtype=bool)
     for number in range(FOLDS):
         out = np.flatnonzero(fold == number)
-        other = surrogate.without(out)
+        other = surrogate.without(out.tolist())
         for spoke in out:
             design = surrogate.designs[spoke]
             edge[spoke] = bool(((design <= other.low) | (design >= other.high)).any())

@@ -99,7 +99,7 @@ class SpokeSurrogate:
         """The fitted kernels, for a surrogate of other tables without another search."""
         return [process.kernel_ for process in self._processes]
 
-    def without(self, rows: Array) -> SpokeSurrogate:
+    def without(self, rows: Sequence[int]) -> SpokeSurrogate:
         """Return the surrogate of the other spokes, with the same kernels."""
         kept = np.setdiff1d(np.arange(len(self.tables)), rows)
         tables = [self.tables[row] for row in kept]

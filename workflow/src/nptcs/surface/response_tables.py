@@ -119,8 +119,9 @@ def sensitivity_tables(
         ``indices``, ``effects``, ``impacts`` and ``problems``.
     """
     surfaces = {study: registry.by_solver(RESPONSE) for study, registry in registries.items()}
-    failed = quality.set_index(["study", "solver"])["failed_cases"]
-    shares = variance_shares(surfaces, failed.to_dict(), settings)
+    keys = zip(quality["study"], quality["solver"], strict=True)
+    failed = dict(zip(keys, quality["failed_cases"], strict=True))
+    shares = variance_shares(surfaces, failed, settings)
     ranked = response_impacts(list(registries.values()), settings)
     return {
         "indices": (shares.indices, SobolIndices),
