@@ -14,11 +14,14 @@ EVERYWHERE = {
     "errors",
     "files",
     "laminate",
+    "likelihood",
     "loading",
     "mechanical_tests",
     "provenance",
     "seal",
+    "spoke_features",
     "terms",
+    "threads",
     "yaml_files",
 }
 """Modules at the bottom, which every room may import."""
