@@ -36,7 +36,9 @@ def test_the_time_suffices_for_its_cases_and_grows_with_each_attempt(cases, batc
     options = SolverOptions(case_s=20.0, timeout_s=100.0)
     first, second = (batch_minutes(cases, batches, cores, options, attempt) for attempt in (1, 2))
     assert 60 * first >= cases / batches * 20.0 / cores + 100.0
-    assert second > first or cases == 1
+    assert second >= first
+    rounds = cases / batches / cores
+    assert second > first or rounds < 3  # less than a minute more
 
 
 def test_memory_grows_with_the_cases_side_by_side_and_with_each_attempt():
