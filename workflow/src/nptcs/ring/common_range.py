@@ -54,9 +54,9 @@ def _carried(coefficients: Array, limits: tuple[float, float], lowest: float) ->
     """Chebyshev coefficients (degrees, columns) on [lowest, high] of those on [low, high]."""
     low, high = limits
     degree = len(coefficients) - 1
-    unit: Array = -np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
+    unit = -np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
     s = 0.5 * (lowest + high) + 0.5 * (high - lowest) * unit
     local = (2.0 * s - low - high) / (high - low)
     values = chebyshev.chebvander(local, degree) @ coefficients
-    found: Array = np.linalg.solve(chebyshev.chebvander(unit, degree), values)
+    found: Array = np.asarray(np.linalg.solve(chebyshev.chebvander(unit, degree), values), float)
     return found
