@@ -19,7 +19,7 @@ from nptcs.doe.d_optimal import d_efficiency, d_optimal, log_determinant
 from nptcs.doe.points import box_behnken, central_composite, space_filling
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
-from nptcs.surface.models import Cases, fit_model
+from nptcs.surface.kinds.models import Cases, fit_model
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.stored import dump_registry
 from nptcs.surface.study import RESPONSE

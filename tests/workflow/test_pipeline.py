@@ -8,7 +8,7 @@ import yaml
 
 TABLES_OF_A_CASE_CHANGE = {"cases", "surface", "sensitivity", "problems", "report", "verdict"}
 
-SENSITIVITY = "workflow/src/nptcs/surface/sensitivity.py"
+SENSITIVITY = "workflow/src/nptcs/surface/sensitivity/gradients.py"
 
 
 def test_everything_is_there_and_a_second_run_does_nothing(finished):

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from nptcs.console import clear_errors
-from nptcs.surface.coverage import Planned, coverage_table
+from nptcs.surface.diagnostics.coverage import Planned, coverage_table
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.coverage import CaseCoverage
 from nptcs.tables.io import read_table, write_table

@@ -4,7 +4,7 @@ from pathlib import Path
 from typing import Any
 
 from nptcs.console import clear_errors
-from nptcs.surface import diagnostic_tables as tables
+from nptcs.surface.diagnostics import tables
 from nptcs.surface.stored import read_surfaces
 from nptcs.tables import diagnostics as contracts
 from nptcs.tables.io import write_table

@@ -5,7 +5,7 @@ from typing import Any
 
 from nptcs.compare.impact import with_published
 from nptcs.console import clear_errors
-from nptcs.surface.impact_table import impact_table
+from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.stored import read_surfaces
 from nptcs.tables.cases import Design
 from nptcs.tables.impact import Impact

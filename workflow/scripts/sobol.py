@@ -5,7 +5,7 @@ from typing import Any
 
 from nptcs.config.sensitivity import Sensitivity
 from nptcs.console import clear_errors
-from nptcs.surface.response_tables import sensitivity_tables
+from nptcs.surface.sensitivity.response_tables import sensitivity_tables
 from nptcs.surface.stored import read_registry
 from nptcs.tables.io import read_table, write_table
 from nptcs.tables.surface import SurfaceQuality

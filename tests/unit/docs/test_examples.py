@@ -60,7 +60,7 @@ def test_what_newcomers_call_first_has_an_example():
         "nptcs.lca.single.solve",
         "nptcs.reduce.chord.chord_slope",
         "nptcs.surface.fit.fit",
-        "nptcs.surface.sensitivity.impact",
+        "nptcs.surface.sensitivity.gradients.impact",
         "nptcs.terms.Polynomial",
         "nptcs.tables.io.write_table",
     }

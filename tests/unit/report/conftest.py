@@ -26,7 +26,7 @@ from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.report.data import Results, SolverFacts
 from nptcs.solvers.contract import SolverResult
 from nptcs.solvers.spoke_responses import spoke_responses
-from nptcs.surface.impact_table import impact_table
+from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.study import fit_study
 from nptcs.surface.tables import quality_table, surface_table
 from nptcs.tables.cases import Cases, Design

@@ -15,7 +15,7 @@ from nptcs.report.html import render_report
 from nptcs.report.sections.decision import decision_section
 from nptcs.report.sections.uncertainty import uncertainty_section
 from nptcs.report.tables.sheets import sheets_of
-from nptcs.surface.diagnostic_tables import influence_table
+from nptcs.surface.diagnostics.tables import influence_table
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.io import check
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.config.study import Study
-from nptcs.surface.coverage import Planned, coverage_table
+from nptcs.surface.diagnostics.coverage import Planned, coverage_table
 from nptcs.surface.study import fit_study
 from nptcs.tables.coverage import CaseCoverage
 from nptcs.tables.io import check

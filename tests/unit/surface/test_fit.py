@@ -11,8 +11,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.errors import InputError
+from nptcs.surface.diagnostics.quality import assess
 from nptcs.surface.fit import fit
-from nptcs.surface.quality import assess
 from nptcs.surface.stored import dump, load
 from nptcs.terms import parse
 

@@ -15,7 +15,7 @@ from nptcs.solvers import fe_tyre, published
 from nptcs.solvers.contract import SolverResult, Status
 from nptcs.solvers.registry import MODULES, load
 from nptcs.surface.cases import changed_factors, solved_cases
-from nptcs.surface.impact_table import impact_table
+from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.study import fit_study
 from nptcs.surface.tables import quality_table
 from nptcs.tables.cases import Cases

@@ -9,7 +9,11 @@ from nptcs.config.sensitivity import Sensitivity
 from nptcs.config.study import Study
 from nptcs.errors import InputError
 from nptcs.surface.registry import Response
-from nptcs.surface.response_tables import mean_slopes, response_impacts, response_surfaces
+from nptcs.surface.sensitivity.response_tables import (
+    mean_slopes,
+    response_impacts,
+    response_surfaces,
+)
 from nptcs.surface.stored import dump_registry, load_registry
 from nptcs.surface.study import RESPONSE, fit_study, responses_of
 from nptcs.tables.io import check

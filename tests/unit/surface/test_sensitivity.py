@@ -9,7 +9,7 @@ import pytest
 
 from nptcs.compare.impact import with_published
 from nptcs.surface.fit import fit
-from nptcs.surface.sensitivity import impact
+from nptcs.surface.sensitivity.gradients import impact
 from nptcs.tables.impact import Impact
 from nptcs.tables.io import check
 

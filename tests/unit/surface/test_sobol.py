@@ -9,9 +9,9 @@ import pytest
 from nptcs.config.sensitivity import NormalFactor, Sensitivity, Sobol, UniformFactor
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
-from nptcs.surface.sobol import inputs_of, main_effect, sobol_indices
-from nptcs.surface.sobol_tables import variance_shares
-from nptcs.surface.ties import near_ties
+from nptcs.surface.sensitivity.sobol import inputs_of, main_effect, sobol_indices
+from nptcs.surface.sensitivity.sobol_tables import variance_shares
+from nptcs.surface.sensitivity.ties import near_ties
 from nptcs.tables.io import check
 from nptcs.tables.sobol import MainEffects, SobolIndices
 

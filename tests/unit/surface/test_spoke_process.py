@@ -6,10 +6,10 @@ import pytest
 from nptcs.config.surface import SpokeProcessModel, name_of
 from nptcs.doe.split_plot import split_plot
 from nptcs.errors import InputError
-from nptcs.surface.comparison import leave_one_out
-from nptcs.surface.models import Cases, fit_model
+from nptcs.surface.diagnostics.comparison import leave_one_out
+from nptcs.surface.kinds.models import Cases, fit_model
+from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
-from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.surface.stored import dump_registry, load_registry
 from nptcs.surface.study import RESPONSE
 from nptcs.tables.material_card import PUBLISHED_PLY

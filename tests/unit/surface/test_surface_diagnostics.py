@@ -7,11 +7,11 @@ import pandas as pd
 import pytest
 from scipy import linalg
 
-from nptcs.surface.anova import Noise, anova, noise_of
-from nptcs.surface.diagnostics import influence, press, term_tests
+from nptcs.surface.diagnostics.anova import Noise, anova, noise_of
+from nptcs.surface.diagnostics.influence import influence, press, term_tests
+from nptcs.surface.diagnostics.stationary import ridge_path, stationary_points
 from nptcs.surface.fit import fit
-from nptcs.surface.selection import backward_steps
-from nptcs.surface.stationary import ridge_path, stationary_points
+from nptcs.surface.kinds.selection import backward_steps
 from nptcs.terms import parse
 
 CHEM_REACT = pd.DataFrame(

@@ -9,10 +9,10 @@ import pytest
 from nptcs.config.surface import GaussianProcessModel, LaminationModel, PolynomialModel, name_of
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases
-from nptcs.surface.comparison import directions, leave_one_level_out, leave_one_out
-from nptcs.surface.diagnostics import influence
-from nptcs.surface.gaussian_process import fit_process
-from nptcs.surface.models import Cases, fit_model
+from nptcs.surface.diagnostics.comparison import directions, leave_one_level_out, leave_one_out
+from nptcs.surface.diagnostics.influence import influence
+from nptcs.surface.kinds.gaussian_process import fit_process
+from nptcs.surface.kinds.models import Cases, fit_model
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import predict
 from nptcs.surface.stored import dump_registry, load_registry
@@ -206,7 +206,7 @@ def test_what_cannot_be_assessed_is_not_a_number():
 def test_left_out_errors_of_many_cases_are_those_of_fitting_again(link, monkeypatch):
     surface = fit_model(PolynomialModel(kind="polynomial", link=link), table_5())
     again = leave_one_out(surface)
-    monkeypatch.setattr("nptcs.surface.comparison.MANY_CASES", 10)
+    monkeypatch.setattr("nptcs.surface.diagnostics.comparison.MANY_CASES", 10)
     at_once = leave_one_out(surface)
     np.testing.assert_allclose(at_once.error, again.error, rtol=1e-7, atol=1e-9)
     assert np.array_equal(at_once.covered, again.covered)

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.config.surface import GaussianProcessModel, LaminationModel, PolynomialModel
-from nptcs.surface.models import Cases, fit_model
+from nptcs.surface.kinds.models import Cases, fit_model
 from nptcs.tables.material_card import PUBLISHED_PLY
 from nptcs.uncertainty.response_model import (
     RubberEffect,

@@ -8,7 +8,7 @@ import pandera.pandas as pa
 from nptcs.compare.coefficients import by_powers
 from nptcs.config.study import Study
 from nptcs.files import write_text
-from nptcs.surface.response_tables import response_surfaces
+from nptcs.surface.sensitivity.response_tables import response_surfaces
 from nptcs.surface.stored import dump, dump_registry
 from nptcs.surface.study import StudySurfaces
 from nptcs.surface.tables import comparison_tables, quality_table, surface_table

@@ -13,12 +13,12 @@ from nptcs.errors import InputError
 from nptcs.files import REWRITE, read_stored
 from nptcs.seal import BrokenSealError, open_object, sealed_object
 from nptcs.surface.fit import Surface
-from nptcs.surface.gaussian_process import GaussianProcess
-from nptcs.surface.lamination import Lamination
-from nptcs.surface.linked import LinkedSurface
+from nptcs.surface.kinds.gaussian_process import GaussianProcess
+from nptcs.surface.kinds.lamination import Lamination
+from nptcs.surface.kinds.linked import LinkedSurface
+from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
-from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.terms import Polynomial
 
 

@@ -14,9 +14,9 @@ from nptcs.config.study import Study
 from nptcs.config.surface import SurfaceModel, describes_stiffness_alone
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases, solved_cases
-from nptcs.surface.comparison import LeftOut, leave_one_out
+from nptcs.surface.diagnostics.comparison import LeftOut, leave_one_out
 from nptcs.surface.fit import Surface
-from nptcs.surface.models import Cases, fit_model, models_of
+from nptcs.surface.kinds.models import Cases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
 from nptcs.tables.problems import Problem, problems_table

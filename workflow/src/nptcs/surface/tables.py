@@ -7,15 +7,20 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
-from nptcs.surface.comparison import MOST_REFITS, LevelError, directions, leave_one_level_out
+from nptcs.surface.diagnostics.comparison import (
+    MOST_REFITS,
+    LevelError,
+    directions,
+    leave_one_level_out,
+)
+from nptcs.surface.diagnostics.quality import assess
 from nptcs.surface.fit import Surface
-from nptcs.surface.gaussian_process import GaussianProcess
-from nptcs.surface.lamination import Lamination
-from nptcs.surface.linked import LinkedSurface
-from nptcs.surface.quality import assess
+from nptcs.surface.kinds.gaussian_process import GaussianProcess
+from nptcs.surface.kinds.lamination import Lamination
+from nptcs.surface.kinds.linked import LinkedSurface
+from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import STIFFNESS
 from nptcs.surface.response_surface import ResponseSurface, box
-from nptcs.surface.spoke_process import SpokeProcess
 from nptcs.surface.study import Fit, StudySurfaces
 from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
 

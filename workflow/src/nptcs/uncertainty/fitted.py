@@ -19,10 +19,10 @@ from nptcs.config.surface import (
 from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.whole_plates import SPACING
 from nptcs.errors import InputError
-from nptcs.surface.comparison import leave_one_out
-from nptcs.surface.lamination import FACTORS as LAMINATION_FACTORS
-from nptcs.surface.lamination import Lamination
-from nptcs.surface.models import Cases, fit_model, models_of
+from nptcs.surface.diagnostics.comparison import leave_one_out
+from nptcs.surface.kinds.lamination import FACTORS as LAMINATION_FACTORS
+from nptcs.surface.kinds.lamination import Lamination
+from nptcs.surface.kinds.models import Cases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box

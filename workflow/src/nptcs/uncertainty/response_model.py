@@ -10,9 +10,9 @@ import numpy as np
 from scipy import stats
 
 from nptcs.arrays import Array, Mask
-from nptcs.surface.gaussian_process import GaussianProcess
-from nptcs.surface.lamination import FACTORS as LAMINATION_FACTORS
-from nptcs.surface.lamination import Lamination
+from nptcs.surface.kinds.gaussian_process import GaussianProcess
+from nptcs.surface.kinds.lamination import FACTORS as LAMINATION_FACTORS
+from nptcs.surface.kinds.lamination import Lamination
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box
 
 ANGLE = "angle_deg"

@@ -18,12 +18,12 @@ from nptcs.config.surface import (
 )
 from nptcs.errors import InputError
 from nptcs.surface.fit import Surface, fit_points
-from nptcs.surface.gaussian_process import GaussianProcess, fit_process
-from nptcs.surface.lamination import Lamination, fit_lamination
-from nptcs.surface.linked import LinkedSurface, fit_linked
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process
+from nptcs.surface.kinds.lamination import Lamination, fit_lamination
+from nptcs.surface.kinds.linked import LinkedSurface, fit_linked
+from nptcs.surface.kinds.selection import chosen_terms
+from nptcs.surface.kinds.spoke_process import fit_spoke_process
 from nptcs.surface.response_surface import ResponseSurface
-from nptcs.surface.selection import chosen_terms
-from nptcs.surface.spoke_process import fit_spoke_process
 from nptcs.terms import parse
 
 MOST_PROCESS_CASES = 2000

@@ -15,11 +15,11 @@ from nptcs.config.sensitivity import Sensitivity
 from nptcs.errors import InputError
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import box
-from nptcs.surface.sobol import inputs_of, sobol_indices
-from nptcs.surface.sobol_tables import variance_shares
+from nptcs.surface.sensitivity.sobol import inputs_of, sobol_indices
+from nptcs.surface.sensitivity.sobol_tables import variance_shares
+from nptcs.surface.sensitivity.ties import near_ties
 from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
 from nptcs.surface.tables import fit_measures
-from nptcs.surface.ties import near_ties
 from nptcs.tables.problems import Problems, problems_table
 from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.sobol import MainEffects, SobolIndices

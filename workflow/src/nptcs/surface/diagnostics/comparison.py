@@ -10,9 +10,9 @@ from scipy import stats
 
 from nptcs.arrays import Array, Mask
 from nptcs.errors import InputError
-from nptcs.surface.diagnostics import influence
+from nptcs.surface.diagnostics.influence import influence
 from nptcs.surface.fit import Surface
-from nptcs.surface.linked import INVERSES, LinkedSurface
+from nptcs.surface.kinds.linked import INVERSES, LinkedSurface
 from nptcs.surface.response_surface import ResponseSurface, box
 
 CONFIDENCE = 0.95

@@ -11,8 +11,8 @@ import pandas as pd
 from nptcs.config.sensitivity import Sensitivity
 from nptcs.errors import InputError
 from nptcs.surface.response_surface import ResponseSurface, box
-from nptcs.surface.sobol import Indices, Inputs, inputs_of, main_effect, sobol_indices
-from nptcs.surface.ties import near_ties
+from nptcs.surface.sensitivity.sobol import Indices, Inputs, inputs_of, main_effect, sobol_indices
+from nptcs.surface.sensitivity.ties import near_ties
 from nptcs.tables.problems import problems_table
 from nptcs.tables.sobol import MainEffects, SobolIndices
 

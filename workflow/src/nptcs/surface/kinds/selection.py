@@ -10,7 +10,7 @@ from scipy import linalg
 from nptcs.arrays import Array
 from nptcs.config.surface import Choice, PolynomialModel
 from nptcs.surface.fit import coding, refuse_aliased
-from nptcs.surface.linked import LINKS
+from nptcs.surface.kinds.linked import LINKS
 from nptcs.surface.response_surface import refuse_unusable
 from nptcs.terms import Polynomial
 

@@ -6,7 +6,7 @@ import numpy as np
 from sklearn.linear_model import LinearRegression
 from sklearn.model_selection import KFold, cross_val_predict
 
-from nptcs.surface.diagnostics import press
+from nptcs.surface.diagnostics.influence import press
 from nptcs.surface.fit import Surface
 
 

@@ -10,12 +10,12 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.surface import Choice
-from nptcs.surface.anova import MEANING, anova, noise_of
-from nptcs.surface.diagnostics import influence, term_tests
+from nptcs.surface.diagnostics.anova import MEANING, anova, noise_of
+from nptcs.surface.diagnostics.influence import influence, term_tests
+from nptcs.surface.diagnostics.stationary import Direction, ridge_path, stationary_points
 from nptcs.surface.fit import Surface
+from nptcs.surface.kinds.selection import backward_steps
 from nptcs.surface.response_surface import inside_box
-from nptcs.surface.selection import backward_steps
-from nptcs.surface.stationary import Direction, ridge_path, stationary_points
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,

@@ -9,8 +9,8 @@ import pandas as pd
 
 from nptcs.config.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
-from nptcs.surface.sensitivity import impact
-from nptcs.surface.ties import near_ties
+from nptcs.surface.sensitivity.gradients import impact
+from nptcs.surface.sensitivity.ties import near_ties
 
 COLUMNS = [
     "solver", "study", "factor", "rule", "gradient", "range", "impact", "nominal_range",
