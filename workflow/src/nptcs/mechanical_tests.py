@@ -78,6 +78,28 @@ class TestType(StrEnum):
             case _:
                 assert_never(self)
 
+    @property
+    def strains_alike(self) -> bool:
+        """True where axial and transverse strain differ in sign, but hardly in size.
+
+        The Poisson's ratio of a ±45° laminate is near 1.
+        """
+        match self:
+            case TestType.SHEAR:
+                return True
+            case (
+                TestType.TENSION
+                | TestType.COMPRESSION
+                | TestType.FLEXURE
+                | TestType.RUBBER_TENSION
+                | TestType.RUBBER_EQUIBIAXIAL
+                | TestType.RUBBER_PURE_SHEAR
+                | TestType.RUBBER_COMPRESSION
+            ):
+                return False
+            case _:
+                assert_never(self)
+
 
 HYPERELASTIC_FIT = "hyperelastic_fit"
 """What a rubber test gives to the material card; not a row of the property table."""

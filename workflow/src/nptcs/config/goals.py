@@ -7,7 +7,8 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import StrEnum
-from math import isfinite
+from math import inf, isfinite
+from typing import assert_never
 
 from nptcs.config.response import RESPONSE_KINDS, Taken
 from nptcs.errors import InputError
@@ -88,14 +89,17 @@ class Goal:
     @property
     def limits(self) -> tuple[float, float]:
         """Return the smallest and the largest acceptable value; infinite where there is none."""
-        low, high = float("-inf"), float("inf")
-        if self.kind is GoalKind.TARGET:
-            low, high = self.value - self.plus_minus, self.value + self.plus_minus
-        elif self.kind is GoalKind.AT_LEAST:
-            low = self.value
-        elif self.kind is GoalKind.AT_MOST:
-            high = self.value
-        return low, high
+        match self.kind:
+            case GoalKind.TARGET:
+                return self.value - self.plus_minus, self.value + self.plus_minus
+            case GoalKind.AT_LEAST:
+                return self.value, inf
+            case GoalKind.AT_MOST:
+                return -inf, self.value
+            case GoalKind.MINIMISE | GoalKind.MAXIMISE:
+                return -inf, inf
+            case _:
+                assert_never(self.kind)
 
     def __str__(self) -> str:
         match self.kind:
@@ -103,8 +107,10 @@ class Goal:
                 return f"{self.response} = {self.value:g} ± {self.plus_minus:g}"
             case GoalKind.AT_LEAST | GoalKind.AT_MOST:
                 return f"{self.response} {self.kind.value} {self.value:g}"
-            case _:
+            case GoalKind.MINIMISE | GoalKind.MAXIMISE:
                 return f"{self.kind.value} {self.response}"
+            case _:
+                assert_never(self.kind)
 
 
 def read_goal(kind: GoalKind, text: str) -> Goal:

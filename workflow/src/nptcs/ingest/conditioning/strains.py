@@ -11,7 +11,6 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest, line_slope
 from nptcs.ingest.reading.profiles import normalise
-from nptcs.mechanical_tests import TestType
 from nptcs.tables.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
@@ -154,7 +153,7 @@ def _axis_by_sign(signals: Signals, specimen: Specimen, slopes: Mapping[str, flo
     Their size does not tell them apart there: its Poisson's ratio is near 1. Only where the force
     has the sign of the test: else a load cell may be reversed.
     """
-    if specimen.test is not TestType.SHEAR:
+    if not specimen.test.strains_alike:
         return None
     growing = [name for name, slope in slopes.items() if slope > 0]
     as_tested = largest(signals.values["force"]) * specimen.test.load_sign > 0
