@@ -58,6 +58,13 @@ class Project:
             check=False,
         )
 
+    def solved_in_logs(self, *arguments: str, config: str = "config/small.yaml"):
+        """Run, and return the run and what the logs of its solve jobs say."""
+        logs = self.path("results/logs/solve")
+        shutil.rmtree(logs, ignore_errors=True)
+        run = self.snakemake(*arguments, config=config)
+        return run, "".join(log.read_text("utf-8") for log in sorted(logs.glob("*.log")))
+
     def planned(self, **options) -> dict[str, int]:
         """Return how many jobs of each rule a run would do now."""
         run = self.snakemake("-n", **options)

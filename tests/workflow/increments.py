@@ -403,11 +403,13 @@ def run_change(folder: Path) -> tuple[dict[str, int], int]:
     ]
     command = [sys.executable, "-m", "snakemake", "-j2", *batches, "--configfile", CONFIG]
     environment = {**os.environ, "PYTHONPATH": str(folder / "workflow/src")}
+    logs = folder / "results/logs/solve"
+    shutil.rmtree(logs, ignore_errors=True)
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, check=False
     )
     assert done.returncode == 0, done.stderr[-4000:]
-    return jobs, len(SOLVED.findall(done.stderr))
+    return jobs, sum(len(SOLVED.findall(log.read_text("utf-8"))) for log in logs.glob("*.log"))
 
 
 FE_STUDIES = (("band", "fe_tyre"), ("spoke", "fe_spoke"))

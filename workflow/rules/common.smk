@@ -9,7 +9,6 @@ from snakemake.exceptions import WorkflowError
 
 from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
-from nptcs.config.files import for_its_studies
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.files import remove_unfinished, sha256_of_file
@@ -19,7 +18,6 @@ from nptcs.report.stale import refused
 from nptcs.start.facts import known_facts
 from nptcs.tables.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
-from nptcs.yaml_files import read_yaml
 
 STARTED = time.time()
 
@@ -65,9 +63,6 @@ def find_facts():
 
 
 try:
-    # scripts are given `config` too
-    for key in set(config) - set(for_its_studies(config, read_yaml(FIRST_CONFIG))):
-        del config[key]
     CONFIG = read_config(config)
     SHEET = Path(CONFIG.lab_data.specimen_sheet)
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)

@@ -154,7 +154,8 @@ def test_feet_meet_the_band_and_the_tread_meets_the_road(deck, reader):
     inside = reader.face_radii(band, "INSIDE")
     assert inside == pytest.approx(300.0)
     gap = np.abs(reader.face_radii(spoke, "FOOT") - 300.0)
-    assert gap.max() < 0.1 < float(tie.parameters["POSITION TOLERANCE"])
+    # a flat foot of half a width w is w²/2R off the round band: 0.135 mm for 9 mm
+    assert gap.max() < 0.135 < float(tie.parameters["POSITION TOLERANCE"])
     outside = reader.face_radii(band, "OUTSIDE")
     assert outside == pytest.approx(323.4)
     (contact,) = deck.named("CONTACT PAIR")

@@ -149,8 +149,9 @@ def test_spokes_stand_on_the_band_in_the_tyres_file(tyre, spoke):
     radius = np.hypot(*bricks.position[..., :2].reshape(-1, 2).T)
     inner = model.mesh.radii[0]
     own = np.repeat(bricks.cell["spoke"] >= 0, 27)
-    assert radius[own].max() == pytest.approx(inner, abs=0.1)
-    assert radius[own].min() == pytest.approx(inner - spoke.design.geometry.height_mm, abs=0.1)
+    # a flat foot of half a width w is w²/2R off the round band: 0.135 mm for 9 mm
+    assert radius[own].max() == pytest.approx(inner, abs=0.135)
+    assert radius[own].min() == pytest.approx(inner - spoke.design.geometry.height_mm, abs=0.135)
     assert radius[~own].min() == pytest.approx(inner)
     # where a spoke meets the band, both move alike but for the foot's own bending
     flat, moved = bricks.position.reshape(-1, 3), bricks.displacement.reshape(-1, 3)

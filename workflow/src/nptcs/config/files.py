@@ -26,36 +26,8 @@ def read_config_files(paths: Sequence[str]) -> Config:
         content = read_yaml(path) or {}
         if not isinstance(content, dict):
             raise InputError("is not a configuration", "write 'key: value' lines", path)
-        values = for_its_studies(joined(values, content), values)
+        values = joined(values, content)
     return read_config(values, " + ".join(paths))
-
-
-ASKED_OF_STUDIES = ("decisions", "uncertainty")
-"""Sections that ask something of studies by their names and factors."""
-
-
-def for_its_studies(values: Mapping[str, Any], below: Mapping[str, Any]) -> dict[str, Any]:
-    """Leave out what a first file asks of its studies where a later file has replaced them.
-
-    Parameters
-    ----------
-    values : mapping
-        The whole configuration.
-    below : mapping
-        The first file alone.
-
-    Examples
-    --------
-    >>> first = {"studies": ["a"], "decisions": ["which a?"]}
-    >>> for_its_studies({**first, "studies": ["b"]}, first)
-    {'studies': ['b']}
-    >>> for_its_studies({"studies": ["b"], "decisions": ["which b?"]}, first)
-    {'studies': ['b'], 'decisions': ['which b?']}
-    """
-    if not below or values.get("studies") == below.get("studies"):
-        return dict(values)
-    left = {key for key in ASKED_OF_STUDIES if values.get(key) == below.get(key)}
-    return {key: value for key, value in values.items() if key not in left}
 
 
 def joined(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
