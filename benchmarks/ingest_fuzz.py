@@ -243,9 +243,7 @@ def strict_rows(
     """Every reading of the needed columns, or a message about a row that is not a reading."""
     decimal = re.escape(table.decimal)
     number = re.compile(rf"[+-]?(\d+({decimal}\d*)?|{decimal}\d+)([eE][+-]?\d+)?", re.ASCII)
-    grouped = None
-    if table.profile.thousands:  # declared, with a decimal point in all profiles
-        grouped = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(\.\d*)?", re.ASCII)
+    grouped, mark = grouped_numbers(table)
     rows: list[list[float]] = []
     widths: list[int] = []
     for offset, line in enumerate(lines):
@@ -260,8 +258,8 @@ def strict_rows(
                 values.append(math.nan)
             elif number.fullmatch(cell):
                 values.append(float(cell.replace(table.decimal, ".")))
-            elif grouped is not None and grouped.fullmatch(cell):
-                values.append(float(cell.replace(table.profile.thousands, "")))
+            elif grouped.fullmatch(cell):
+                values.append(float(cell.replace(mark, "").replace(table.decimal, ".")))
             elif offset > 5 and not any(number.fullmatch(one) for one in filled):
                 return rows  # a new header: another table begins
             elif not any(line.strip() for line in lines[offset + 1 :]):
@@ -273,6 +271,22 @@ def strict_rows(
     if len(widths) > 1 and widths[-1] < widths[-2]:
         rows.pop()  # the last line is cut off
     return rows
+
+
+def grouped_numbers(table: RawFile) -> tuple[re.Pattern[str], str]:
+    """What a number with a thousands mark looks like, and the mark.
+
+    Where no profile declares the mark, a number must prove it by itself: of two different marks
+    the last is the decimal mark (`11,234.75`), and a mark that occurs twice is not one
+    (`1,234,567`). `1,234` proves nothing.
+    """
+    mark = table.profile.thousands or {".": ",", ",": "."}[table.decimal]
+    group, decimal = rf"{re.escape(mark)}\d{{3}}", re.escape(table.decimal)
+    if table.profile.thousands:
+        tail = rf"({group})+({decimal}\d*)?"
+    else:
+        tail = rf"({group}({group})+({decimal}\d*)?|{group}{decimal}\d+)"
+    return re.compile(rf"[+-]?[1-9]\d{{0,2}}{tail}", re.ASCII), mark
 
 
 def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int]) -> str | None:
