@@ -44,8 +44,10 @@ def data_digest(tables: Sequence[RawFile]) -> str:
 def _rounded(readings: Array) -> bytes:
     """Mantissas of `_DIGITS` digits: a factor of ten between units leaves them as they are."""
     known = readings[~np.isnan(readings) & (readings != 0)]
-    exponents = np.floor(np.log10(np.abs(known)))
-    mantissas = np.rint(known / 10.0 ** (exponents - _DIGITS + 1))
+    powers = np.floor(np.log10(np.abs(known))).astype(np.int64) - _DIGITS + 1
+    lowest = powers.min(initial=0)
+    tens = 10.0 ** np.arange(lowest, powers.max(initial=lowest) + 1)  # few: a power costs time
+    mantissas = np.rint(known / tens[powers - lowest])
     whole = 10.0**_DIGITS  # 9.9999999999 rounds to the next power
     return (
         np.where(np.abs(mantissas) == whole, mantissas / 10, mantissas).astype(np.int64).tobytes()

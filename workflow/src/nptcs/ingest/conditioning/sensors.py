@@ -130,6 +130,8 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     if len(rows) < _LEAST_SIGHT:
         return None
     step, gain = np.diff(strain[rows]), np.diff(load[rows])
+    if not np.abs(step).max() > smallest:
+        return None
     moving = np.abs(step[step != 0])
     usual = float(np.median(moving)) if len(moving) else 0.0
     usual_gain = float(np.median(np.abs(gain)))
