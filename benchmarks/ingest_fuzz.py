@@ -243,7 +243,8 @@ def strict_rows(
     """Every reading of the needed columns, or a message about a row that is not a reading."""
     decimal = re.escape(table.decimal)
     number = re.compile(rf"[+-]?(\d+({decimal}\d*)?|{decimal}\d+)([eE][+-]?\d+)?", re.ASCII)
-    grouped, mark = grouped_numbers(table)
+    grouped = grouped_numbers(table)
+    thousands = " .,".replace(table.decimal, "")
     rows: list[list[float]] = []
     widths: list[int] = []
     for offset, line in enumerate(lines):
@@ -259,7 +260,8 @@ def strict_rows(
             elif number.fullmatch(cell):
                 values.append(float(cell.replace(table.decimal, ".")))
             elif grouped.fullmatch(cell):
-                values.append(float(cell.replace(mark, "").replace(table.decimal, ".")))
+                bare = re.sub(f"[{thousands}]", "", cell)
+                values.append(float(bare.replace(table.decimal, ".")))
             elif offset > 5 and not any(number.fullmatch(one) for one in filled):
                 return rows  # a new header: another table begins
             elif not any(line.strip() for line in lines[offset + 1 :]):
@@ -273,20 +275,22 @@ def strict_rows(
     return rows
 
 
-def grouped_numbers(table: RawFile) -> tuple[re.Pattern[str], str]:
-    """What a number with a thousands mark looks like, and the mark.
+def grouped_numbers(table: RawFile) -> re.Pattern[str]:
+    """Match a number with a thousands mark that the profile declares or the number proves.
 
-    Where no profile declares the mark, a number must prove it by itself: of two different marks
-    the last is the decimal mark (`11,234.75`), and a mark that occurs twice is not one
-    (`1,234,567`). `1,234` proves nothing.
+    A number proves its mark if a decimal mark follows (`11,234.75`, `61 000.1`), or if the mark
+    occurs twice (`1,234,567`): it cannot be the decimal mark then. `1,234` proves nothing.
     """
-    mark = table.profile.thousands or {".": ",", ",": "."}[table.decimal]
-    group, decimal = rf"{re.escape(mark)}\d{{3}}", re.escape(table.decimal)
-    if table.profile.thousands:
-        tail = rf"({group})+({decimal}\d*)?"
-    else:
-        tail = rf"({group}({group})+({decimal}\d*)?|{group}{decimal}\d+)"
-    return re.compile(rf"[+-]?[1-9]\d{{0,2}}{tail}", re.ASCII), mark
+    declared, decimal = table.profile.thousands, re.escape(table.decimal)
+    marks = declared or f"{'.' if table.decimal == ',' else ','} "
+    forms = []
+    for mark in marks:
+        group = rf"{re.escape(mark)}\d{{3}}"
+        if declared:
+            forms.append(rf"({group})+({decimal}\d*)?")
+        else:
+            forms.append(rf"({group}){{2,}}({decimal}\d*)?|{group}{decimal}\d+")
+    return re.compile(rf"[+-]?[1-9]\d{{0,2}}({'|'.join(forms)})", re.ASCII)
 
 
 def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int]) -> str | None:
