@@ -243,9 +243,8 @@ def strict_rows(
     """Every reading of the needed columns, or a message about a row that is not a reading."""
     decimal = re.escape(table.decimal)
     number = re.compile(rf"[+-]?(\d+({decimal}\d*)?|{decimal}\d+)([eE][+-]?\d+)?", re.ASCII)
-    grouped = None
-    if table.profile.thousands:  # declared, with a decimal point in all profiles
-        grouped = re.compile(r"[+-]?[1-9]\d{0,2}(,\d{3})+(\.\d*)?", re.ASCII)
+    grouped = grouped_numbers(table)
+    thousands = " .,".replace(table.decimal, "")
     rows: list[list[float]] = []
     widths: list[int] = []
     for offset, line in enumerate(lines):
@@ -260,8 +259,9 @@ def strict_rows(
                 values.append(math.nan)
             elif number.fullmatch(cell):
                 values.append(float(cell.replace(table.decimal, ".")))
-            elif grouped is not None and grouped.fullmatch(cell):
-                values.append(float(cell.replace(table.profile.thousands, "")))
+            elif grouped.fullmatch(cell):
+                bare = re.sub(f"[{thousands}]", "", cell)
+                values.append(float(bare.replace(table.decimal, ".")))
             elif offset > 5 and not any(number.fullmatch(one) for one in filled):
                 return rows  # a new header: another table begins
             elif not any(line.strip() for line in lines[offset + 1 :]):
@@ -273,6 +273,24 @@ def strict_rows(
     if len(widths) > 1 and widths[-1] < widths[-2]:
         rows.pop()  # the last line is cut off
     return rows
+
+
+def grouped_numbers(table: RawFile) -> re.Pattern[str]:
+    """Match a number with a thousands mark that the profile declares or the number proves.
+
+    A number proves its mark if a decimal mark follows (`11,234.75`, `61 000.1`), or if the mark
+    occurs twice (`1,234,567`): it cannot be the decimal mark then. `1,234` proves nothing.
+    """
+    declared, decimal = table.profile.thousands, re.escape(table.decimal)
+    marks = declared or f"{'.' if table.decimal == ',' else ','} "
+    forms = []
+    for mark in marks:
+        group = rf"{re.escape(mark)}\d{{3}}"
+        if declared:
+            forms.append(rf"({group})+({decimal}\d*)?")
+        else:
+            forms.append(rf"({group}){{2,}}({decimal}\d*)?|{group}{decimal}\d+")
+    return re.compile(rf"[+-]?[1-9]\d{{0,2}}({'|'.join(forms)})", re.ASCII)
 
 
 def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int]) -> str | None:

@@ -100,6 +100,24 @@ class TestType(StrEnum):
             case _:
                 assert_never(self)
 
+    @property
+    def has_strength_without_strain(self) -> bool:
+        """True where the strength is the largest force over the area, at whatever strain."""
+        match self:
+            case TestType.TENSION | TestType.COMPRESSION:
+                return True
+            case (
+                TestType.SHEAR  # the largest stress up to a shear strain of 0.05
+                | TestType.FLEXURE
+                | TestType.RUBBER_TENSION
+                | TestType.RUBBER_EQUIBIAXIAL
+                | TestType.RUBBER_PURE_SHEAR
+                | TestType.RUBBER_COMPRESSION
+            ):
+                return False
+            case _:
+                assert_never(self)
+
 
 HYPERELASTIC_FIT = "hyperelastic_fit"
 """What a rubber test gives to the material card; not a row of the property table."""

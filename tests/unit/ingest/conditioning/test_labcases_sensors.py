@@ -94,6 +94,15 @@ def test_an_extensometer_that_rests_anywhere_is_found_before_sign_and_axis(
         assert np.isnan(lab.last_strain(done))
 
 
+def test_an_extensometer_that_leaves_after_readings_without_strain(lab, tmp_path):
+    strain = np.where(TIME < 60, STRAIN, -0.03)
+    strain[598:600] = np.nan
+    lab.write(tmp_path / "a.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": 100 * strain})
+    done = lab.ingest(tmp_path, "a.csv")
+    assert np.isnan(lab.last_strain(done))
+    assert done.curve["strain_axial"].max() == pytest.approx(STRAIN[597], rel=1e-3)
+
+
 def test_an_extensometer_at_the_end_of_its_range_stands_still(lab, tmp_path):
     strain = np.minimum(STRAIN, 0.01)
     lab.write(tmp_path / "a.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": 100 * strain})

@@ -130,6 +130,17 @@ def test_a_number_beyond_all_measure_is_named(read, cell):
     assert caught.value.line == 5
 
 
+@pytest.mark.parametrize("grouped", ["61 000.1", "61,000.1"])
+def test_a_number_beyond_all_measure_is_named_next_to_grouped_digits(read, grouped):
+    lines = ["time_s;force_N;strain_%", *(f"0.{n};{n}.5;0.0{n}" for n in range(1, 8))]
+    lines[3] = f"0.3;{grouped};0.03"
+    assert 61000.1 in read("\n".join(lines)).values["force"]
+    lines[4] = "0.4;1e400;0.04"
+    with pytest.raises(InputError, match="too large") as caught:
+        read("\n".join(lines))
+    assert caught.value.line == 5
+
+
 @pytest.mark.parametrize("word", ["", "nan", "NaN", "-", "---", "n/a", "#N/A", "1.#QNAN"])
 def test_missing_values(read, word):
     lines = ["time_s;force_N;strain_%", *(f"0.{n};{n}.5;0.0{n}" for n in range(1, 8))]

@@ -270,7 +270,7 @@ def _remark(row: dict[str, str], travel_only: Collection[str]) -> None:
     parts = [
         f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
         f"fill in {', '.join(wanted)}" if wanted else "",
-        "crosshead travel only: a strain needs gauge_length_mm" if travel else "",
+        "crosshead travel only: without gauge_length_mm no modulus, no strain" if travel else "",
         row["remarks"],
     ]
     row["remarks"] = "; ".join(part for part in parts if part)

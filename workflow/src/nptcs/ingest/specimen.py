@@ -27,7 +27,7 @@ from nptcs.ingest.conditioning.steps import (
     zero_force,
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
-from nptcs.ingest.conditioning.strains import resolve_strains
+from nptcs.ingest.conditioning.strains import NO_STRAIN, resolve_strains
 from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
@@ -102,15 +102,16 @@ def ingest_specimen(
         strain.path,
     )
     drop_empty_rows(signals, settings.missing_values)
-    _require_rows(signals, specimen, strain)
+    _require_rows(signals, specimen, strain, source)
     orient(signals, specimen, strain.path, settings.signs, source)
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)
-    _require_rows(signals, specimen, strain)
-    empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
-    correct_origin(signals, settings.strain_origin, specimen.test.is_rubber)
-    check_physics(signals, specimen, tables, settings.plausible)
+    _require_rows(signals, specimen, strain, source)
+    if source != NO_STRAIN:
+        empty_after_removal(signals, settings.extensometer, specimen.test.is_rubber, source)
+        correct_origin(signals, settings.strain_origin, specimen.test.is_rubber)
+        check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
     return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest))
@@ -164,11 +165,12 @@ def _flag_time(signals: Signals) -> None:
         signals.flags.append("time does not grow throughout")
 
 
-def _require_rows(signals: Signals, specimen: Specimen, table: RawFile) -> None:
-    measured = int((~np.isnan(signals.values["strain_axial"])).sum())
+def _require_rows(signals: Signals, specimen: Specimen, table: RawFile, source: str) -> None:
+    needed = "force" if source == NO_STRAIN else "strain_axial"
+    measured = int((~np.isnan(signals.values[needed])).sum())
     if measured < FEWEST_ROWS:
         raise InputError(
-            f"only {measured} rows hold force and strain",
+            f"only {measured} rows hold force{' and strain' if source != NO_STRAIN else ''}",
             "check the columns of the files (nptcs inspect FILE)",
             table.path,
             specimen=specimen.specimen,

@@ -111,7 +111,9 @@ class IngestRecord(Strict):
     files: tuple[FileRecord, ...] = ()
     geometry: Geometry | None = None
     strain_source: str = Field(
-        "", description="extensometer, dic, strain_gauge, crosshead or unspecified"
+        "",
+        description="extensometer, dic, strain_gauge, crosshead, unspecified, or none (strength "
+        "only)",
     )
     data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
     failure_seen: bool = Field(

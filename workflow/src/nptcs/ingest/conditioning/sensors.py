@@ -42,7 +42,7 @@ def empty_lost_channels(
         loss = find_jump(readings * scale, force, settings.jump_factor, smallest)
         if loss is not None:
             signals.values[name] = np.where(np.arange(len(force)) < loss.row, readings, np.nan)
-            _say(signals, loss, name.replace("_", " "), float(readings[loss.row - 1]))
+            _say(signals, loss, name.replace("_", " "), readings)
     pair = [name for name in ("strain_xx", "strain_yy") if name in signals.values]
     found = [
         find_jump(signals.values[name], force, settings.jump_factor, smallest) for name in pair
@@ -52,12 +52,7 @@ def empty_lost_channels(
         for name in pair:
             kept = np.arange(len(force)) < first
             signals.values[name] = np.where(kept, signals.values[name], np.nan)
-        _say(
-            signals,
-            Loss(first, "jumps"),
-            "camera's strain",
-            float(signals.values[pair[0]][first - 1]),
-        )
+        _say(signals, Loss(first, "jumps"), "camera's strain", signals.values[pair[0]])
 
 
 def empty_after_removal(
@@ -86,18 +81,20 @@ def empty_after_removal(
     if first is None:
         signals.note("extensometer", "no removal or slip found")
         return
-    at = float(signals.values["strain_axial"][first.row - 1])
     for name in STRAINS:
         kept = np.arange(len(strain)) < first.row
         signals.values[name] = np.where(kept, signals.values[name], np.nan)
-    _say(signals, first, "strain", at)
+    _say(signals, first, "strain", signals.values["strain_axial"])
 
 
 def _smallest(settings: ExtensometerRemoval, rubber: bool) -> float:
     return settings.smallest_jump_rubber if rubber else settings.smallest_jump
 
 
-def _say(signals: Signals, loss: Loss, channel: str, at: float) -> None:
+def _say(signals: Signals, loss: Loss, channel: str, readings: Array) -> None:
+    """Note and flag a loss, with the last reading before it; frames between may be empty."""
+    before = readings[: loss.row]
+    at = float(before[~np.isnan(before)][-1])
     signals.note(
         "extensometer",
         f"{channel} {loss.what} at reading {loss.row + 1}: emptied from there",
@@ -130,6 +127,8 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     if len(rows) < _LEAST_SIGHT:
         return None
     step, gain = np.diff(strain[rows]), np.diff(load[rows])
+    if not np.abs(step).max() > smallest:
+        return None
     moving = np.abs(step[step != 0])
     usual = float(np.median(moving)) if len(moving) else 0.0
     usual_gain = float(np.median(np.abs(gain)))

@@ -74,9 +74,9 @@ def _spikes(readings: Array, share: float) -> Rows:
     size = np.abs(step)
     leaves = np.minimum(size[:-1], size[1:])
     leaves[np.sign(step[:-1]) * np.sign(step[1:]) >= 0] = 0.0
+    if 2 * np.count_nonzero(size >= leaves.max() / 20) > len(size):
+        return kept[:0]  # then the median step is at least that, too
     usual = 20 * float(np.median(size))
-    if leaves.max() <= usual:
-        return kept[:0]
     low, high = np.percentile(values, [1, 99])
     return kept[1:-1][leaves > max(share * float(high - low), usual)]
 

@@ -15,6 +15,8 @@ from nptcs.tables.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
 """Two in-plane strains closer than this cannot be told apart."""
+NO_STRAIN = "none"
+"""Strain source of a test that shows its strength only."""
 
 
 def resolve_strains(
@@ -54,13 +56,18 @@ def resolve_strains(
         source = "dic" if source == "unspecified" else source
     else:
         name, axial, source = _single(signals, specimen, source, compliance_mm_per_n, path)
-        signals.note("axial strain", f"column '{columns[name]}'")
+        signals.note("axial strain", f"column '{columns[name]}'" if source != NO_STRAIN else "none")
     empty = np.full(len(signals), np.nan)
     values["strain_axial"] = axial
     values["strain_transverse"] = empty if transverse is None else transverse
     values["strain_axial_back"] = values.pop("strain_back", empty)
     if source == "crosshead":
         signals.flags.append("crosshead strain: modulus and strains hold machine and grips")
+    elif source == NO_STRAIN:
+        signals.flags.append(
+            "no strain: gauge_length_mm is empty in the sheet, so that the crosshead travel "
+            "cannot become one; the strength rests on the force alone, whose unit no modulus checks"
+        )
     elif source == "unspecified":
         signals.flags.append("the file does not say what measured the strain")
     return source
@@ -69,7 +76,10 @@ def resolve_strains(
 def _single(
     signals: Signals, specimen: Specimen, source: str, compliance: float | None, path: Path
 ) -> tuple[str, Array, str]:
-    """One channel along the load, the best that is there: its name, strain and source."""
+    """One channel along the load, the best that is there: its name, strain and source.
+
+    A travel without a length leaves the strain empty where the strength needs none.
+    """
     values = signals.values
     if "strain" in values:
         if _follows(values["strain"], values.get("displacement")):
@@ -86,6 +96,8 @@ def _single(
             "no strain", "name a strain_file in the sheet", path, specimen=specimen.specimen
         )
     if specimen.gauge_length_mm is None and specimen.bar is None:
+        if name == "displacement" and specimen.test.has_strength_without_strain:
+            return name, np.full(len(signals), np.nan), NO_STRAIN
         raise InputError(
             f"gauge_length_mm is empty: {name} cannot become strain",
             "give the gauge length (grip distance for crosshead travel) in the sheet",

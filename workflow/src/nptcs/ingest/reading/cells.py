@@ -275,7 +275,9 @@ class TextSource:
 
         rows = [self.cells(row) for row in found_table.rows_of_data]
         text = [[plain(c[p]) if p < len(c) else "nan" for p in positions] for c in rows]
-        return np.array(text, dtype=np.float64)
+        values = np.array(text, dtype=np.float64)
+        self._refuse_infinite(found_table, values, positions)
+        return values
 
     def _refuse_infinite(
         self, found_table: FoundTable, values: Array, positions: Sequence[int]

@@ -97,12 +97,28 @@ def _map_names(
                 for column in columns
                 if column.position not in taken and name_matches(part(column.name), name)
             ]
+            if part is not _whole and quantity not in _NUMBERED:
+                fitting = fitting + _siblings(fitting, columns)
             if len(fitting) > 1:
                 raise _several(path, found_table, quantity, name, fitting)
             if fitting:
                 mapped[quantity] = fitting[0]
                 taken.add(fitting[0].position)
                 break
+
+
+_NUMBERED = ("strain", "strain_transverse")
+"""Of these `1` and `2` are the strains along and across, in many programs."""
+
+
+def _siblings(fitting: Sequence[Column], columns: Sequence[Column]) -> list[Column]:
+    """Columns that differ from one of `fitting` in the number at the end only: ``Load1, Load2``."""
+
+    def stem(column: Column) -> tuple[str, str | None]:
+        return re.sub(r"\d+$", "", normalise(column.name)), column.unit
+
+    stems = [stem(column) for column in fitting if column.name[-1:].isdigit()]
+    return [column for column in columns if column not in fitting and stem(column) in stems]
 
 
 _BY_UNIT = {
@@ -153,9 +169,12 @@ def _several(
     path: Path, found_table: FoundTable, quantity: str, name: str, fitting: Sequence[Column]
 ) -> InputError:
     choices = ", ".join(f"'{column.name}' (number {column.position + 1})" for column in fitting)
+    remedy = f"name the right one exactly as {quantity} in a profile, and the profile in the sheet"
+    if quantity == "strain":
+        remedy += "; gauges on both faces: strain and strain_back, across: strain_transverse"
     return InputError(
         f"'{name}' fits several columns for {quantity}: {choices}",
-        "name the right one exactly in a profile",
+        remedy,
         path,
         None if found_table.names_row is None else found_table.names_row + 1,
     )

@@ -22,6 +22,7 @@ from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
 
 HEAD_LINES = 60
 _MARKUP = re.compile(rb"(?i)(?:\xef\xbb\xbf)?\s*<(?:\?xml|!doctype|html|head|table|workbook)\b")
+_UNITS = frozenset(unit for units in FACTORS.values() for unit in units)
 _WORD = re.compile(r"[^\W\d_]{2}|[|\[(%]")
 
 
@@ -47,11 +48,7 @@ class OpenedFile:
 
 def vocabulary(profiles: Mapping[str, FormatProfile]) -> frozenset[str]:
     """Every column name and label that the profiles know, and the units."""
-    words = {unit for units in FACTORS.values() for unit in units}
-    for profile in profiles.values():
-        for names in (*profile.columns.values(), *profile.labels.values()):
-            words.update(name.strip("*") for name in names)
-    return frozenset(words)
+    return _UNITS.union(*(profile.words for profile in profiles.values()))
 
 
 def open_file(

@@ -6,7 +6,7 @@ import re
 import unicodedata
 from collections.abc import Mapping
 from fnmatch import fnmatchcase
-from functools import lru_cache
+from functools import cached_property, lru_cache
 from pathlib import Path
 from typing import Literal, Self
 
@@ -110,6 +110,12 @@ class FormatProfile(Strict):
         if self.delimiter and self.delimiter == self.decimal:
             raise ValueError("delimiter and decimal mark are the same")
         return self
+
+    @cached_property
+    def words(self) -> frozenset[str]:
+        """Names of columns and labels, without the ``*`` that stands for anything."""
+        names = (*self.columns.values(), *self.labels.values())
+        return frozenset(name.strip("*") for several in names for name in several)
 
     def for_head(self, head: str) -> FormatProfile:
         """Return the profile with the decimal mark that a file's head states."""
