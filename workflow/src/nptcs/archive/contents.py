@@ -26,7 +26,9 @@ RESULTS = ("report.html", "workbook.xlsx", "material_card.json", "configuration.
 """Results besides the tables; without any of them the study is not finished."""
 VERDICT = "verdict.txt"
 """Written only by a run in which every specimen and case gave a result."""
-CODE = ("workflow/Snakefile", "workflow/rules/*.smk", "workflow/scripts/*.py",
+PACKAGES = ("nptcs", "snakemake_logger_plugin_nptcs")
+"""Import packages; Snakemake finds the second by its name."""
+CODE = ("Snakefile", "workflow/Snakefile", "workflow/rules/*.smk", "workflow/scripts/*.py",
         "workflow/report/*.rst", "profiles/*/*.yaml")  # fmt: skip
 PROJECT = ("pyproject.toml", "constraints.txt", "Makefile", "LICENSE", "CITATION.cff", "README.md")
 """Files of a clone; a project folder with an installed package has none of them."""
@@ -61,11 +63,12 @@ def contents_of(root: Path, config: Config) -> dict[str, tuple[Path, Role]]:
     for pattern in (*CODE, *PROJECT):
         for path in sorted(root.glob(pattern)):
             found.setdefault(_inside(path, root), (path, Role.CODE))
-    package = Path(nptcs.__file__).parent
-    for path in sorted(package.rglob("*")):
-        if path.is_file() and "__pycache__" not in path.parts:
-            name = f"workflow/src/nptcs/{path.relative_to(package).as_posix()}"
-            found.setdefault(name, (path, Role.CODE))
+    source = Path(nptcs.__file__).parents[1]
+    for package in PACKAGES:
+        for path in sorted((source / package).rglob("*")):
+            if path.is_file() and "__pycache__" not in path.parts:
+                name = f"workflow/src/{path.relative_to(source).as_posix()}"
+                found.setdefault(name, (path, Role.CODE))
     return found
 
 
