@@ -1,5 +1,6 @@
 """What a change reruns: content counts, dates do not, words only where they are printed."""
 
+import json
 import os
 import shutil
 
@@ -37,14 +38,18 @@ def grown(finished, tmp_path_factory) -> Project:
     return project
 
 
-@pytest.fixture(scope="module")
-def planned(grown, tmp_path_factory):
-    """The plan after each change."""
-    base = tmp_path_factory.mktemp("increments")
-    folders = [base / str(number) for number in range(len(CHANGES))]
-    for change, folder in zip(CHANGES, folders, strict=True):
-        changed_copy(grown.folder, folder, change)
-    return dict(zip(NAMES, plan_all(folders), strict=True))
+@pytest.fixture(scope="session")
+def planned(grown):
+    """The plan after each change, made once for all test processes."""
+    base = grown.folder.parent
+    plans = base / "plans.json"
+    with FileLock(base / "plans.lock"):
+        if not plans.exists():
+            folders = [base / str(number) for number in range(len(CHANGES))]
+            for change, folder in zip(CHANGES, folders, strict=True):
+                changed_copy(grown.folder, folder, change)
+            plans.write_text(json.dumps(plan_all(folders)), encoding="utf-8")
+    return dict(zip(NAMES, json.loads(plans.read_text("utf-8")), strict=True))
 
 
 @pytest.mark.parametrize("change", CHANGES, ids=lambda change: change.name)
