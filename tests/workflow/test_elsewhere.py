@@ -207,7 +207,9 @@ def test_a_second_run_on_one_folder_is_refused(project):
         assert first.poll() is None, "the first run ended before it had locked the folder"
         time.sleep(0.05)
     second = project.snakemake()
-    assert second.returncode != 0
-    assert "cannot be locked" in second.stdout + second.stderr
     assert first.wait() == 0
+    assert second.returncode != 0
+    # the second words are Snakemake's where a file goes while it plans, before it asks for the lock
+    refusals = ("cannot be locked", "could be that a concurrent process")
+    assert any(words in second.stdout + second.stderr for words in refusals), second.stderr
     assert project.path("results/report.html").exists()
