@@ -262,7 +262,10 @@ def _faults(one: Answer) -> Iterator[tuple[str, str]]:
 def _references(
     run: FinishedRun, study: Study
 ) -> tuple[list[NamedDesign], list[tuple[str, str, str, str, str]]]:
-    """Gather a study's reference design by each solver that has the surface, and the refusals."""
+    """Gather a study's reference design by each solver that has the surface, and the refusals.
+
+    Responses that a solver does not give are left out; the stiffness it must give.
+    """
     found, refused = [], []
     for solver in study.solvers:
         options = run.config.options_of(study.name, solver)
@@ -273,10 +276,9 @@ def _references(
             values |= {name: value for name, value in realised.items() if name in values}
         try:
             source = source_of(run, study, solver, None)
-            fitted = tuple(
-                source.fit(source.results.at_its_load(name), run.config.uncertainty.surface)
-                for name in _responses_of(study)
-            )
+            stiffness, *further = map(source.results.at_its_load, _responses_of(study))
+            given = [stiffness, *filter(source.results.gives, further)]
+            fitted = tuple(source.fit(name, run.config.uncertainty.surface) for name in given)
             point = np.array([values[name] for name in fitted[0].model.factors])
             _refuse_outside(fitted[0].model.inside(point[None, :])[0], study, values)
         except InputError as error:

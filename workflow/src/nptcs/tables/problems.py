@@ -6,11 +6,13 @@ import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
+STAGES = ("sheet", "ingest", "reduce", "solve", "surface", "uncertainty", "decision")
+
 
 class Problems(pa.DataFrameModel):
     """``problems.csv``: specimens, fits and cases that gave no result, and why."""
 
-    stage: Series[str] = pa.Field(isin=["sheet", "ingest", "reduce", "solve", "surface"])
+    stage: Series[str] = pa.Field(isin=STAGES)
     name: Series[str] = pa.Field(description="Specimen, case or surface")
     solver: Series[str] = pa.Field(description="Empty where no solver is concerned")
     status: Series[str]

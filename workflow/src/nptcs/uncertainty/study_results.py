@@ -67,6 +67,14 @@ class StudyResults:
         """Return the unit of a response."""
         return RESPONSE_KINDS[response.name].unit
 
+    def gives(self, response: ResponseName) -> bool:
+        """Tell whether any solved case has a response: ``published`` has the stiffness alone."""
+        try:
+            self.values(response)
+        except InputError:
+            return False
+        return True
+
     def values(self, response: ResponseName) -> Array:
         """Return a response of the solved cases, not a number where a case lacks it, (m,).
 
