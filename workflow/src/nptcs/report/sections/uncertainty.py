@@ -85,7 +85,7 @@ def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
     for key, rows in stiffness.dropna(subset=["share_percent"]).groupby(KEYS, sort=False):
         study, solver, design, _, at = map(str, key)
         synthetic = results.study_is_synthetic(results.config.study(study), solver)
-        given = (rows, f"{design}, {solver}, stiffness at {at}", synthetic)
+        given = (rows, f"{design}, {at}\n{solver}", synthetic)
         alt = f"Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}"
         plots.append(plot(alt, synthetic, share_bars, *given))
     return plots
