@@ -1,4 +1,4 @@
-"""Why no design is acceptable: which goals stand in each other's way."""
+"""Why no design is acceptable: which goals exclude each other."""
 
 from __future__ import annotations
 

@@ -38,7 +38,7 @@ class Outcome:
     sampled : ndarray
         Probability of each design from these samples.
     why : str
-        What stands in the way, or must be known of the choice.
+        Why there is no choice, or what must be known of it.
     confidence : float
         Of the intervals.
     """

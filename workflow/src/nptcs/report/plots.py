@@ -18,11 +18,11 @@ from typing import ParamSpec
 import matplotlib as mpl
 from matplotlib.figure import Figure
 
-from nptcs.files import write_text
+from nptcs.errors import InputError
+from nptcs.files import read_sealed, write_sealed
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
 from nptcs.report.figures.style import PANEL, to_svg
-from nptcs.seal import BrokenSealError, open_object, sealed_object
 
 KIND = "Figure"
 PIXELS_PER_POINT = 96 / 72
@@ -48,14 +48,13 @@ class KeptFigures:
         """Return the SVG text kept under a key; None if there is none that is whole."""
         self.used.add(f"{key}.json")
         try:
-            text = (self.folder / f"{key}.json").read_text(encoding="utf-8")
-            return str(open_object(text, KIND)["svg"])
-        except (OSError, UnicodeDecodeError, BrokenSealError, KeyError):
+            return str(read_sealed(self.folder / f"{key}.json", KIND)["svg"])
+        except (OSError, InputError, KeyError):
             return None
 
     def write(self, key: str, svg: str) -> None:
         """Keep a figure."""
-        write_text(self.folder / f"{key}.json", sealed_object({"svg": svg}, KIND))
+        write_sealed(self.folder / f"{key}.json", {"svg": svg}, KIND)
 
     def drop_unused(self) -> None:
         """Remove the figures that were not asked for."""

@@ -12,9 +12,9 @@ from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import Any
 
-from nptcs.files import write_text
+from nptcs.errors import InputError
+from nptcs.files import read_sealed, write_sealed
 from nptcs.provenance import code_hash
-from nptcs.seal import BrokenSealError, open_object, sealed_object
 
 KIND = "StartFacts"
 PACKAGE = Path(__file__).parents[1]
@@ -123,7 +123,7 @@ def known_facts(
         if new or len(facts.code) > hashes:
             with suppress(OSError):
                 content = {"key": key, "facts": asdict(facts)}
-                write_text(file, sealed_object(json.loads(json.dumps(content)), KIND))
+                write_sealed(file, json.loads(json.dumps(content)), KIND)
 
     atexit.register(keep)
     return facts
@@ -150,7 +150,7 @@ def contents(paths: Iterable[str]) -> dict[str, str]:
 
 def _read(file: str | Path, key: str) -> Facts | None:
     try:
-        content = open_object(Path(file).read_text(encoding="utf-8"), KIND)
+        content = read_sealed(file, KIND)
         if content["key"] != key:
             return None
         facts = content["facts"]
@@ -160,5 +160,5 @@ def _read(file: str | Path, key: str) -> Facts | None:
         }
         found = Facts(solvers=solvers, **facts)
         return found if contents(found.files) == found.files else None
-    except (OSError, UnicodeDecodeError, BrokenSealError, KeyError, TypeError):
+    except (OSError, InputError, KeyError, TypeError):
         return None

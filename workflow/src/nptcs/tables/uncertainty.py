@@ -11,7 +11,7 @@ class ResponseUncertainty(pa.DataFrameModel):
     """``uncertainty.csv``: distribution of each response, one row per design and response.
 
     What scatters and is not known exactly is in it: tests, stated rubbers, tolerances and the
-    surface's own error. The solver's bias is not: it stands in columns of its own.
+    surface's own error. The solver's bias is not: it has columns of its own.
     """
 
     study: Series[str]
