@@ -25,21 +25,12 @@ def solver_facts():
 
 def configured_inputs():
     """Input files that the configuration names; raw laboratory files are listed in files.csv."""
-    check = CONFIG.lca_validation
-    paths = [
-        str(SHEET),
-        *map(str, sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))),
-        CONFIG.sensitivity.published_impact,
-        check.spoke_stiffness,
-        check.published,
-        check.published_loads,
-        check.published_fem,
-    ]
+    formats = sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
+    paths = [str(SHEET), *map(str, formats), *CONFIG.published_inputs()]
     for study in CONFIG.studies:
-        paths += [study.published_coefficients, study.published_spoke_stiffness]
         for name in study.solvers:
             paths += solver_of(study.name, name).tables().values()
-    return list(dict.fromkeys(filter(None, paths)))
+    return list(dict.fromkeys(paths))
 
 
 rule configuration:

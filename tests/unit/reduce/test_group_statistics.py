@@ -15,6 +15,7 @@ from nptcs.tables.properties import PropertiesTable
 
 Make = Callable[..., Any]
 SETTINGS = ReductionSettings()
+TRAVEL = "crosshead strain: modulus and strains hold machine and grips"
 
 
 def properties(
@@ -152,11 +153,31 @@ def test_ranges_that_differ_inside_a_group_are_said(make_specimen: Make) -> None
 
 def test_crosshead_strain_is_said_wherever_the_modulus_shows(make_specimen: Make) -> None:
     table = properties([1.0, 2.0, 3.0])
-    table.loc[1, "flags"] = "crosshead strain: modulus and strains hold machine and grips"
-    table.loc[2, "flags"] = "failure after 20 min"
-    notes = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]["notes"]
-    assert "crosshead strain: T-2" in notes
-    assert "flagged: T-2, T-3" in notes
+    table["flags"] = TRAVEL
+    table.loc[2, "flags"] += "; failure after 20 min"
+    row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
+    assert "crosshead strain: T-1, T-2, T-3" in row["notes"]
+    assert "flagged: T-1, T-2, T-3" in row["notes"]
+    assert row["mean"] == pytest.approx(2.0)
+
+
+@pytest.mark.parametrize("test", ["tension", "compression", "shear"])
+def test_no_mean_mixes_travel_with_sensors(test: str, make_specimen: Make) -> None:
+    """A modulus from crosshead travel is a third of the others: it is not one of them."""
+    table = properties([90.0, 92.0, 30.0, 91.0], test)
+    table.loc[2, "flags"] = TRAVEL
+    row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
+    assert row["mean"] == pytest.approx(91.0)
+    assert "T-3: crosshead strain, where other specimens of the group have" in row["not_assessed"]
+    assert "assessed: 3 of 4" in row["notes"]
+
+
+def test_a_strength_needs_no_sensor(make_specimen: Make) -> None:
+    table = properties([90.0, 92.0, 91.0]).assign(property="strength")
+    table.loc[2, "flags"] = TRAVEL
+    row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
+    assert row["mean"] == pytest.approx(91.0)
+    assert row["not_assessed"] == ""
 
 
 def test_rubber_groups_have_no_orientation_and_report_the_median(make_specimen: Make) -> None:

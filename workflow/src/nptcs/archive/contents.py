@@ -76,20 +76,12 @@ def inputs_of(root: Path, config: Config) -> list[Path]:
     """List the files that a study reads: laboratory data, profiles, published tables, modules."""
     sheet = root / config.lab_data.specimen_sheet
     formats = root / config.lab_data.formats
-    check = config.lca_validation
-    named: list[str | None] = [
-        config.sensitivity.published_impact,
-        check.spoke_stiffness,
-        check.published,
-        check.published_loads,
-        check.published_fem,
-    ]
+    named = config.published_inputs()
     for study in config.studies:
-        named += [study.published_coefficients, study.published_spoke_stiffness]
         for name, options in config.solver_options(study).items():
             named += _of_solver(name, options)
     listed = [sheet, *raw_files(sheet.parent).values(), *sorted(formats.glob("*.yaml"))]
-    listed += [root / name for name in named if name]
+    listed += [root / name for name in named]
     return list(dict.fromkeys(listed))
 
 

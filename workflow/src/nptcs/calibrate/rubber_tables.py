@@ -8,6 +8,7 @@ import pandas as pd
 
 from nptcs.calibrate.compare import c10_against_range, compare_models
 from nptcs.calibrate.rubber import calibrate_rubber
+from nptcs.calibrate.strain_sources import without_travel_next_to_sensors
 from nptcs.config.calibration import CalibrationSettings
 from nptcs.reduce.origin import origins_of
 from nptcs.tables.curves import IngestRecord
@@ -46,11 +47,15 @@ def calibrate_rubber_tables(
         `nptcs.tables.hyperelastic.RangeTable`.
     """
     usable = {specimen: curve for specimen, curve in curves.items() if len(curve)}
-    data = (name, usable, specimens, settings)
     sources = {record.specimen: record.strain_source for record in records}
+    words: list[str] = []
+    if settings.rubber.only_specimen is None:
+        specimens, words = without_travel_next_to_sensors(name, specimens, sources)
+    data = (name, usable, specimens, settings)
     origins = origins_of(records)
+    card = calibrate_rubber(*data, sources, origins)
     return (
-        calibrate_rubber(*data, sources, origins),
+        card.model_copy(update={"checks": (*card.checks, *words)}),
         compare_models(*data, origins),
         c10_against_range(*data, origins),
     )

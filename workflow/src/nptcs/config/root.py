@@ -148,6 +148,20 @@ class Config(Strict):
             raise ValueError(f"sensitivity.distributions: not a factor of any study: {stray}")
         return self
 
+    def published_inputs(self) -> list[str]:
+        """Name the published tables that the configuration compares with, those of studies last."""
+        check = self.lca_validation
+        named: list[str | None] = [
+            self.sensitivity.published_impact,
+            check.spoke_stiffness,
+            check.published,
+            check.published_loads,
+            check.published_fem,
+        ]
+        for study in self.studies:
+            named += [study.published_coefficients, study.published_spoke_stiffness]
+        return [name for name in named if name]
+
     @property
     def decisions(self) -> tuple[Decision, ...]:
         """The decisions of all studies, each with the name of its study."""

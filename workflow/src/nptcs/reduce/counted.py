@@ -7,19 +7,26 @@ from collections.abc import Mapping
 import numpy as np
 import pandas as pd
 
+from nptcs.reduce.deviations import CROSSHEAD
 from nptcs.reduce.evidence import UNRECORDED
 from nptcs.tables.specimens import Specimen
 
 GROUP = ["test", "material", "orientation_deg", "property"]
 NOT_ASSESSED = "not assessed: "
+WITHOUT_STRAIN = ("strength", "flexural_strength", "time_to_failure")
+"""Properties that need no strain, so that its source does not matter."""
+TRAVEL_NEXT_TO_SENSORS = (
+    f"{NOT_ASSESSED}{CROSSHEAD}, where other specimens of the group have a sensor"
+)
 
 
 def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataFrame:
     """Rows of a property table that enter statistics and cards, one for each piece.
 
     A row counts if the sheet includes its specimen and takes the property from this run. A value
-    whose failure no reading shows is emptied: it is not assessed for any mean. Runs that give the
-    same property of the same piece count once, with the mean of their values.
+    whose failure no reading shows is emptied: it is not assessed for any mean. So is one that rests
+    on crosshead travel where another specimen of the group has a sensor. Runs that give the same
+    property of the same piece count once, with the mean of their values.
 
     Parameters
     ----------
@@ -34,7 +41,8 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
         The same columns; ``specimen`` is the piece where the sheet names one.
     """
     pairs = zip(properties["specimen"], properties["property"], strict=True)
-    rows = _recorded(properties[[sheet[specimen].gives(name) for specimen, name in pairs]])
+    rows = properties[[sheet[specimen].gives(name) for specimen, name in pairs]]
+    rows = _of_sensors(_recorded(rows))
     if not any(sheet[name].piece for name in rows["specimen"].unique()):
         return rows
     pieces = rows["specimen"].map(lambda name: sheet[name].tested_piece).rename("of_piece")
@@ -52,6 +60,22 @@ def _recorded(rows: pd.DataFrame) -> pd.DataFrame:
         return rows
     flags = NOT_ASSESSED + rows.loc[open_, "flags"]
     return rows.assign(value=rows["value"].mask(open_), flags=rows["flags"].mask(open_, flags))
+
+
+def _of_sensors(rows: pd.DataFrame) -> pd.DataFrame:
+    """Empty what crosshead travel gives in groups in which another specimen has a sensor.
+
+    Travel holds the compliance of machine and grips, so that a modulus from it can be a third of
+    the material's. Where no specimen of a group has a sensor all of its values stay, flagged.
+    """
+    of_strain = rows["value"].notna() & ~rows["property"].isin(WITHOUT_STRAIN)
+    travel = of_strain & rows["flags"].str.contains(CROSSHEAD, regex=False)
+    if not travel.any():
+        return rows
+    sensor = of_strain & ~travel
+    mixed = travel & sensor.groupby([rows[key] for key in GROUP], dropna=False).transform("any")
+    flags = TRAVEL_NEXT_TO_SENSORS + "; " + rows.loc[mixed, "flags"]
+    return rows.assign(value=rows["value"].mask(mixed), flags=rows["flags"].mask(mixed, flags))
 
 
 def _one_row(piece: str, runs: pd.DataFrame) -> pd.DataFrame:
