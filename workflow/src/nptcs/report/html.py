@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from nptcs.report.blocks import macro_of
 from nptcs.report.data import Results
+from nptcs.report.figures.theme import theme_css
 from nptcs.report.sections.plan import build_sections
 from nptcs.report.sections.summary import summary_blocks
 from nptcs.report.tables.sheets import sheets_of
@@ -46,6 +47,9 @@ def render_report(results: Results) -> str:
         sections=build_sections(results, sheets),
         style=_resource("report.css"),
         script=_resource("sort.js"),
+        figure_theme=Markup(theme_css()),
+        figure_style=_resource("figures.css"),
+        figure_script=_resource("figures.js"),
     )
 
 
