@@ -26,7 +26,7 @@ from nptcs.errors import InputError
 from nptcs.files import read_sealed, write_sealed
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
-from nptcs.report.figures.style import data_of, draw_svg
+from nptcs.report.figures.style import data_of, to_svg
 from nptcs.report.svg import compact
 
 KIND = "Figure"
@@ -106,7 +106,7 @@ def plot(
     if found is None:
         figure = draw(*args, **kwargs)
         data = data_of(figure)
-        found = compact(draw_svg(figure)), "" if data is None else csv_of(data)
+        found = compact(to_svg(figure)), "" if data is None else csv_of(data)
         if kept is not None and key is not None:
             kept.write(key, *found)
     svg, csv = found
