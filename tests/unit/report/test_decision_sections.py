@@ -238,9 +238,7 @@ def test_residual_figures_show_every_case(results):
     table = influence_table({"plate": {"published": surface}})
     axes = residuals_over_value(table, "title").axes[0]
     marks = [line.get_xydata() for line in axes.get_lines() if line.get_color() == COLOURS[0]]
-    expected = np.column_stack(
-        [surface.predict(surface.x), surface.y - surface.predict(surface.x)]
-    )
+    expected = np.column_stack([surface.predict(surface.x), surface.y - surface.predict(surface.x)])
     np.testing.assert_allclose(in_order(np.vstack(marks)), in_order(expected), atol=1e-9)
     line = residual_quantiles(table, "title").axes[0].get_lines()[-1]
     assert len(line.get_xdata()) == 63
