@@ -28,7 +28,8 @@ def load_displacement(
 ) -> Figure:
     """Draw load against displacement of all tyres, figure 10 b of the paper.
 
-    The softest and the stiffest tyre have their names and their secant stiffness at the end; crosses are the paper's values at its load.
+    The softest and the stiffest tyre have their names and their secant stiffness at the end;
+    crosses are the paper's values at its load.
 
     Parameters
     ----------
