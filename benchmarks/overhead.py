@@ -34,7 +34,9 @@ def project(folder: Path) -> None:
     for study in values["studies"]:
         quick = [name for name in study["solvers"] if name in QUICK]
         if quick:
-            dropped = {"calibration_cases", "published_spoke_stiffness", "decisions"}
+            dropped = {
+                *("calibration_cases", "published_spoke_stiffness", "decisions", "responses"),
+            }
             kept = {key: value for key, value in study.items() if key not in dropped}
             options = study.get("solver_options", {})
             kept["solver_options"] = {key: options[key] for key in quick if key in options}
