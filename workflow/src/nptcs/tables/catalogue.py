@@ -17,6 +17,7 @@ from nptcs.tables.decisions import (
     DecisionFront,
     Decisions,
 )
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -342,6 +343,14 @@ TABLES: dict[str, ResultTable] = {
         "Load–displacement curves of the solved tyres (figure 10 b)",
         "tyre_responses",
         "the records of the tyres",
+        section=ReportSection.TYRE,
+        synthetic=SyntheticBy.ROWS,
+    ),
+    "deformed_tyre.csv": ResultTable(
+        DeformedTyre,
+        "Outlines of a loaded tyre with all its spokes (figure 10 a)",
+        "deformed_tyre",
+        "the first case that neutral_line_cases names, solved again for the motions of its spokes",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
     ),
