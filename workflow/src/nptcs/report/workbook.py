@@ -91,7 +91,7 @@ def _write_about(about: Worksheet, results: Results, sheets: Sequence[Sheet]) ->
     about.title = "About"
     sound, line = results.verdict()
     settings = results.config.report
-    lines = [settings.title, settings.laboratory, line]
+    lines = [settings.title, results.config.laboratory.name, line]
     if results.any_synthetic:
         lines.append("SYNTHETIC example data: sheets with an orange header rest on it.")
     lines.append(
