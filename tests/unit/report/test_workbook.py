@@ -11,7 +11,7 @@ import pytest
 from nptcs.report.tables.dictionary import dictionary_table
 from nptcs.report.tables.entries import design_entry, result_entry
 from nptcs.report.tables.sheets import Sheet, sheets_of
-from nptcs.report.workbook import build_workbook
+from nptcs.report.workbook.build import build_workbook
 from nptcs.tables.catalogue import TABLES
 
 

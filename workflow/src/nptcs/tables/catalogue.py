@@ -325,6 +325,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the single spokes",
         section=ReportSection.SPOKE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "tyre_responses.csv": ResultTable(
         TyreResponses,
@@ -343,6 +344,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "plate_stress.csv": ResultTable(
         PlateStress,
@@ -351,6 +353,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres, whose most loaded spokes were solved again at their motion",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "stiffness_against_published.csv": ResultTable(
         StiffnessAgainstPublished,
@@ -395,6 +398,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the cases that the studies' neutral_line_cases names",
         section=ReportSection.PUBLISHED_STIFFNESS,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "lca_validation.csv": ResultTable(
         LcaValidation,
@@ -419,6 +423,7 @@ TABLES: dict[str, ResultTable] = {
         "the same solutions of the model, evaluated along the ring",
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
+        raw=True,
     ),
 }
 """Tables of ``results/tables`` by file name, in the order of the workbook.
