@@ -93,9 +93,7 @@ def identify(
     }
     text = json.dumps(parts, sort_keys=True, ensure_ascii=False)
     moment = made.astimezone(UTC).replace(microsecond=0)
-    return RunIdentity(
-        identity=sha256_of_text(text), software=dict(software), made=moment, **parts
-    )
+    return RunIdentity(identity=sha256_of_text(text), software=dict(software), made=moment, **parts)
 
 
 def hash_of_table(path: str | Path) -> str:

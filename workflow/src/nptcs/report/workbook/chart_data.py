@@ -65,7 +65,7 @@ class ChartData:
 
 
 def charts_of(results: Results) -> list[ChartData]:
-    """Return the charts of a run, from the material to the tyre; those without lines are left out."""
+    """Return the charts of a run, from material to tyre; those without lines are left out."""
     found = [
         *_specimens(results),
         *_rubber_ranges(results),
@@ -172,9 +172,7 @@ def _against_published(results: Results) -> Iterator[ChartData]:
     table = results.table(StiffnessAgainstPublished)
     x, y = "published_stiffness_n_per_mm", "computed_stiffness_n_per_mm"
     for study, rows in table.dropna(subset=[x, y]).groupby("study", sort=False):
-        lines = [
-            _line(str(name), one.sort_values(x), x, y) for name, one in rows.groupby("solver")
-        ]
+        lines = [_line(str(name), one.sort_values(x), x, y) for name, one in rows.groupby("solver")]
         ends = np.array([rows[x].min(), rows[x].max()])
         yield ChartData(
             f"Computed against published stiffness ({study})",

@@ -39,6 +39,17 @@ def fit_widths(worksheet: Worksheet, header: int) -> None:
     worksheet.row_dimensions[header].height = LINE_HEIGHT * lines
 
 
+def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
+    """Make rows high enough for their wrapped cells; programs do it only when one is edited."""
+    for row in worksheet.iter_rows(min_row=first, max_row=last):
+        lines = 1
+        for cell in row:
+            if cell.value is not None and cell.alignment.wrap_text:
+                width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
+                lines = max(lines, len(wrap(str(cell.value), width)))
+        worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * lines
+
+
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:
     """Set the pages of a sheet: landscape, as wide as one page, its header on each of them."""
     worksheet.print_area = area or worksheet.dimensions

@@ -35,7 +35,7 @@ MOST_DECIMALS = {
     "bytes": 0,
     "kg": 4,
 }
-"""Decimals beyond which a value of this unit says nothing; units that are not listed have `MOST`."""
+"""Decimals beyond which a value of this unit says nothing; other units have `MOST`."""
 
 MOST = 7
 SPREAD = 1e6
@@ -82,7 +82,7 @@ def format_of_column(unit: str, values: pd.Series[float]) -> str | None:
     sizes = sizes[np.isfinite(sizes) & (sizes > 0)]
     if not sizes.size:
         return WHOLE
-    if sizes.max() > SPREAD * np.quantile(sizes, 0.1):
+    if sizes.max() > SPREAD * np.quantile(sizes, 0.1, method="lower"):
         return SCIENTIFIC
     most = MOST_DECIMALS.get(unit, MOST)
     decimals = min(most, max(0, DIGITS - 1 - _exponent(float(np.median(sizes)))))

@@ -12,15 +12,24 @@ from collections.abc import Mapping, Sequence
 
 from openpyxl import Workbook
 from openpyxl.formatting.rule import FormulaRule
-from openpyxl.styles import Border, Font, PatternFill, Protection, Side
+from openpyxl.styles import Alignment, Border, Font, PatternFill, Protection, Side
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import words
-from nptcs.report.workbook.cells import FONT, INPUT, WRAPPED, head_row, write, write_row, write_title
+from nptcs.report.workbook.cells import (
+    FONT,
+    INPUT,
+    SYNTHETIC,
+    head_row,
+    write,
+    write_row,
+    write_title,
+)
 from nptcs.report.workbook.layout import page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
 from nptcs.report.workbook.predictor_models import (
@@ -30,6 +39,7 @@ from nptcs.report.workbook.predictor_models import (
     start_values,
 )
 from nptcs.report.workbook.predictor_terms import Block, write_block
+from nptcs.surface.registry import STIFFNESS, FittedSurface
 
 PREDICTOR, TERMS = "predictor", "predictor_terms"
 FIRST_INPUT = 6
@@ -47,8 +57,9 @@ COLUMNS = (
     "interval to",
     "range of validity",
     "what it takes and what its study holds",
+    "data",
 )
-WIDTHS = (13, 16, 30, 11, 13, 26, 16, 16, 16, 44, 60)
+WIDTHS = (26, 16, 30, 13, 13, 26, 16, 16, 16, 30, 62, 17)
 LIGHT_RED = PatternFill("solid", start_color="FDD9C8", end_color="FDD9C8")
 
 
@@ -70,7 +81,7 @@ def write_predictor(workbook: Workbook, results: Results) -> None:
         block = write_block(terms, row, model, cells)
         blocks.append(block)
         row = block.last_row + 2
-    _write_predictions(sheet, models, blocks)
+    _write_predictions(sheet, models, blocks, results)
     _write_warning(sheet, len(models))
     _say_what_is_missing(sheet, others)
     _finish(sheet, terms)
@@ -95,6 +106,8 @@ def _write_inputs(
     for row, (factor, (symbol, name, unit)) in enumerate(INPUTS.items(), start=FIRST_INPUT):
         lowest, highest = _range_of(factor, models)
         write_row(sheet, row, [name, symbol, unit, start.get(factor), lowest, highest])
+        for column in "EF":
+            sheet[f"{column}{row}"].number_format = "0.####"
         cell = sheet[f"{VALUE}{row}"]
         cell.fill, cell.protection = INPUT, Protection(locked=False)
         cell.border = Border(*[Side("thin", color="B8860B")] * 4)
@@ -124,9 +137,7 @@ def _write_plates(sheet: Worksheet, tyre: TyreGeometry) -> str:
     return f"'{PREDICTOR}'!${VALUE}${row + 3}"
 
 
-def _range_of(
-    factor: str, models: Sequence[PredictorModel]
-) -> tuple[float | None, float | None]:
+def _range_of(factor: str, models: Sequence[PredictorModel]) -> tuple[float | None, float | None]:
     """Return the range of a factor in which at least one polynomial holds."""
     bounds = [
         (low, high)
@@ -145,29 +156,42 @@ def first_row(workbook_row: int = 0) -> int:
 
 
 def _write_predictions(
-    sheet: Worksheet, models: Sequence[PredictorModel], blocks: Sequence[Block]
+    sheet: Worksheet,
+    models: Sequence[PredictorModel],
+    blocks: Sequence[Block],
+    results: Results,
 ) -> None:
     head = first_row() - 1
     head_row(sheet, head, COLUMNS)
     for place, (model, block) in enumerate(zip(models, blocks, strict=True)):
         row, fitted = first_row(place), model.fitted
-        response = words(fitted.response.name.removesuffix("_n_per_mm"))
-        unit = fitted.response.unit or "N/mm"
-        at = fitted.response.at or "load of the study"
-        known = [fitted.study, fitted.solver, response, at, unit, fitted.name]
-        write_row(sheet, row, known)
+        study = results.config.study(fitted.study)
+        write_row(sheet, row, _named(fitted, study))
+        synthetic = results.study_is_synthetic(study, fitted.solver)
+        write_row(sheet, row, [takes(model), "SYNTHETIC" if synthetic else ""], 11)
+        if synthetic:
+            sheet[f"L{row}"].fill = SYNTHETIC
         for column, formula in zip(
             "GHIJ", (block.value, block.low, block.high, block.validity), strict=True
         ):
             sheet[f"{column}{row}"] = formula
         for column in "GHI":
-            sheet[f"{column}{row}"].number_format = format_of_number(float(fitted.surface.y.max()))
-        write(sheet[f"K{row}"], takes(model))
-        for column in "JK":
-            sheet[f"{column}{row}"].alignment = WRAPPED
+            cell = sheet[f"{column}{row}"]
+            cell.number_format = format_of_number(float(fitted.surface.y.max()))
+            cell.alignment = Alignment(horizontal="right")
     last = first_row(len(models) - 1)
     rule = FormulaRule(formula=[f'$J{first_row()}<>"{INSIDE}"'], fill=LIGHT_RED)
     sheet.conditional_formatting.add(f"G{first_row()}:J{last}", rule)
+
+
+def _named(fitted: FittedSurface, study: Study) -> list[str]:
+    """Name a surface: study, solver, response, at which load, unit, kind."""
+    response = fitted.response
+    at, unit = response.at, response.unit
+    if response.name == STIFFNESS:
+        at, unit = f"{study.load_n:g} N", "N/mm"
+    words_of = words(response.name.removesuffix("_n_per_mm"))
+    return [fitted.study, fitted.solver, words_of, at, unit, fitted.name]
 
 
 def takes(model: PredictorModel) -> str:
@@ -184,7 +208,7 @@ def takes(model: PredictorModel) -> str:
     ]
     parts = [f"takes {', '.join(taken)}"]
     parts += [f"its study holds {', '.join(held)}"] if held else []
-    parts += [f"{', '.join(absent)} has no part in it"] if absent else []
+    parts += [f"without {', '.join(absent)}"] if absent else []
     return "; ".join(parts)
 
 

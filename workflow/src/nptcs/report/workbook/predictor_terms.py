@@ -100,9 +100,7 @@ def _write_held(
     return row
 
 
-def _write_terms(
-    sheet: Worksheet, first: int, model: PredictorModel, coded: Sequence[str]
-) -> int:
+def _write_terms(sheet: Worksheet, first: int, model: PredictorModel, coded: Sequence[str]) -> int:
     """Write one row per term with its row of the covariance matrix; return the last row."""
     inner = model.inner
     for place, powers in enumerate(inner.polynomial.exponents):
@@ -165,14 +163,14 @@ def _results(
     inner, half, fails = (f"{name}$B${row + place}" for place in (0, 4, 5))
     low, high = _interval(model.link, inner, half)
     outside = [
-        f'IF({name}$H${place}=0,"{sheet.cell(place, 1).value} ","")'
+        f'IF({name}$H${place}=0,"{sheet.cell(place, 1).value}; ","")'
         for place in range(checked[0], checked[1] + 1)
     ]
     return Block(
         value=f"={INVERSE[model.link].format(inner)}",
         low=f'=IF({fails}=0,{low},"not assessed")',
         high=f'=IF({fails}=0,{high},"not assessed")',
-        validity=f'=IF({fails}=0,"inside","outside: "&{"&".join(outside)})',
+        validity=f'=IF({fails}=0,"inside",TRIM("outside: "&{"&".join(outside)}))',
         last_row=row + 5,
     )
 

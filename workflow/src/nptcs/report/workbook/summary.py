@@ -9,6 +9,7 @@ from pathlib import PurePosixPath
 import pandas as pd
 from openpyxl.styles import Font
 from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.report.data import Results
@@ -24,7 +25,7 @@ from nptcs.report.workbook.cells import (
     write,
     write_row,
 )
-from nptcs.report.workbook.layout import page_for_print
+from nptcs.report.workbook.layout import fit_heights, page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
 from nptcs.surface.registry import STIFFNESS
 from nptcs.tables.decisions import DecisionConfirmation, Decisions
@@ -34,8 +35,8 @@ from nptcs.tables.uncertainty import ResponseUncertainty
 
 TITLE = "Summary"
 ANSWER_HEAD = ("question", "answer", "value", "from", "to", "unit", "what it rests on", "table")
-INDEX_HEAD = ("sheet", "what it says", "rows", "synthetic", "file", "", "made from", "rule")
-WIDTHS = (30, 62, 13, 13, 40, 12, 62, 26)
+INDEX_HEAD = ("sheet", "what it says", "rows", "synthetic", "", "rule", "made from", "file")
+WIDTHS = (34, 66, 12, 12, 12, 24, 66, 40)
 REFERENCE = "reference"
 
 
@@ -177,10 +178,12 @@ def write_summary(worksheet: Worksheet, results: Results, index: Sequence[IndexR
     """Write the first sheet: what the run is, its answer, and what each sheet is."""
     worksheet.title = TITLE
     row = _write_head(worksheet, results)
-    row = _write_answers(worksheet, row + 1, results)
+    first = row + 1
+    row = _write_answers(worksheet, first, results)
     _write_index(worksheet, row + 1, index)
     for column, width in enumerate(WIDTHS, start=1):
         worksheet.column_dimensions[get_column_letter(column)].width = width
+    fit_heights(worksheet, first, worksheet.max_row)
     page_for_print(worksheet, None)
 
 
@@ -218,7 +221,7 @@ def _write_answers(worksheet: Worksheet, top: int, results: Results) -> int:
             cell = worksheet.cell(row, column)
             if cell.data_type == "n" and cell.value is not None:
                 cell.number_format = format_of_number(float(cell.value))
-        for column in (1, 2, 5, 7):
+        for column in range(1, len(ANSWER_HEAD) + 1):
             worksheet.cell(row, column).alignment = WRAPPED
     return worksheet.max_row + 1
 
@@ -227,12 +230,15 @@ def _write_index(worksheet: Worksheet, top: int, index: Sequence[IndexRow]) -> N
     head_row(worksheet, top, INDEX_HEAD)
     for row, one in enumerate(index, start=top + 1):
         synthetic = None if one.synthetic is None else "yes" if one.synthetic else "no"
-        known = [one.name, one.says, one.rows, synthetic, one.file, None, one.source, one.rule]
+        known = [one.name, one.says, one.rows, synthetic, None, one.rule, one.source, one.file]
         write_row(worksheet, row, known)
         cell = worksheet.cell(row, 1)
-        cell.hyperlink = f"#'{one.name}'!A1" if one.here else beside(one.file)
+        if one.here:
+            cell.hyperlink = Hyperlink(ref=cell.coordinate, location=f"'{one.name}'!A1")
+        else:
+            cell.hyperlink = beside(one.file)
         cell.font = LINK
-        for column in (2, 5, 7, 8):
+        for column in range(1, len(INDEX_HEAD) + 1):
             worksheet.cell(row, column).alignment = WRAPPED
 
 

@@ -103,7 +103,9 @@ def allowed_values(contract: pa.Column) -> str:
             sign, bound = SIGNS[check.name]
             parts.append(f"{sign} {check.statistics[bound]:g}")
         elif check.name == "isin":
-            parts.append(", ".join(str(one) or "(empty)" for one in check.statistics["allowed_values"]))
+            parts.append(
+                ", ".join(str(one) or "(empty)" for one in check.statistics["allowed_values"])
+            )
     if contract.nullable:
         parts.append("may be empty")
     return ", ".join(parts)
