@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Literal, assert_never
 
+from nptcs.report.sketches import Sketch
 from nptcs.report.tables.entries import Entry
 from nptcs.tables.result_table import Heading, ReportSection
 
@@ -14,10 +15,11 @@ LONG = 60
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell: its text, the full number behind it for sorting, and its CSS class."""
+    """One cell: its text, the full number behind it for sorting, the name in the file on hover."""
 
     text: str
     number: str = ""
+    name_in_file: str = ""
 
     @property
     def css(self) -> str:
@@ -126,8 +128,45 @@ class Folded:
     text: str
 
 
-PageBlock = TableView | Plots | Text | Listing | Facts | Folded
-BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded"]
+@dataclass(frozen=True)
+class Finding:
+    """One answer of the first screen.
+
+    Parameters
+    ----------
+    question, answer, words
+        What is asked, the result in a few words, and one or two sentences on it.
+    source : str
+        Tables that hold the numbers.
+    section : ReportSection
+        Where more of it is.
+    sketch : Sketch, optional
+        A small figure.
+    assessed : bool
+        False where the run has no answer.
+    synthetic : bool
+        Whether it rests on synthetic data.
+    """
+
+    question: str
+    answer: str
+    words: str
+    source: str
+    section: ReportSection
+    sketch: Sketch | None = None
+    assessed: bool = True
+    synthetic: bool = False
+
+
+@dataclass(frozen=True)
+class Findings:
+    """The answers of the first screen."""
+
+    findings: tuple[Finding, ...]
+
+
+PageBlock = TableView | Plots | Text | Listing | Facts | Folded | Findings
+BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded", "findings"]
 
 
 def macro_of(block: PageBlock) -> BlockMacro:
@@ -145,6 +184,8 @@ def macro_of(block: PageBlock) -> BlockMacro:
             return "facts"
         case Folded():
             return "folded"
+        case Findings():
+            return "findings"
         case _:
             assert_never(block)
 

@@ -25,6 +25,7 @@ from nptcs.tables.diagnostics import (
     SurfaceTests,
 )
 from nptcs.tables.files import Files
+from nptcs.tables.flags import FlagsTable
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
@@ -90,6 +91,14 @@ TABLES: dict[str, ResultTable] = {
         "the properties of the specimens that the sheet includes",
         section=ReportSection.SPECIMENS,
         mark=RowMark.OUTLIERS,
+    ),
+    "flags.csv": ResultTable(
+        FlagsTable,
+        "What was flagged: deviations from the standards, values not assessed, remarks",
+        "statistics",
+        "the flags of the specimens' properties; flags that differ in their numbers only are one",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.DEVIATION,
     ),
     "hyperelastic_models.csv": ResultTable(
         ModelComparison,

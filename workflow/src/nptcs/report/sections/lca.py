@@ -19,6 +19,7 @@ from nptcs.report.figures.lca import (
     stiffness_bars,
 )
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import lca_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
@@ -34,6 +35,7 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
             "sandwich section and the one as printed, each next to the printed results of table "
             f"11 (shear band C10 = {results.config.lca_validation.shear_band_c10_mpa:g} MPa)."
         ),
+        *lca_facts(results),
         Plots(
             "Differences from the printed angles and displacements of table 11. The grey band is "
             "1 %; the scale is the same for both sections.",

@@ -13,6 +13,7 @@ from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import material_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
@@ -25,6 +26,7 @@ from nptcs.tables.result_table import ReportSection
 def materials_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     blocks: list[PageBlock] = [
+        *material_facts(results),
         sheet_view(sheets[entries.PLY.sheet]),
         sheet_view(sheets[entries.RUBBERS.sheet]),
     ]

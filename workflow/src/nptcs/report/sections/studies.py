@@ -15,6 +15,7 @@ from nptcs.report.figures.impact import impact_bars
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
 from nptcs.report.figures.surface import MOST_MARKS, contours, pairs, slices
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import ranking_facts, surface_facts
 from nptcs.report.sections.ranking import ranking_blocks
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
@@ -161,6 +162,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
             "and given in both units at full precision: a surface can be evaluated from this "
             "page. The published coefficient is next to it, rounded as the paper prints it."
         ),
+        *surface_facts(results),
         sheet_view(sheet_of(sheets, SurfaceQuality)),
     ]
     for study in results.config.studies:
@@ -253,6 +255,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
             "its numbers, so that every rule is given here. The ranking and the order of the bars "
             f"are by {words(rules[0])}."
         ),
+        *ranking_facts(results),
         Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
         *ranking_blocks(results),
         sheet_view(sheet_of(sheets, Impact)),
