@@ -1,4 +1,4 @@
-"""What the page template is handed: tables of finished text, figures as data URIs, paragraphs."""
+"""What the page template is handed: tables of finished text, figures as SVG, paragraphs."""
 
 from __future__ import annotations
 
@@ -42,6 +42,8 @@ class TableView:
         shown with their CSS classes, and whether it rests on synthetic data.
     all_rows : int
         Rows of the whole table; a long one is not shown whole.
+    columns : tuple of str
+        Names of the columns in the file.
     """
 
     entry: Entry
@@ -51,16 +53,31 @@ class TableView:
     rows: tuple[tuple[str, tuple[Cell, ...]], ...]
     synthetic: bool = False
     all_rows: int = 0
+    columns: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Plot:
-    """One figure of the page, as a data URI, with words for those who cannot see it."""
+    """One figure of the page.
 
-    uri: str
+    Parameters
+    ----------
+    svg : str
+        The figure, with words for those who cannot see it.
+    alt : str
+        These words.
+    name : str
+        Name of its file, without ending.
+    data : str
+        The numbers that it shows: CSV, deflated, in base64; empty where it carries none.
+    synthetic : bool
+        Whether it shows synthetic data.
+    """
+
+    svg: str
     alt: str
-    width_px: int
-    height_px: int
+    name: str
+    data: str = ""
     synthetic: bool = False
 
 

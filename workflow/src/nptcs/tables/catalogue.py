@@ -24,6 +24,7 @@ from nptcs.tables.diagnostics import (
     SurfaceStationary,
     SurfaceTests,
 )
+from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.files import Files
 from nptcs.tables.flags import FlagsTable
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
@@ -420,6 +421,15 @@ TABLES: dict[str, ResultTable] = {
         "the model solved for the cases of table 7; FE values as printed there",
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
+    ),
+    "displacement_by_load.csv": ResultTable(
+        DisplacementByLoad,
+        "Displacement by finite elements and by the load-bearing model (figure 15)",
+        "displacement_by_load",
+        "the curves of the tyres that are those of table 11, and lca_validation.csv",
+        section=ReportSection.LCA,
+        mark=RowMark.STATUS,
+        synthetic=SyntheticBy.PLIES,
     ),
     "lca_neutral_line.csv": ResultTable(
         LcaNeutralLine,

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
 import numpy as np
@@ -19,7 +20,7 @@ from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.material_card import RubberCard
+from nptcs.tables.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection
 
 
@@ -36,8 +37,9 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
     blocks += [
         Plots(
             "The rubbers' tests and their models (figure 5 of the paper): the model "
-            "within the range of its fit (full line) and beyond it (dotted). Last panel: how C10 "
-            "depends on that range.",
+            "within the range of its fit (full line) and beyond it (dotted); squares: the "
+            "neo-Hookean model with the C10 that the paper prints. Last panel: how C10 depends on "
+            "that range.",
             (*_fit_plots(results), *_range_plot(results)),
         ),
         sheet_view(sheet_of(sheets, ModelComparison)),
@@ -80,6 +82,7 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             f"{words(rubber.model)}\n{values}",
             rubber.strain_range,
             rubber.synthetic,
+            PUBLISHED_C10_MPA.get(rubber.name, math.nan),
         )
         plots.append(drawn)
     return plots

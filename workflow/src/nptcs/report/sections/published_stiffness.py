@@ -92,7 +92,12 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    given = (rows, f"study {study.name}", solver_order(results), synthetic)
+    given = (
+        rows,
+        f"Stiffness against the paper's,\nstudy {study.name}",
+        solver_order(results),
+        synthetic,
+    )
     return plot(alt, synthetic, parity, *given)
 
 
