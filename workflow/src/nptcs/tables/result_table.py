@@ -27,18 +27,18 @@ class ReportSection(StrEnum):
     """Sections of the report, in reading order; the value is the anchor on the page."""
 
     SUMMARY = "verdict"
-    SPECIMENS = "specimens"
-    MATERIALS = "materials"
-    DESIGN = "design"
-    CASES = "cases"
-    SURFACES = "surfaces"
-    SENSITIVITY = "sensitivity"
-    UNCERTAINTY = "uncertainty"
     DECISION = "decision"
-    SPOKE = "spoke"
+    UNCERTAINTY = "uncertainty"
+    SENSITIVITY = "sensitivity"
     TYRE = "tyre"
     PUBLISHED_STIFFNESS = "published_stiffness"
     LCA = "lca"
+    SPOKE = "spoke"
+    SURFACES = "surfaces"
+    MATERIALS = "materials"
+    SPECIMENS = "specimens"
+    DESIGN = "design"
+    CASES = "cases"
     FURTHER = "further"
     PROVENANCE = "provenance"
 
@@ -55,6 +55,7 @@ class RowMark(StrEnum):
     SPECIMEN = "specimen left out, or property not assessed"
     OUTLIERS = "group with an outlier"
     ORIGIN = "assumed, not measured"
+    DEVIATION = "deviation from a standard"
 
 
 class SyntheticBy(StrEnum):
