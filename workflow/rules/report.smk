@@ -69,14 +69,52 @@ rule problems:
         "../scripts/problems.py"
 
 
+# what the identity of a run does not depend on: how its numbers are shown
+PAGES = ("configuration", "identity", "report", "verdict")
+
+
+def code_of_tables():
+    """Hash of the code that made the tables: every rule's script but those of pages, and solvers."""
+    solvers = {
+        module_of(name, options)
+        for study in CONFIG.studies
+        for name, options in CONFIG.solver_options(study).items()
+    }
+    scripts = sorted(path for path in SCRIPTS.glob("*.py") if path.stem not in PAGES)
+    return FACTS.code_of(*map(str, scripts), *sorted(solvers))
+
+
+rule identity:
+    input:
+        tables=TABLES,
+        card="results/material_card.json",
+        inputs=[ancient(path) for path in configured_inputs()],
+    output:
+        identity="results/identity.json",
+    log:
+        "results/logs/identity.log",
+    params:
+        job={
+            "config": plain(CONFIG),
+            "inputs": contents(configured_inputs()),
+            "code_of_tables": code_of_tables(),
+            "folder": SHEET.parent.as_posix(),
+            "code": code_of("identity"),
+        },
+    script:
+        "../scripts/identity.py"
+
+
 rule report:
     input:
         tables=TABLES,
+        identity="results/identity.json",
         card="results/material_card.json",
         curves=curves(SPECIMENS),
         records=records(SPECIMENS),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+        models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
         inputs=[ancient(path) for path in configured_inputs()],
     output:
         page=report(

@@ -27,7 +27,7 @@ from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
 from nptcs.report.sections.studies import cases_section
 from nptcs.report.sections.summary import glance
 from nptcs.report.tables.sheets import sheets_of
-from nptcs.report.workbook import build_workbook
+from nptcs.report.workbook.build import build_workbook
 from nptcs.tables.impact import Impact
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.published_stiffness import (

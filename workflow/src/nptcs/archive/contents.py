@@ -22,7 +22,8 @@ class Role(StrEnum):
     CODE = "code"
 
 
-RESULTS = ("report.html", "workbook.xlsx", "material_card.json", "configuration.yaml")
+RESULTS = ("report.html", "workbook.xlsx", "material_card.json", "configuration.yaml",
+           "identity.json")  # fmt: skip
 """Results besides the tables; without any of them the study is not finished."""
 VERDICT = "verdict.txt"
 """Written only by a run in which every specimen and case gave a result."""

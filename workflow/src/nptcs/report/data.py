@@ -2,23 +2,23 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from importlib.metadata import version
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pandera.pandas as pa
 
-from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import read_model, sha256_of_file
 from nptcs.report.verdict import verdict
+from nptcs.runs.identity import RunIdentity
+from nptcs.runs.software import software_versions
 from nptcs.surface.fit import Surface
-from nptcs.surface.stored import read_surfaces
+from nptcs.surface.registry import SurfaceRegistry
+from nptcs.surface.stored import read_registry, read_surfaces
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.catalogue import file_of, result_files
 from nptcs.tables.curves import IngestRecord, read_curves
@@ -26,16 +26,6 @@ from nptcs.tables.io import read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
 from nptcs.tables.problems import Problems
 from nptcs.tables.specimens import Specimen
-
-SOFTWARE = (
-    "snakemake",
-    "numpy",
-    "scipy",
-    "pandas",
-    "scikit-learn",
-    "matplotlib",
-    "openpyxl",
-)
 
 
 @dataclass(frozen=True)
@@ -53,7 +43,8 @@ class Results:
     """Everything that a run has made.
 
     ``tables`` holds the tables of ``results/tables`` by file name; `table` returns one by its
-    contract.
+    contract. ``surfaces`` are the polynomials of the stiffness by study and solver, ``models`` the
+    surfaces of every kind and response by study.
     """
 
     config: Config
@@ -67,6 +58,8 @@ class Results:
     designs: Mapping[str, pd.DataFrame]
     surfaces: Mapping[str, Mapping[str, Surface]]
     tables: Mapping[str, pd.DataFrame]
+    models: Mapping[str, SurfaceRegistry] = field(default_factory=dict)
+    identity: RunIdentity | None = None
 
     def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
         """Return the result table that keeps a contract; for a table of one study, the study's."""
@@ -144,9 +137,9 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         ``config``, ``specimens`` (rows of the sheet), ``solvers`` (`SolverFacts` by name), as
         plain values.
     files : mapping
-        A path for ``card``; lists of paths under ``tables`` (all of ``results/tables``),
-        ``curves``, ``records``, ``designs``, ``surfaces`` (both named by their study) and
-        ``inputs``.
+        A path for ``card`` and one for ``identity``; lists of paths under ``tables`` (all of
+        ``results/tables``), ``curves``, ``records``, ``designs``, ``surfaces``, ``models`` (these
+        three named by their study) and ``inputs``.
 
     Returns
     -------
@@ -163,16 +156,13 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     paths = {Path(file).name: file for file in files["tables"]}
     designs = {Path(file).stem: file for file in files["designs"]}
     surfaces = {Path(file).stem: file for file in files["surfaces"]}
+    models = {Path(file).stem: file for file in files["models"]}
     records = [read_model(file, IngestRecord) for file in files["records"]]
     return Results(
         config=config,
         sheet=tuple(Specimen.model_validate(row) for row in job["specimens"]),
         solvers={name: SolverFacts(**facts) for name, facts in job["solvers"].items()},
-        software={
-            "nptcs": __version__,
-            "Python": platform.python_version(),
-            **{name: version(name) for name in SOFTWARE},
-        },
+        software=software_versions(),
         inputs={str(file): sha256_of_file(file) for file in files["inputs"]},
         card=read_model(files["card"], MaterialCard),
         curves=read_curves(files["curves"]),
@@ -183,4 +173,6 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
             name: read_table(paths[name], row.contract)
             for name, row, _ in result_files(with_surface)
         },
+        models={name: read_registry(models[name]) for name in with_surface},
+        identity=read_model(files["identity"], RunIdentity),
     )

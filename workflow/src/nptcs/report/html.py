@@ -10,6 +10,7 @@ from nptcs.language import language
 from nptcs.report.blocks import macro_of
 from nptcs.report.cover import cover_lines
 from nptcs.report.data import Results
+from nptcs.report.figures.theme import theme_css
 from nptcs.report.logo import logo_uri
 from nptcs.report.page_templates import clear_template_errors, page_environment
 from nptcs.report.sections.plan import build_sections
@@ -45,13 +46,16 @@ def _page(results: Results) -> str:
         laboratory=laboratory,
         logo=logo_uri(laboratory.logo) if laboratory.logo else "",
         cover=cover_lines(laboratory),
+        macro_of=macro_of,
         sound=results.verdict()[0],
         synthetic=results.any_synthetic,
-        macro_of=macro_of,
         summary=summary_blocks(results, sheets),
         sections=build_sections(results, sheets),
         style=_resource("report.css"),
-        script=_resource("sort.js"),
+        script=_resource("page.js"),
+        figure_theme=Markup(theme_css()),
+        figure_style=_resource("figures.css"),
+        figure_script=_resource("figures.js"),
     )
     with clear_template_errors(templates):
         return page_environment(templates).get_template("report.html.j2").render(content)

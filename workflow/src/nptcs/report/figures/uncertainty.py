@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+from nptcs.report.figures.style import mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS, PAPER
 
 KINDS = {
     "test": COLOURS[0],
@@ -14,7 +15,7 @@ KINDS = {
     "tolerance": COLOURS[2],
     "surface": COLOURS[4],
 }
-HATCHES = {"test": "", "stated": "//", "tolerance": "..", "surface": "xx"}
+HATCHES = {"test": "", "stated": "///", "tolerance": "\\\\\\", "surface": "xx"}
 
 
 @styled
@@ -39,12 +40,15 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
                 shares["share_percent"].to_numpy()[mine],
                 color=colour,
                 hatch=HATCHES[kind],
-                edgecolor="white",
+                edgecolor=PAPER,
                 label=kind,
             )
     for height, share in zip(place, shares["share_percent"], strict=True):
-        text = f" {share:.0f}" if share >= 1 else f" {share:.1g}"
-        axes.text(share, height, text, va="center", fontsize=7.5)
+        text = f"{share:.0f}" if share >= 1 else f"{share:.1g}"
+        axes.annotate(
+            text, (share, height), (3, 0), textcoords="offset points", va="center", fontsize=7.5
+        )
+    figure.data = shares
     names = [text.replace(", ", "\n", 1) for text in shares["quantities"]]
     axes.set_yticks(place, names, fontsize=7.5)
     axes.set_xlim(0, max(1.0, 1.12 * float(shares["share_percent"].max())))
