@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.language import tr
 from nptcs.report.figures.style import mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
@@ -34,7 +35,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     chosen = designs["chosen"].to_numpy(bool)
     for mine, colour, label in (
         (chosen, COLOURS[1], "chosen"),
-        (~chosen, COLOURS[0], "other designs"),
+        (~chosen, COLOURS[0], tr("other designs")),
     ):
         if mine.any():
             axes.errorbar(
@@ -50,10 +51,12 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     limits = first[["smallest_accepted", "largest_accepted"]].to_numpy(float)
     if np.isfinite(limits).any():
         start, end = np.where(np.isfinite(limits), limits, [low, high])
-        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label="asked for")
+        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label=tr("asked for"))
         axes.set_xlim(low, high)
     names = [
-        f"{row['plates']} plates" if pd.notna(row["plates"]) else f"design {row['rank']}"
+        tr("{plates} plates", plates=row["plates"])
+        if pd.notna(row["plates"])
+        else tr("design {rank}", rank=row["rank"])
         for row in designs.to_dict("records")
     ]
     axes.set_yticks(place, names)

@@ -21,6 +21,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from nptcs.language import tr
 from nptcs.report.figures.theme import COLOURS, GREY, GRID, WARNING
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
@@ -128,7 +129,7 @@ def mark_synthetic(figure: Figure, synthetic: bool) -> None:
     lines = axes.get_title(loc="left").split("\n")
     above = len(lines) if len(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
     axes.annotate(
-        "SYNTHETIC DATA",
+        tr("SYNTHETIC DATA"),
         (1, 1),
         (0, 5 + 13 * above),
         xycoords="axes fraction",
@@ -152,7 +153,7 @@ def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
     """Write into a figure that it draws a sample only."""
     if drawn < of:
         axes.annotate(
-            f"sampled: {drawn:,} of {of:,} {what}",
+            tr("sampled: {drawn:,} of {of:,} {what}", drawn=drawn, of=of, what=what),
             (1, 0),
             (-3, 4),
             xycoords="axes fraction",

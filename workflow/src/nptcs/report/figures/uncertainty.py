@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.language import tr
 from nptcs.report.figures.style import mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, PAPER
 
@@ -30,7 +31,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "share of the variance [%]", "", (4.3, 1.3 + 0.3 * len(shares)))
+    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, 1.3 + 0.3 * len(shares)))
     place = np.arange(len(shares))[::-1]
     for kind, colour in KINDS.items():
         mine = (shares["kind"] == kind).to_numpy()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nptcs.language import tr, translatable
 from nptcs.report.blocks import Folded, PageBlock, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.ply import ply_words
@@ -12,7 +13,11 @@ from nptcs.report.tables.sheets import Sheets
 from nptcs.tables.result_table import ReportSection
 
 TABLES = entries.Entry(
-    "about", "Which rule made which table", "this report", "report", "the catalogue of tables"
+    "about",
+    translatable("Which rule made which table"),
+    translatable("this report"),
+    "report",
+    translatable("the catalogue of tables"),
 )
 
 
@@ -24,6 +29,6 @@ def provenance_section(results: Results, sheets: Sheets) -> Section:
         table_view(entries_table([sheet.entry for sheet in sheets.values()]), TABLES),
         sheet_view(sheets[entries.INPUTS.sheet]),
         sheet_view(sheets[entries.SOFTWARE.sheet]),
-        Folded("The configuration, with all defaults", configuration_text(results)),
+        Folded(tr("The configuration, with all defaults"), configuration_text(results)),
     ]
-    return Section(ReportSection.PROVENANCE, "Where the numbers came from", tuple(blocks))
+    return Section(ReportSection.PROVENANCE, tr("Where the numbers came from"), tuple(blocks))
