@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from nptcs.language import tr
+from nptcs.language import tr, tr_count
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.status import has_result
@@ -45,11 +45,8 @@ def verdict(
     counts = tr("{share} solved; {specimens}.", share=share, specimens=_specimens(sheet, records))
     if problems.empty:
         return True, tr("No problems: {counts}", counts=counts)
-    return False, tr(
-        "{count} problem{value}: {counts}",
-        count=len(problems),
-        value="s" * (len(problems) > 1),
-        counts=counts,
+    return False, tr_count(
+        "{count} problem: {counts}", "{count} problems: {counts}", len(problems), counts=counts
     )
 
 

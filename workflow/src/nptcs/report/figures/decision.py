@@ -24,7 +24,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
         Whether the materials are synthetic.
     """
     first = designs.iloc[0]
-    at = f" at {first['at']}" if first["at"] else ""
+    at = tr(" at {at}", at=first["at"]) if first["at"] else ""
     unit = f" [{first['unit']}]" if first["unit"] not in ("", "1") else ""
     figure, axes = panel(
         str(first["goal"]), f"{words(str(first['response']))}{at}{unit}", "", (4.3, 2.6)
@@ -34,7 +34,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     ends = np.vstack([mean - designs["low"], designs["high"] - mean])
     chosen = designs["chosen"].to_numpy(bool)
     for mine, colour, label in (
-        (chosen, COLOURS[1], "chosen"),
+        (chosen, COLOURS[1], tr("chosen")),
         (~chosen, COLOURS[0], tr("other designs")),
     ):
         if mine.any():
@@ -42,7 +42,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
                 mean[mine],
                 place[mine],
                 xerr=ends[:, mine],
-                fmt="s" if label == "chosen" else "o",
+                fmt="s" if mine is chosen else "o",
                 color=colour,
                 capsize=3,
                 label=label,

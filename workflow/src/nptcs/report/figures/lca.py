@@ -41,7 +41,7 @@ RING_MARKS = 60
 
 def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Figure, Axes]:
     """Make a panel titled with the section of the band to which its rows belong."""
-    return panel(f"LCA, {SECTION_NAMES[table['section'].iloc[0]]}", x_label, y_label)
+    return panel(f"LCA, {tr(SECTION_NAMES[table['section'].iloc[0]])}", x_label, y_label)
 
 
 def _line_per_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: str) -> None:
@@ -75,8 +75,9 @@ def load_displacement(
     synthetic : bool
         Whether the ply of the finite elements is synthetic.
     """
-    solver = "" if finite_elements.empty else f" and {finite_elements['solver'].iloc[0]}"
-    title = f"LCA, {SECTION_NAMES[table['section'].iloc[0]]},{solver}"
+    first = finite_elements["solver"].iloc[:1]
+    solver = "".join(tr(" and {solver}", solver=name) for name in first)
+    title = f"LCA, {tr(SECTION_NAMES[table['section'].iloc[0]])},{solver}"
     figure, axes = panel(title.rstrip(","), LOAD, tr("displacement [mm]"), (4.3, 3.7))
     printed = {"mfc": "none", "mec": INK, "linestyle": "", "zorder": 6}
     for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
@@ -186,7 +187,7 @@ def differences(table: pd.DataFrame, limit: float) -> Figure:
         Largest difference on the axis, in percent, the same for all sections.
     """
     figure, axes = _section_panel(table, tr("spoke C10 [MPa]"), tr("computed − published [%]"))
-    series = {label: table[column].to_numpy() for column, label in DIFFERENCES.items()}
+    series = {tr(label): table[column].to_numpy() for column, label in DIFFERENCES.items()}
     _grouped_bars(axes, [f"{c10:g}" for c10 in table["spoke_c10_mpa"]], series)
     axes.axhline(0, color=INK, linewidth=0.8)
     axes.axhspan(-1, 1, color=RANGE, zorder=0, label=tr("within 1 %"))
@@ -218,7 +219,7 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
         "LCA, paper": first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
-        name = tr("LCA, computed, {section_names}", section_names=SECTION_NAMES[str(section)])
+        name = tr("LCA, computed, {section_names}", section_names=tr(SECTION_NAMES[str(section)]))
         series[name] = rows["stiffness_n_per_mm"].to_numpy()
     _grouped_bars(axes, [f"{c10:g}" for c10 in first["spoke_c10_mpa"]], series)
     figure.legend(loc="outside lower left", ncols=2)
@@ -315,7 +316,7 @@ def deformed_ring(
             color=colour,
             linewidth=2.2,
             linestyle=dash,
-            label=f"LCA, {region}",
+            label=f"LCA, {tr(region)}",
         )
     turn = np.linspace(0, 2 * np.pi, 181)
     rim = rim_diameter_mm / 2

@@ -125,7 +125,9 @@ def main_effect(
                 marker="o",
                 mfc=PAPER,
                 linestyle="--",
-                label="published" if same else tr("published, cases of {solver}", solver=solver),
+                label=tr("published")
+                if same
+                else tr("published, cases of {solver}", solver=solver),
             )
         axes.plot(rows["level"], rows["computed_mean_n_per_mm"], **look)
     means = ["published_mean_n_per_mm", "computed_mean_n_per_mm"]

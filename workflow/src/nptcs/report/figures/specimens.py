@@ -184,12 +184,12 @@ def _draw_moduli(
     lines = axes.get_lines()
     largest = max((np.abs(line.get_ydata()).max() for line in lines), default=1.0)
     for value, words, dash in (
-        (moduli.mean_mpa, tr("mean of the chords"), "-."),
-        (moduli.published_mpa, tr("paper, table 2"), (0, (1.2, 1.6))),
+        (moduli.mean_mpa, translatable("mean of the chords"), "-."),
+        (moduli.published_mpa, translatable("paper, table 2"), (0, (1.2, 1.6))),
     ):
         if np.isfinite(value):
             end = sign * np.array([0.0, 0.62 * largest])
-            label = f"{words}: {moduli.symbol} {value / 1000:.4g} GPa"
+            label = f"{tr(words)}: {moduli.symbol} {value / 1000:.4g} GPa"
             look = {"color": INK, "linewidth": 1.1, "linestyle": dash, "zorder": 5}
             axes.plot(100 * end / value, end, label=label, **look)
             ends = pd.DataFrame({axis.strain: end / value, axis.stress: end})

@@ -40,7 +40,7 @@ def force_displacement(
     """
     solver, stiffness = curves["solver"].iloc[0], f"{direction}_stiffness_n_per_mm"
     figure, axes = panel(
-        tr("One spoke in {direction}, {solver}", direction=direction, solver=solver),
+        tr("One spoke in {direction}, {solver}", direction=tr(direction), solver=solver),
         TRAVEL[direction],
         tr("force [N]"),
     )

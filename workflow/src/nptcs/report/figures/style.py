@@ -98,7 +98,7 @@ def panel(
     axes = figure.add_subplot()
     fitting = round(TITLE_CHARACTERS * size[0] / PANEL[0])
     lines = [textwrap.fill(line, fitting) for line in title.split("\n")]
-    axes.set(title="\n".join(lines), xlabel=x_label, ylabel=y_label)
+    axes.set(title="\n".join(lines), xlabel=tr(x_label), ylabel=tr(y_label))
     for axis in (axes.xaxis, axes.yaxis):
         round_ticks(axis)
     return figure, axes

@@ -113,9 +113,9 @@ def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLa
     levels = [
         f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
     ]
-    return tr("Stiffness, {solver}", solver=solver) + (
-        f"\nat {', '.join(levels)}" if levels else ""
-    )
+    if not levels:
+        return tr("Stiffness, {solver}", solver=solver)
+    return tr("Stiffness, {solver}\nat {levels}", solver=solver, levels=", ".join(levels))
 
 
 def common_levels(surfaces: Sequence[tuple[Surface, pd.DataFrame]]) -> list[float]:
@@ -190,7 +190,7 @@ def contours(
         clip_on=False,
         zorder=5,
     )
-    bar = figure.colorbar(filled, ax=axes, label=STIFFNESS_LABEL, ticks=steps[::2], format="%g")
+    bar = figure.colorbar(filled, ax=axes, label=tr(STIFFNESS_LABEL), ticks=steps[::2], format="%g")
     bar.ax.grid(visible=False)
     note_sampled(axes, len(shown), len(inside), tr("cases"))
     figure.data = _numbers(shown, (x, y, z), pair, held)
@@ -272,7 +272,7 @@ def slices(
             linestyle="none",
             color=colour,
             marker=MARKERS[number % len(MARKERS)],
-            label="cases" if level is None else f"{level:.4g}",
+            label=tr("cases") if level is None else f"{level:.4g}",
         )
         note_sampled(axes, len(at_level), len(inside), tr("cases per line"))
     if len(limits):

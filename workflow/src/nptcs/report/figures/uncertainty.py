@@ -42,7 +42,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
                 color=colour,
                 hatch=HATCHES[kind],
                 edgecolor=PAPER,
-                label=kind,
+                label=tr(kind),
             )
     for height, share in zip(place, shares["share_percent"], strict=True):
         text = f"{share:.0f}" if share >= 1 else f"{share:.1g}"

@@ -47,7 +47,7 @@ def _decision(results: Results, name: str) -> Decision:
 
 
 def _title(results: Results, row: Row) -> str:
-    return _decision(results, str(row["decision"])).title or str(row["goals"])
+    return tr(_decision(results, str(row["decision"])).title) or str(row["goals"])
 
 
 def _answer(row: Row) -> str:
@@ -88,7 +88,7 @@ def _confirmation(results: Results, decision: str) -> list[PageBlock]:
     rows = results.table(DecisionConfirmation)
     facts = []
     for row in rows[rows["decision"] == decision].to_dict("records"):
-        at = f" at {row['at']}" if row["at"] else ""
+        at = tr(" at {at}", at=row["at"]) if row["at"] else ""
         what = tr(
             "Round {round}: {response}{at} of {design}",
             round=row["round"],
@@ -107,7 +107,7 @@ def _confirmation(results: Results, decision: str) -> list[PageBlock]:
                 predicted=row["predicted"],
                 low=row["low"],
                 high=row["high"],
-                result=row["result"],
+                result=tr(row["result"]),
             )
         if row["added"]:
             text += tr("; the case was added to the surfaces, and the choice was made again")

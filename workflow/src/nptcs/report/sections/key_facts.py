@@ -92,7 +92,7 @@ def published_facts(results: Results) -> tuple[PageBlock, ...]:
     """Summarise how far the computed stiffness is from the published one."""
     facts = []
     for row in results.table(StiffnessErrors).itertuples():
-        kind = "blind" if row.group == "blind" else tr("used for calibration")
+        kind = tr("blind") if row.group == "blind" else tr("used for calibration")
         text = tr("{compared} of {cases} cases compared", compared=row.compared, cases=row.cases)
         if row.compared:
             text += tr(
@@ -119,14 +119,14 @@ def lca_facts(results: Results) -> tuple[PageBlock, ...]:
     facts = []
     for section, table in results.table(LcaValidation).groupby("section", sort=False):
         spans = [
-            f"{label} {table[column].min():+.2f} … {table[column].max():+.2f} %"
+            f"{tr(label)} {table[column].min():+.2f} … {table[column].max():+.2f} %"
             for column, label in DIFFERENCES.items()
         ]
         facts.append(
             Fact(
                 tr(
                     "LCA, {section_names}, difference from the printed table 11",
-                    section_names=SECTION_NAMES[str(section)],
+                    section_names=tr(SECTION_NAMES[str(section)]),
                 ),
                 "; ".join(spans),
                 "lca_validation.csv",

@@ -13,6 +13,7 @@ from nptcs.report.data import Results
 from nptcs.report.figures.lca import (
     CONTACT,
     DIFFERENCES,
+    SECTION_NAMES,
     contact_against_load,
     deformed_ring,
     differences,
@@ -92,7 +93,10 @@ def _difference_plots(results: Results) -> list[Plot]:
     limit = math.ceil(largest + 0.5)
     return [
         plot(
-            tr("Differences from table 11 in percent, section {section}", section=section),
+            tr(
+                "Differences from table 11 in percent, section {section}",
+                section=tr(SECTION_NAMES[str(section)]),
+            ),
             False,
             differences,
             rows,
@@ -107,7 +111,10 @@ def _fem_plots(results: Results) -> list[Plot]:
     limit = math.ceil(float(table["fem_difference_percent"].abs().max()) + 0.5)
     return [
         plot(
-            tr("Differences from table 7, section {section}", section=section),
+            tr(
+                "Differences from table 7, section {section}",
+                section=tr(SECTION_NAMES[str(section)]),
+            ),
             False,
             fem_differences,
             rows,
@@ -130,10 +137,10 @@ def _load_plots(results: Results) -> list[Plot]:
     plots = []
     for rows in sections:
         for fe in solved or [nothing]:
-            by = "" if fe.empty else f" and {fe['solver'].iloc[0]}"
+            by = "" if fe.empty else tr(" and {solver}", solver=fe["solver"].iloc[0])
             alt = tr(
                 "Displacement against load, LCA with section {section}{by}",
-                section=rows["section"].iloc[0],
+                section=tr(SECTION_NAMES[str(rows["section"].iloc[0])]),
                 by=by,
             )
             marked = synthetic and not fe.empty
@@ -146,7 +153,7 @@ def _load_plots(results: Results) -> list[Plot]:
         plots.append(plot(alt, synthetic, load_errors, fe, synthetic))
     return plots + [
         plot(
-            tr("{label} against load", label=label),
+            tr("{label} against load", label=tr(label)),
             False,
             contact_against_load,
             sections[0],
@@ -163,7 +170,7 @@ def _neutral_line_plots(results: Results) -> list[Plot]:
         ["load_n", "spoke_c10_mpa"], sort=False
     ):
         fe = finite_element_ring(results, float(str(load)), float(str(c10)))
-        by = "" if fe.empty else f" and {fe['solver'].iloc[0]}"
+        by = "" if fe.empty else tr(" and {solver}", solver=fe["solver"].iloc[0])
         alt = tr(
             "Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa by LCA{by}",
             load=load,

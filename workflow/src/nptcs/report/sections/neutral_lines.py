@@ -56,7 +56,7 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
             given = (rows, column, title, solver_order(results), synthetic)
             plots.append(
                 plot(
-                    tr("{label} of {case_id} against θ", label=label, case_id=case_id),
+                    tr("{label} of {case_id} against θ", label=tr(label), case_id=case_id),
                     synthetic,
                     neutral_lines,
                     *given,

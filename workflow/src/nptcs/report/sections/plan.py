@@ -114,7 +114,7 @@ def _shown(sheet: Sheet) -> PageBlock:
     return Text(
         tr(
             "{title}: {count:,} rows, in {file}{place}.",
-            title=sheet.entry.title,
+            title=tr(sheet.entry.title),
             count=len(sheet.table),
             file=sheet.entry.file,
             place=place,

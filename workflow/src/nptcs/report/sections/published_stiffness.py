@@ -143,7 +143,7 @@ def _case_comparison(results: Results, sheets: Sheets, study: Study) -> TableVie
         tr(
             "Cases of the study {name}, published and computed: {title}",
             name=study.name,
-            title=study.title,
+            title=tr(study.title),
         ),
         mark=lambda row: "bad" if row["failed"] else "out" if row["calibrated_on"] else "",
         synthetic=rests_on_synthetic(results, study, rows),

@@ -91,7 +91,7 @@ def _ring(errors: pd.DataFrame, solver: str) -> str:
         )
         for row in rows.itertuples()
     ]
-    return ". ".join([RINGS[solver], *parts])
+    return ". ".join([tr(RINGS[solver]), *parts])
 
 
 def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
@@ -106,8 +106,11 @@ def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
         Facts(
             tr("What is known of the difference from the published rubbers' table"), tuple(facts)
         ),
-        Listing(tr("Excluded, each by an experiment with the model outside this run"), EXCLUDED),
-        Text(OPEN_CLUE),
+        Listing(
+            tr("Excluded, each by an experiment with the model outside this run"),
+            tuple(map(tr, EXCLUDED)),
+        ),
+        Text(tr(OPEN_CLUE)),
     ]
 
 

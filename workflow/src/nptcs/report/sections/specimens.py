@@ -64,7 +64,9 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
 
 def _counts(results: Results) -> Text:
     counts = results.table(Files)["status"].value_counts()
-    files = ", ".join(f"{number} {status}" for status, number in counts.sort_index().items())
+    files = ", ".join(
+        f"{number} {tr(str(status))}" for status, number in counts.sort_index().items()
+    )
     failed, left_out = len(results.failed()), len(results.left_out())
     return Text(
         tr(
@@ -97,8 +99,8 @@ def _series_plots(results: Results) -> list[Plot]:
         given = (title, curves, left_out, synthetic, moduli, axis)
         alt = tr(
             "{stress_words} over {strain_words}, {title}, {count} specimens",
-            stress_words=axis.stress_words,
-            strain_words=axis.strain_words,
+            stress_words=tr(axis.stress_words),
+            strain_words=tr(axis.strain_words),
             title=title,
             count=len(curves),
         )

@@ -82,7 +82,7 @@ def _plots(results: Results) -> list[Plot]:
         for direction in DIRECTIONS:
             alt = tr(
                 "Force on a spoke in {direction} by {solver}, study {study}",
-                direction=direction,
+                direction=tr(direction),
                 solver=solver,
                 study=study,
             )
@@ -108,7 +108,7 @@ def _of_direction(rows: pd.DataFrame, direction: str) -> str:
     text = tr(
         "The {direction} stiffness differs by {lowest:+.1f} to {highest:+.1f} %, "
         "most at C10 = {spoke_c10_mpa:g} MPa",
-        direction=direction,
+        direction=tr(direction),
         lowest=difference.min(),
         highest=difference.max(),
         spoke_c10_mpa=worst["spoke_c10_mpa"],
@@ -128,13 +128,13 @@ def _of_direction(rows: pd.DataFrame, direction: str) -> str:
         return text + "."
     computed = {kind: rows[f"{direction}_r2_{kind}"] for kind in ("uncentred", "centred")}
     nearer = min(computed, key=lambda kind: float(np.abs(computed[kind] - published).mean()))
-    spans = ", ".join(f"{kind} {_span(values)}" for kind, values in computed.items())
+    spans = ", ".join(f"{tr(kind)} {_span(values)}" for kind, values in computed.items())
     return tr(
         "{value}. R² is {spans}; printed {span}, nearer to the {nearer} one.",
         value=text,
         spans=spans,
         span=_span(published),
-        nearer=nearer,
+        nearer=tr(nearer),
     )
 
 

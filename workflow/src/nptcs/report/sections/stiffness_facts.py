@@ -27,7 +27,11 @@ def level_facts(results: Results) -> list[Fact]:
         for (solver, factor), levels in rows.groupby(["solver", "factor"], sort=False):
             label = labels[str(factor)]
             means = ", ".join(
-                f"{row.mean_difference_percent:+.1f} % at {row.level:g}"
+                tr(
+                    "{difference:+.1f} % at {level:g}",
+                    difference=row.mean_difference_percent,
+                    level=row.level,
+                )
                 for row in levels.itertuples()
             )
             what = tr(
@@ -47,9 +51,9 @@ def spoke_facts(lines: pd.DataFrame) -> list[Fact]:
     facts = []
     for (study, solver), rows in compared.groupby(["study", "solver"], sort=False):
         parts = [
-            f"{name} "
+            f"{tr(name)} "
             + ", ".join(
-                f"{difference:+.1f} % at {c10:g}"
+                tr("{difference:+.1f} % at {level:g}", difference=difference, level=c10)
                 for difference, c10 in zip(
                     rows[f"{name}_difference_percent"], rows["spoke_c10_mpa"], strict=True
                 )

@@ -72,14 +72,21 @@ def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
     loaded = any(results.solvers[name].loads_tyre for name in study.solvers)
     shared = (study.load_n if loaded else math.nan, ", ".join(study.solvers))
     rows: list[tuple[object, ...]] = [
-        (study.name, study.title, len(design), factor.label, factor.unit, _levels(factor, design))
+        (
+            study.name,
+            tr(study.title),
+            len(design),
+            tr(factor.label),
+            factor.unit,
+            _levels(factor, design),
+        )
         + shared
         for factor in study.factors
     ]
     return rows + [
         (
             study.name,
-            study.title,
+            tr(study.title),
             len(design),
             tr("{name} (fixed)", name=words(name)),
             "",
@@ -113,10 +120,11 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
     solvers = [
-        f"{name}: {facts.about}{_choices(facts)}." for name, facts in results.solvers.items()
+        tr("{name}: {about}{choices}.", name=name, about=tr(facts.about), choices=_choices(facts))
+        for name, facts in results.solvers.items()
     ]
     blocks: list[PageBlock] = [
-        Text("Solvers. " + " — ".join(solvers)),
+        Text(tr("Solvers. {list}", list=" — ".join(solvers))),
         table_view(case_counts(results.table(Cases)), COUNTS, mark=by_status),
         table_view(response_spans(results.table(Cases)), SPANS),
     ]
@@ -128,10 +136,10 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
 def _choices(facts: SolverFacts) -> str:
     """Name the models that the solver's options choose."""
     sets = [
-        ", ".join(f"{words(name)}: {choice}" for name, choice in chosen.items())
+        ", ".join(f"{words(name)}: {tr(choice)}" for name, choice in chosen.items())
         for chosen in facts.choices
     ]
-    return f" ({' or '.join(sets)})" if sets else ""
+    return f" ({tr(' or ').join(sets)})" if sets else ""
 
 
 def _cases_of(results: Results, study: Study, entry: entries.Entry) -> TableView:
@@ -141,7 +149,7 @@ def _cases_of(results: Results, study: Study, entry: entries.Entry) -> TableView
     return table_view(
         cases,
         entry,
-        tr("Cases of the study {name}: {title}", name=study.name, title=study.title),
+        tr("Cases of the study {name}: {title}", name=study.name, title=tr(study.title)),
         [*names, "message"],
         mark=by_status,
         synthetic=results.study_is_synthetic(study),
@@ -192,17 +200,17 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     """Build the coefficients and the figures of one study."""
     if not study.terms:
         asked = tr("The study {name} has no terms, so no surface is fitted to it.", name=study.name)
-        return [Text(study.title, "heading"), Text(asked)]
+        return [Text(tr(study.title), "heading"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = tr(
             "No surface could be fitted to the study {name}; see the problems above.",
             name=study.name,
         )
-        return [Text(study.title, "heading"), Text(refused, "bad")]
+        return [Text(tr(study.title), "heading"), Text(refused, "bad")]
     sheet = sheet_of(sheets, SurfaceTable, study.name)
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
-        Text(study.title, "heading"),
+        Text(tr(study.title), "heading"),
         sheet_view(sheet, given_digits=precise, whole=True),
     ]
     solved = {name: _solved(results, study, name) for name in results.surfaces[study.name]}
@@ -218,7 +226,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         "{title}: each surface over two factors, the discs are the cases; one "
         "colour scale for all panels and solvers; and over one factor, the lines "
         "are the surface, the marks are the cases",
-        title=study.title,
+        title=tr(study.title),
     ) + (tr(", sampled, at most {most_marks} per panel.", most_marks=MOST_MARKS) if many else ".")
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     if residuals := _residual_plots(results, study):
@@ -227,7 +235,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
             "grow with the leverage) and against a normal distribution. The results "
             "of a solver have no noise: a pattern is what the polynomial cannot "
             "follow.",
-            title=study.title,
+            title=tr(study.title),
         )
         blocks.append(Plots(words_of_residuals, tuple(residuals)))
     return blocks

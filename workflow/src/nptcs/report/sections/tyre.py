@@ -10,6 +10,7 @@ from nptcs.report.data import Results
 from nptcs.report.figures.tyre import PUBLISHED_STRESS_MPA, load_displacement, plate_faces
 from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
+from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
 from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES
@@ -25,7 +26,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     responses = results.table(TyreResponses)
     if responses.empty:
-        return Section(ReportSection.TYRE, TITLE, ())
+        return Section(ReportSection.TYRE, tr(TITLE), ())
     blocks: list[PageBlock] = [
         Text(
             tr(
@@ -37,8 +38,8 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
             )
             + ply_words(results)
         ),
-        *(Text(words) for words in published_stress(results)),
-        *(Text(words, "warn") for words in not_assessed(responses)),
+        *(Text(line) for line in published_stress(results)),
+        *(Text(line, "warn") for line in not_assessed(responses)),
         Plots(
             tr(
                 "Load against vertical displacement, every tyre of a study (figure 10 b "
@@ -63,7 +64,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
             )
         )
     return Section(
-        ReportSection.TYRE, TITLE, tuple(blocks), sheet_of(sheets, TyreResponses).synthetic
+        ReportSection.TYRE, tr(TITLE), tuple(blocks), sheet_of(sheets, TyreResponses).synthetic
     )
 
 
@@ -120,9 +121,9 @@ def not_assessed(responses: pd.DataFrame) -> list[str]:
     groups = missing.groupby(["response", "at", "status"], sort=False)
     return [
         tr(
-            "{replace}{which}: {status} for {count} tyres; the first: {note}.",
-            replace=str(name).replace("_", " "),
-            which=f" at {at}" if at else "",
+            "{response}{which}: {status} for {count} tyres; the first: {note}.",
+            response=words(str(name)),
+            which=tr(" at {at}", at=at) if at else "",
             status=status,
             count=len(rows),
             note=rows["note"].iloc[0],

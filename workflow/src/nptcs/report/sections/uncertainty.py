@@ -79,7 +79,7 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
                 bias_largest_percent=row["bias_largest_percent"],
                 blind_cases=row["blind_cases"],
             )
-        at = f" at {row['at']}" if row["at"] else ""
+        at = tr(" at {at}", at=row["at"]) if row["at"] else ""
         what = tr(
             "{capitalize}{at}, {design}, study {study}, solver {solver}",
             capitalize=words(row["response"]).capitalize(),
