@@ -12,6 +12,7 @@ from nptcs.archive.crate import CONFIGURATION, ENVIRONMENT, MANIFEST, METADATA
 from nptcs.config.root import Config, read_config
 from nptcs.errors import InputError
 from nptcs.files import read_model
+from nptcs.runs.identity import RunIdentity
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.io import read_table
 from nptcs.tables.material_card import MaterialCard
@@ -48,6 +49,12 @@ def faults_of(folder: Path) -> list[str]:
 def packed_faults(folder: Path) -> list[str]:
     """Return what is not as it was packed, whichever version of the package has packed it."""
     return list(_broken_files(folder)) or list(_metadata_faults(folder))
+
+
+def run_identity(folder: Path) -> RunIdentity | None:
+    """Return the identity of an archived run; none if its version did not write one."""
+    path = folder / "results" / "identity.json"
+    return read_model(path, RunIdentity) if path.is_file() else None
 
 
 def packed_software(folder: Path) -> dict[str, str]:
