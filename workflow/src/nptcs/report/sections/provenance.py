@@ -35,8 +35,8 @@ def provenance_section(results: Results, sheets: Sheets) -> Section:
 def identity_words(identity: RunIdentity) -> str:
     """Name the run by its content, and say when its tables were complete."""
     return tr(
-        "Run {short}: SHA-256 {identity} over {inputs} input files, the configuration, the code and "
-        "{tables} tables; the tables were complete on {made}. The command nptcs compare says what "
+        "Run {short}: SHA-256 {identity} over {inputs} input files, the configuration, the code "
+        "and {tables} tables; the tables were complete on {made}. The command nptcs compare says what "
         "differs from another run.",
         short=identity.short,
         identity=identity.identity,
