@@ -80,7 +80,7 @@ def closing_lines(
     lines += [f"  {campaign_words(one)}" for one in run.campaigns()]
     for job in run.failed:
         lines.append(f"FAILED {job}: {first_line(job.log)}")
-    lines += [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
+    lines += page_lines(pages)
     lines += identity_lines(identity)
     if log:
         lines.append(f"log of the run: {log}")
@@ -96,6 +96,11 @@ def identity_lines(file: str) -> list[str]:
     except InputError:
         return []  # being written anew, or edited: the next reader of results says so
     return [f"run {found.short}: tables complete {found.made_text}"]
+
+
+def page_lines(pages: Sequence[str] = PAGES) -> list[str]:
+    """Name the report and the workbook, if they exist."""
+    return [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
 
 
 def first_line(log: str) -> str:

@@ -32,17 +32,21 @@ def render_report(results: Results) -> str:
         HTML text, UTF-8, with styles and figures inside.
     """
     sheets = sheets_of(results)
-    return page_environment().get_template("report.html.j2").render(
-        settings=results.config.report,
-        sound=results.verdict()[0],
-        synthetic=results.any_synthetic,
-        summary=summary_blocks(results, sheets),
-        sections=build_sections(results, sheets),
-        style=_resource("report.css"),
-        script=_resource("page.js"),
-        figure_theme=Markup(theme_css()),
-        figure_style=_resource("figures.css"),
-        figure_script=_resource("figures.js"),
+    return (
+        page_environment()
+        .get_template("report.html.j2")
+        .render(
+            settings=results.config.report,
+            sound=results.verdict()[0],
+            synthetic=results.any_synthetic,
+            summary=summary_blocks(results, sheets),
+            sections=build_sections(results, sheets),
+            style=_resource("report.css"),
+            script=_resource("page.js"),
+            figure_theme=Markup(theme_css()),
+            figure_style=_resource("figures.css"),
+            figure_script=_resource("figures.js"),
+        )
     )
 
 
