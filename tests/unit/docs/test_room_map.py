@@ -13,6 +13,7 @@ EVERYWHERE = {
     "console",
     "errors",
     "files",
+    "language",
     "laminate",
     "likelihood",
     "loading",

@@ -20,6 +20,7 @@ from matplotlib.figure import Figure
 
 from nptcs.errors import InputError
 from nptcs.files import read_sealed, write_sealed
+from nptcs.language import catalogue_digest, current_language
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
 from nptcs.report.figures.style import PANEL, to_svg
@@ -114,7 +115,8 @@ def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> 
     except (pickle.PicklingError, TypeError, AttributeError):
         return None
     code = code_hash(draw.__module__, "nptcs.report.figures.style", words=True)
-    name = f"{draw.__module__}.{draw.__qualname__} {code} {mpl.__version__} ".encode()
+    words = f"{current_language()} {catalogue_digest(current_language())}"
+    name = f"{draw.__module__}.{draw.__qualname__} {code} {mpl.__version__} {words} ".encode()
     return hashlib.sha256(name + content).hexdigest()
 
 
