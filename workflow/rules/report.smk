@@ -16,6 +16,7 @@ def solver_facts():
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
             "choices": facts.get(name, {}).get("choices", []),
+            "whole_plates": solver.whole_plates,
         }
         chosen = solver.choices
         if chosen and chosen not in facts[name]["choices"]:
@@ -74,6 +75,7 @@ rule report:
         records=records(SPECIMENS),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+        models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
         inputs=[ancient(path) for path in configured_inputs()],
     output:
         page=report(
@@ -96,8 +98,9 @@ rule report:
             "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
+                for folder in ("templates", "explorer/assets")
                 for template in sorted(
-                    Path(str(package_files("nptcs.report") / "templates")).iterdir()
+                    Path(str(package_files("nptcs.report") / folder)).iterdir()
                 )
             },
             "inputs": contents(configured_inputs()),

@@ -126,8 +126,15 @@ class Folded:
     text: str
 
 
-PageBlock = TableView | Plots | Text | Listing | Facts | Folded
-BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded"]
+@dataclass(frozen=True)
+class Interactive:
+    """A part of the page that computes: finished HTML with its data, styles and scripts."""
+
+    markup: str
+
+
+PageBlock = TableView | Plots | Text | Listing | Facts | Folded | Interactive
+BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded", "interactive"]
 
 
 def macro_of(block: PageBlock) -> BlockMacro:
@@ -145,6 +152,8 @@ def macro_of(block: PageBlock) -> BlockMacro:
             return "facts"
         case Folded():
             return "folded"
+        case Interactive():
+            return "interactive"
         case _:
             assert_never(block)
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from importlib.metadata import version
 from pathlib import Path
 from typing import Any
@@ -16,9 +16,12 @@ from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import read_model, sha256_of_file
+from nptcs.lca.section import SectionKind
 from nptcs.report.verdict import verdict
+from nptcs.solvers.lca import LcaOptions
 from nptcs.surface.fit import Surface
-from nptcs.surface.stored import read_surfaces
+from nptcs.surface.registry import SurfaceRegistry
+from nptcs.surface.stored import read_registry, read_surfaces
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.catalogue import file_of, result_files
 from nptcs.tables.curves import IngestRecord, read_curves
@@ -46,6 +49,26 @@ class SolverFacts:
     needs_ply: bool
     loads_tyre: bool
     choices: Sequence[Mapping[str, str]] = ()
+    whole_plates: bool = False
+
+
+@dataclass(frozen=True)
+class LcaRing:
+    """The load-bearing model as the run's first study with it uses it.
+
+    Parameters
+    ----------
+    section : {"sandwich", "printed"}
+        Section of the shear band.
+    file : str
+        The table of spoke stiffness.
+    rows : sequence of mapping
+        Its rows.
+    """
+
+    section: SectionKind
+    file: str
+    rows: Sequence[Mapping[Any, Any]]
 
 
 @dataclass(frozen=True)
@@ -53,7 +76,7 @@ class Results:
     """Everything that a run has made.
 
     ``tables`` holds the tables of ``results/tables`` by file name; `table` returns one by its
-    contract.
+    contract. ``models`` holds all stored surfaces by study.
     """
 
     config: Config
@@ -67,6 +90,8 @@ class Results:
     designs: Mapping[str, pd.DataFrame]
     surfaces: Mapping[str, Mapping[str, Surface]]
     tables: Mapping[str, pd.DataFrame]
+    models: Mapping[str, SurfaceRegistry] = field(default_factory=dict)
+    lca_ring: LcaRing | None = None
 
     def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
         """Return the result table that keeps a contract; for a table of one study, the study's."""
@@ -145,8 +170,8 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         plain values.
     files : mapping
         A path for ``card``; lists of paths under ``tables`` (all of ``results/tables``),
-        ``curves``, ``records``, ``designs``, ``surfaces`` (both named by their study) and
-        ``inputs``.
+        ``curves``, ``records``, ``designs``, ``surfaces``, ``models`` (all three named by their
+        study) and ``inputs``.
 
     Returns
     -------
@@ -183,4 +208,22 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
             name: read_table(paths[name], row.contract)
             for name, row, _ in result_files(with_surface)
         },
+        models={Path(file).stem: read_registry(file) for file in files["models"]},
+        lca_ring=_lca_ring(config),
     )
+
+
+def _lca_ring(config: Config) -> LcaRing | None:
+    """Read the spokes of the load-bearing model; None where no study uses it with two stiffnesses.
+
+    A model with a curve for each spoke is not evaluated on the page.
+    """
+    study = next((study for study in config.studies if "lca" in study.solvers), None)
+    if study is None:
+        return None
+    options = LcaOptions.model_validate(config.options_of(study.name, "lca"))
+    file = options.tables().get("spoke_stiffness")
+    if file is None or options.contact_spokes != "paper":
+        return None
+    rows = pd.read_csv(file).to_dict("records")
+    return LcaRing(options.section, file, rows)

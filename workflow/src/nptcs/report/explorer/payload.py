@@ -14,6 +14,7 @@ from nptcs.report.data import Results
 from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
+from nptcs.language import tr
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.cases import Cases
 from nptcs.tables.published_stiffness import DIFFERENCE, StiffnessAgainstPublished
@@ -81,7 +82,7 @@ def explorer_payload(results: Results) -> Plain:
 def _factors(studies: tuple[Study, ...]) -> list[Plain]:
     """Describe the five design variables, then any others that studies have."""
     found = {
-        name: {"name": name, "key": key, "label": LABELS[name][0], "unit": LABELS[name][1]}
+        name: {"name": name, "key": key, "label": tr(LABELS[name][0]), "unit": LABELS[name][1]}
         for name, key in KEYS.items()
     }
     for study in studies:
@@ -90,7 +91,7 @@ def _factors(studies: tuple[Study, ...]) -> list[Plain]:
             found[factor.name] = {
                 "name": factor.name,
                 "key": key,
-                "label": factor.label,
+                "label": tr(factor.label),
                 "unit": factor.unit,
             }
     return list(found.values())
@@ -100,7 +101,7 @@ def _study(results: Results, study: Study, registry: SurfaceRegistry) -> Plain:
     solvers = list(dict.fromkeys(fitted.solver for fitted in registry.surfaces))
     return {
         "name": study.name,
-        "title": study.title,
+        "title": tr(study.title),
         "load_n": study.load_n,
         "factors": [factor.name for factor in study.factors],
         "fixed": _fixed(results, study),
@@ -149,7 +150,7 @@ def _solver(results: Results, study: Study, registry: SurfaceRegistry, solver: s
     fitted_names = {response.name for response in by_response}
     return {
         "name": solver,
-        "about": facts.about,
+        "about": tr(facts.about),
         "synthetic": results.study_is_synthetic(study, solver),
         "whole_plates": facts.whole_plates,
         "bias": _bias(results, study, solver),
@@ -189,7 +190,7 @@ def _response(
         "at": response.at,
         "load_n": response.load_n,
         "unit": "" if response.unit == "1" else response.unit,
-        "title": RESPONSE_TITLES[response.name],
+        "title": tr(RESPONSE_TITLES[response.name]),
         "points": place,
         "values": first.surface.y.tolist(),
         "not_assessed": first.not_assessed,
@@ -240,7 +241,7 @@ def _constants(
         same = bool(len(values)) and bool(np.ptp(values) <= 1e-12 * np.abs(values).max())
         yield {
             "name": name,
-            "title": RESPONSE_TITLES[name],
+            "title": tr(RESPONSE_TITLES[name]),
             "unit": str(known["unit"].iloc[0]) if len(known) else "",
             "solved": len(known),
             "value": float(values[0]) if same else None,

@@ -10,6 +10,7 @@ import pandera.pandas as pa
 from nptcs.report.blocks import PageBlock, Section, TableView, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.decision import decision_section
+from nptcs.report.sections.explorer import explorer_section
 from nptcs.report.sections.lca import lca_section
 from nptcs.report.sections.materials import materials_section
 from nptcs.report.sections.provenance import provenance_section
@@ -58,6 +59,7 @@ class SectionPlan:
 
 
 PLANS: Mapping[ReportSection, SectionPlan] = {
+    ReportSection.EXPLORE: SectionPlan(explorer_section),
     ReportSection.SPECIMENS: SectionPlan(specimens_section),
     ReportSection.MATERIALS: SectionPlan(materials_section),
     ReportSection.DESIGN: SectionPlan(design_section),
