@@ -116,8 +116,9 @@ def _fixed(results: Results, study: Study) -> dict[str, float]:
     """Values that all cases of a study share, rubbers as their C10."""
     cases = results.table(Cases)
     rows = cases[cases["study"] == study.name]
+    numbers = {name: value for name, value in study.fixed.items() if isinstance(value, float)}
     held = {name: rows[name].dropna() for name in study.fixed if name in rows}
-    return {name: float(values.iloc[0]) for name, values in held.items() if len(values)}
+    return numbers | {name: float(found.iloc[0]) for name, found in held.items() if len(found)}
 
 
 def _band(study: Study) -> list[float] | None:

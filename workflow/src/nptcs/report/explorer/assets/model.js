@@ -197,6 +197,7 @@ function readState(text) {
     if (Number.isFinite(value) && studyOf().factors.includes(factor.name)) setValue(factor.name, value);
   }
   if (loadsOf(solverOf()).includes(number("load"))) state.load = number("load");
+  settleShown();
   const band = (given.get("band") ?? "").split("..").map((end) => (end.trim() ? Number(end) : NaN));
   if (band.length === 2 && band.every(Number.isFinite) && band[0] < band[1]) state.band = band;
   const named = (key) => DATA.factors.find((factor) => factor.key === given.get(key))?.name;
@@ -260,6 +261,11 @@ function chooseSolver(name) {
   const loads = loadsOf(solver);
   if (!loads.includes(state.load)) state.load = loads.includes(studyOf().load_n) ? studyOf().load_n : loads.at(-1);
   if (state.model && !namesOfModels().includes(state.model)) state.model = "";
+  settleShown();
+}
+
+// The plane shows a response that there is: with another load, the stiffness at that load.
+function settleShown() {
   const rows = rowsOf().filter((row) => row.response);
   if (!rows.some((row) => row.key === state.shown)) state.shown = rows[0].key;
 }

@@ -595,7 +595,8 @@ function showRing(point, study, solver) {
   const row = rowsOf().find((one) => one.kind === "displacement");
   const found = row ? rowAt(row, point, study, solver, false) : {};
   const { solved, words, alt } = solvedRing(study, found.value);
-  drawRing(parts.ring, solved);
+  parts.ring.hidden = !solved;
+  if (solved) drawRing(parts.ring, solved);
   parts.ringNote.textContent = words;
   parts.ring.setAttribute("aria-label", alt ?? words);
 }
@@ -642,11 +643,12 @@ function showModels(study) {
   const row = rowsOf().find((one) => one.key === state.shown);
   const [name, at] = [row.response.name, row.response.at];
   const body = [];
-  for (const other of DATA.studies) {
+  const first = (list, mine) => [...list].sort((a, b) => (b.name === mine) - (a.name === mine));
+  for (const other of first(DATA.studies, state.study)) {
     const differs = otherConditions(other);
     const list = differs.map(([factor, value]) => `${symbolOf(factor)} ${tidy(value)} ${FACTOR[factor].unit}`).join(", ");
     const place = other.factors.map((factor) => valueOf(factor, study) ?? state.values[factor]);
-    for (const solver of other.solvers) {
+    for (const solver of first(other.solvers, state.solver)) {
       const response = solver.responses.find((one) => one.name === name && one.at === at);
       for (const surface of response?.surfaces ?? []) body.push(modelRow(other, solver, response, surface, place, row, list));
     }
@@ -683,6 +685,7 @@ function modelRow(study, solver, response, surface, place, row, list) {
 
 function show() {
   readColours(ROOT);
+  settleShown();
   const study = studyOf();
   const solver = solverOf();
   const point = pointOf(study, solver);

@@ -37,7 +37,6 @@ const RING_STEPS = 180;
 
 function drawRing(canvas, solved) {
   const { context, width, height } = prepared(canvas);
-  if (!solved) return;
   const plain = solved.wheel.plain;
   const radius = plain.radius_mm;
   const scale = Math.min(width, height) / (2 * plain.outer_radius_mm + 12);
