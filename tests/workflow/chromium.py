@@ -156,7 +156,9 @@ class Tab:
     def requests(self) -> list[str]:
         """Return all addresses that were asked for and are not in the page or on this disk."""
         self.value("0")
-        asked = [event for event in self._events if event.get("method") == "Network.requestWillBeSent"]
+        asked = [
+            event for event in self._events if event.get("method") == "Network.requestWillBeSent"
+        ]
         urls = [event["params"]["request"]["url"] for event in asked]
         return [url for url in urls if not url.startswith(LOCAL)]
 

@@ -12,6 +12,7 @@ from nptcs.report.blocks import (
     BlockMacro,
     Facts,
     Folded,
+    Interactive,
     Listing,
     PageBlock,
     ParagraphKind,
@@ -30,6 +31,7 @@ BLOCKS = [
     Listing("words of the block", ()),
     Facts("words of the block", ()),
     Folded("words of the block", ""),
+    Interactive("<p>words of the block</p>"),
 ]
 
 

@@ -1,4 +1,4 @@
-"""What the explorer computes from: stored surfaces, their cases, and what is known of their error."""
+"""What the explorer computes from: stored surfaces, their cases, and what is known of error."""
 
 from __future__ import annotations
 
@@ -10,11 +10,11 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.goals import GoalKind
 from nptcs.config.study import Study
+from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
-from nptcs.language import tr
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.cases import Cases
 from nptcs.tables.published_stiffness import DIFFERENCE, StiffnessAgainstPublished
@@ -132,7 +132,7 @@ def _band(study: Study) -> list[float] | None:
 
 
 def _steps(study: Study) -> dict[str, float]:
-    """Steps of values that can be made, as the study's decisions state them."""
+    """Return the steps of values that can be made, as the study's decisions state them."""
     return {name: step for decision in study.decisions for name, step in decision.steps.items()}
 
 
@@ -145,8 +145,7 @@ def _solver(results: Results, study: Study, registry: SurfaceRegistry, solver: s
             by_response.setdefault(_as_secant(fitted.response, study), []).append(fitted)
     points: list[Array] = []
     responses = [
-        _response(response, surfaces, names, points)
-        for response, surfaces in _ordered(by_response)
+        _response(response, surfaces, names, points) for response, surfaces in _ordered(by_response)
     ]
     fitted_names = {response.name for response in by_response}
     return {
@@ -172,7 +171,10 @@ def _ordered(
     """Secant stiffness by load first, then the others in the order of the configuration."""
     return sorted(
         by_response.items(),
-        key=lambda item: (item[0].name != SECANT, (item[0].load_n or 0.0) * (item[0].name == SECANT)),
+        key=lambda item: (
+            item[0].name != SECANT,
+            (item[0].load_n or 0.0) * (item[0].name == SECANT),
+        ),
     )
 
 
@@ -228,9 +230,7 @@ def _bias(results: Results, study: Study, solver: str) -> Plain | None:
     }
 
 
-def _constants(
-    results: Results, study: Study, solver: str, fitted: set[str]
-) -> Iterator[Plain]:
+def _constants(results: Results, study: Study, solver: str, fitted: set[str]) -> Iterator[Plain]:
     """Responses that readers look for and that have no surface: their constant value, or why."""
     table = results.table(TyreResponses)
     rows = table[(table["study"] == study.name) & (table["solver"] == solver)]
@@ -247,4 +247,3 @@ def _constants(
             "solved": len(known),
             "value": float(values[0]) if same else None,
         }
-

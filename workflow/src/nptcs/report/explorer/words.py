@@ -53,9 +53,7 @@ def page_words() -> dict[str, str]:
         ),
         "outside_one": tr("{label} {value} {unit} (cases {low} to {high})"),
         "inside": tr("Inside the box of the solved cases."),
-        "plates_used": tr(
-            "{solver} uses whole plates: {count} plates at a pitch of {pitch} mm."
-        ),
+        "plates_used": tr("{solver} uses whole plates: {count} plates at a pitch of {pitch} mm."),
         "plates_given": tr(
             "{solver} takes the spacing as it is given. Whole plates in the width of {width} mm: "
             "{count} at a pitch of {pitch} mm."
@@ -71,14 +69,16 @@ def page_words() -> dict[str, str]:
             "not fitted: add {name} to “responses” of study {study} ({count} solved cases have it)"
         ),
         "not_given": tr("{solver} does not give it"),
-        "constant": tr("the same in all {count} solved cases: it depends on no factor of this study"),
+        "constant": tr(
+            "the same in all {count} solved cases: it depends on no factor of this study"
+        ),
         "left_out": tr("left-out error {rms} {unit} (rms)"),
         "left_out_head": tr("left-out error (rms)"),
         "bias_head": tr("bias band"),
         "bias_note": tr(
             "Bias band: where the published FE model is expected, from the {cases} blind cases of "
-            "this study, which differ from it by {least} to {most} % (mean {mean} %). It is not part "
-            "of the interval."
+            "this study, which differ from it by {least} to {most} % (mean {mean} %). It is not "
+            "part of the interval."
         ),
         "bias_reference": tr("This solver is the published values themselves: it has no bias."),
         "bias_none": tr("Bias not assessed: no blind case has a published value."),
@@ -111,11 +111,15 @@ def page_words() -> dict[str, str]:
         "plane_none": tr("The other factors lie outside the cases: no value in this plane."),
         "plane_one": tr("The study varies one factor only: there is no plane."),
         "view3d": tr("3-D view"),
-        "view3d_alt": tr("{response} as a surface over {across} and {up}, seen from {turn} degrees"),
+        "view3d_alt": tr(
+            "{response} as a surface over {across} and {up}, seen from {turn} degrees"
+        ),
         "turn": tr("turn"),
         "tilt": tr("tilt"),
         "ring": tr("Deformed ring"),
-        "ring_alt": tr("Deformed ring at {load} N, displacement {delta} mm, contact length {length} mm"),
+        "ring_alt": tr(
+            "Deformed ring at {load} N, displacement {delta} mm, contact length {length} mm"
+        ),
         "ring_from": tr(
             "Load-bearing analysis (LCA), solved in this page: ring with T-C {band} MPa, spokes of "
             "S-C {spoke} MPa ({table}) with their stiffness times {factor}, so that the "
@@ -141,8 +145,8 @@ def page_words() -> dict[str, str]:
         "curve_point": tr("{load} N at {delta} mm"),
         "models": tr("All models at this design"),
         "models_lead": tr(
-            "Each stored surface of {response}. Values of other studies hold for what these studies "
-            "hold: it is written next to them."
+            "Each stored surface of {response}. Values of other studies hold for what these "
+            "studies hold: it is written next to them."
         ),
         "not_same": tr("holds for {list}, not for this design"),
         "copy_link": tr("Copy link to this state"),
