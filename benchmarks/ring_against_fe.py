@@ -58,7 +58,13 @@ CASE_LOADS = np.linspace(500.0, 5000.0, 10).tolist()
 def cases() -> list[dict[str, float]]:
     """Designs of tables 5 and 7."""
     plates = [
-        {"spacing_mm": s, "thickness_mm": t, "angle_deg": a, "spoke_c10_mpa": 1.04, "band": 5.0}
+        {
+            "spacing_mm": s,
+            "thickness_mm": t,
+            "angle_deg": float(a),
+            "spoke_c10_mpa": 1.04,
+            "band": 5.0,
+        }
         for s, t, a in product((10.0, 15.0, 20.0), (1.2, 1.8, 2.4), range(0, 91, 15))
     ]
     rubbers = [
