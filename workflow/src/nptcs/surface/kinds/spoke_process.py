@@ -18,13 +18,12 @@ from typing import Any
 
 import numpy as np
 from scipy import stats
-from scipy.linalg import cho_solve
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
 
 from nptcs.arrays import Array, Index
 from nptcs.errors import InputError
-from nptcs.likelihood import SearchError, bounds_are_answers, maximise
+from nptcs.likelihood import SearchError, bounds_are_answers, left_out_inflation, maximise
 from nptcs.spoke_features import spoke_features
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable
 
@@ -322,17 +321,8 @@ class SpokeProcess:
 
     @cached_property
     def _inflation(self) -> list[float]:
-        """Factor of each process's standard error: what spokes that are left out show of it.
-
-        With the hyperparameters kept, the error at a left-out spoke in standard errors is
-        (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms, at least 1.
-        """
-        factors = []
-        for process in self._processes:
-            inverse = cho_solve((process.L_, True), np.eye(len(process.L_)))
-            scores = np.ravel(process.alpha_) / np.sqrt(np.diag(inverse))
-            factors.append(max(1.0, float(np.sqrt(np.mean(scores**2)))))
-        return factors
+        """Factor of each process's standard error: what spokes that are left out show of it."""
+        return [left_out_inflation(process) for process in self._processes]
 
     def _moments(self, x: Array, errors: bool) -> tuple[Array, Array]:
         """Mean and standard deviation of the (logarithm of the) response at points (m, n)."""
