@@ -96,7 +96,7 @@ def _process(surface: GaussianProcess) -> Plain:
         "scale": fitted.scale,
         "nugget": NUGGET,
         "mean": float(surface.y.mean()) if surface.mean is None else plain_surface(surface.mean),
-        "quantile": _normal(),
+        "quantile": _normal() * fitted.inflation,
     }
 
 

@@ -47,12 +47,15 @@ class Weights:
         Of the covariance with each case, in units of `scale`: K⁻¹ residual/scale.
     scale : float
         In the unit of the response.
+    inflation : float
+        Factor of the standard error.
     """
 
     centre: Array
     half: Array
     weights: Array
     scale: float
+    inflation: float
 
 
 @dataclass(frozen=True)
@@ -124,7 +127,7 @@ class GaussianProcess:
     def regressor(self) -> Weights:
         """Return what a program needs that evaluates the process without this package."""
         weights = np.ravel(self._process.alpha_)
-        return Weights(*coding(self.x), weights, self._scale)
+        return Weights(*coding(self.x), weights, self._scale, self._inflation)
 
     def _coded(self, x: Array) -> Array:
         centre, half = coding(self.x)
