@@ -8,6 +8,7 @@ import grimp
 ROOT = Path(__file__).parents[3]
 ROW = re.compile(r"^\| (`[^|]*`) \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 EVERYWHERE = {
+    "arguments",
     "arrays",
     "bending",
     "console",
@@ -19,9 +20,11 @@ EVERYWHERE = {
     "loading",
     "mechanical_tests",
     "provenance",
+    "ranges",
     "seal",
     "spoke_features",
     "terms",
+    "text_table",
     "threads",
     "yaml_files",
 }

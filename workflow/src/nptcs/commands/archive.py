@@ -9,21 +9,32 @@ import subprocess
 import sys
 from pathlib import Path
 
+from nptcs.arguments import add_command, existing_folder, output_file
+
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "archive",
-        help="pack a finished study into one file that can be checked and run again",
-        description="Packs inputs, configuration, tables, card, report, code and a description of "
+        "pack a finished study into one file that can be checked and run again",
+        "Packs inputs, configuration, tables, card, report, code and a description of "
         "the environment as an RO-Crate (a zip file) with a checksum for each file. 'nptcs "
         "verify' checks it.",
+        "nptcs archive study.zip",
     )
     parser.add_argument(
-        "archive", nargs="?", default="study.zip", help="file to write; default: %(default)s"
+        "archive",
+        nargs="?",
+        type=output_file(".zip"),
+        default="study.zip",
+        help="file to write; default: %(default)s",
     )
     parser.add_argument(
-        "--project", default=".", help="the project folder; default: the current one"
+        "--project",
+        type=existing_folder,
+        default=".",
+        help="the project folder; default: the current one",
     )
     parser.set_defaults(run=run)
 

@@ -40,7 +40,8 @@ class Campaign(Strict):
     most_cases: int = Field(
         2000,
         ge=1,
-        description="Cases of a study above which a run is refused; raise it to ask for more",
+        description="Cases of a study above which a run is refused; raise it to ask for more, or "
+        "start the run with `nptcs run --yes`",
     )
     bulk_from: int = Field(
         1000,

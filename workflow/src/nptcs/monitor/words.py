@@ -70,10 +70,15 @@ def closing_lines(run: Run, seconds: float, log: str, pages: Sequence[str] = PAG
     lines += [f"  {campaign_words(one)}" for one in run.campaigns()]
     for job in run.failed:
         lines.append(f"FAILED {job}: {first_line(job.log)}")
-    lines += [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
+    lines += page_lines(pages)
     if log:
         lines.append(f"log of the run: {log}")
     return lines
+
+
+def page_lines(pages: Sequence[str] = PAGES) -> list[str]:
+    """Name the report and the workbook, if they exist."""
+    return [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
 
 
 def first_line(log: str) -> str:

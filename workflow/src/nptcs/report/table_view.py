@@ -96,6 +96,7 @@ def table_view(
         tuple(rows),
         synthetic,
         rows_of_table,
+        tuple(shown),
     )
 
 

@@ -24,7 +24,9 @@ from nptcs.tables.diagnostics import (
     SurfaceStationary,
     SurfaceTests,
 )
+from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.files import Files
+from nptcs.tables.flags import FlagsTable
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
@@ -90,6 +92,14 @@ TABLES: dict[str, ResultTable] = {
         "the properties of the specimens that the sheet includes",
         section=ReportSection.SPECIMENS,
         mark=RowMark.OUTLIERS,
+    ),
+    "flags.csv": ResultTable(
+        FlagsTable,
+        "What was flagged: deviations from the standards, values not assessed, remarks",
+        "statistics",
+        "the flags of the specimens' properties; flags that differ in their numbers only are one",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.DEVIATION,
     ),
     "hyperelastic_models.csv": ResultTable(
         ModelComparison,
@@ -411,6 +421,15 @@ TABLES: dict[str, ResultTable] = {
         "the model solved for the cases of table 7; FE values as printed there",
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
+    ),
+    "displacement_by_load.csv": ResultTable(
+        DisplacementByLoad,
+        "Displacement by finite elements and by the load-bearing model (figure 15)",
+        "displacement_by_load",
+        "the curves of the tyres that are those of table 11, and lca_validation.csv",
+        section=ReportSection.LCA,
+        mark=RowMark.STATUS,
+        synthetic=SyntheticBy.PLIES,
     ),
     "lca_neutral_line.csv": ResultTable(
         LcaNeutralLine,

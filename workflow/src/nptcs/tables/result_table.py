@@ -28,18 +28,18 @@ class ReportSection(StrEnum):
 
     SUMMARY = "verdict"
     EXPLORE = "explore"
-    SPECIMENS = "specimens"
-    MATERIALS = "materials"
-    DESIGN = "design"
-    CASES = "cases"
-    SURFACES = "surfaces"
-    SENSITIVITY = "sensitivity"
-    UNCERTAINTY = "uncertainty"
     DECISION = "decision"
-    SPOKE = "spoke"
+    UNCERTAINTY = "uncertainty"
+    SENSITIVITY = "sensitivity"
     TYRE = "tyre"
     PUBLISHED_STIFFNESS = "published_stiffness"
     LCA = "lca"
+    SPOKE = "spoke"
+    SURFACES = "surfaces"
+    MATERIALS = "materials"
+    SPECIMENS = "specimens"
+    DESIGN = "design"
+    CASES = "cases"
     FURTHER = "further"
     PROVENANCE = "provenance"
 
@@ -56,6 +56,7 @@ class RowMark(StrEnum):
     SPECIMEN = "specimen left out, or property not assessed"
     OUTLIERS = "group with an outlier"
     ORIGIN = "assumed, not measured"
+    DEVIATION = "deviation from a standard"
 
 
 class SyntheticBy(StrEnum):

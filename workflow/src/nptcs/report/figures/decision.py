@@ -6,7 +6,8 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+from nptcs.report.figures.style import mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
 
 
@@ -56,6 +57,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
         for row in designs.to_dict("records")
     ]
     axes.set_yticks(place, names)
+    figure.data = designs
     axes.grid(visible=False, axis="y")
     figure.legend(loc="outside lower center", ncols=3)
     mark_synthetic(figure, synthetic)

@@ -10,7 +10,16 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.report.factor_labels import FactorLabel
-from nptcs.report.figures.style import GREY, line_look, mark_synthetic, panel, styled
+from nptcs.report.figures.style import (
+    DASHES,
+    line_look,
+    mark_synthetic,
+    note_sampled,
+    panel,
+    sampled,
+    styled,
+)
+from nptcs.report.figures.theme import GREY, INK, PAPER
 from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
@@ -21,8 +30,8 @@ DISPLACEMENTS = {
     "tangential_mm": "tangential displacement [mm]",
 }
 
-
-LINES = ("-", "--", ":", "-.")
+MOST_NUMBERS = 1000
+"""Rows of a table beyond which a figure carries the numbers of its sample only."""
 
 
 def _look(solver: object, order: Sequence[str]) -> dict[str, Any]:
@@ -59,7 +68,7 @@ def parity(
     figure, axes = panel(title, "published stiffness [N/mm]", "computed stiffness [N/mm]", (4.3, 4))
     values = table[[COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS]].to_numpy(float)
     ends = np.array([0.97 * np.nanmin(values), 1.03 * np.nanmax(values)])
-    axes.plot(ends, ends, color="black", linewidth=0.9, label="equal")
+    axes.plot(ends, ends, color=INK, linewidth=0.9, label="equal")
     for percent, dashes in BANDS_PERCENT.items():
         for sign in (-1, 1):
             edge = ends * (1 + sign * percent / 100)
@@ -69,9 +78,13 @@ def parity(
         look = _look(solver, order)
         if calibrated:
             look |= {"mfc": "none", "label": f"{solver}, calibrated on"}
-        axes.plot(rows[PUBLISHED_STIFFNESS], rows[COMPUTED_STIFFNESS], linestyle="", **look)
+        drawn = sampled(rows)
+        axes.plot(drawn[PUBLISHED_STIFFNESS], drawn[COMPUTED_STIFFNESS], linestyle="", **look)
+        note_sampled(axes, len(drawn), len(rows), "cases per solver")
     axes.set(xlim=ends, ylim=ends)
     axes.set_aspect("equal")
+    columns = ["case_id", "solver", "used_for_calibration", PUBLISHED_STIFFNESS, COMPUTED_STIFFNESS]
+    figure.data = table[columns] if len(table) <= MOST_NUMBERS else sampled(table[columns])
     return _finished(figure, synthetic)
 
 
@@ -93,7 +106,9 @@ def main_effect(
         Whether the materials of any solver are synthetic.
     """
     figure, axes = panel(
-        f"study {levels['study'].iloc[0]}", str(label), "mean vertical stiffness [N/mm]"
+        f"Mean stiffness, study {levels['study'].iloc[0]}",
+        str(label),
+        "mean vertical stiffness [N/mm]",
     )
     # solvers may have been compared over different cases: then each has a published mean of its own
     same = levels.groupby("level")["published_mean_n_per_mm"].nunique().max() == 1
@@ -103,13 +118,15 @@ def main_effect(
             axes.plot(
                 rows["level"],
                 rows["published_mean_n_per_mm"],
-                color="black" if same else look["color"],
+                color=INK if same else look["color"],
                 marker="o",
-                mfc="white",
+                mfc=PAPER,
                 linestyle="--",
                 label="published" if same else f"published, cases of {solver}",
             )
         axes.plot(rows["level"], rows["computed_mean_n_per_mm"], **look)
+    means = ["published_mean_n_per_mm", "computed_mean_n_per_mm"]
+    figure.data = levels[["study", "factor", "level", "solver", *means]]
     return _finished(figure, synthetic)
 
 
@@ -124,7 +141,9 @@ def level_differences(
     levels, label, order, synthetic
         As in `main_effect`.
     """
-    figure, axes = panel(f"study {levels['study'].iloc[0]}", str(label), "computed − published [%]")
+    figure, axes = panel(
+        f"Difference, study {levels['study'].iloc[0]}", str(label), "computed − published [%]"
+    )
     groups = list(levels.groupby("solver"))
     reach = float(np.ptp(levels["level"])) or 1.0
     for number, (solver, rows) in enumerate(groups):
@@ -141,7 +160,9 @@ def level_differences(
             elinewidth=0.9,
             **_look(solver, order),
         )
-    axes.axhline(0, color="black", linewidth=0.8)
+    axes.axhline(0, color=INK, linewidth=0.8)
+    ends = [f"{which}_difference_percent" for which in ("mean", "lowest", "highest")]
+    figure.data = levels[["study", "factor", "level", "solver", *ends]]
     return _finished(figure, synthetic)
 
 
@@ -166,9 +187,10 @@ def neutral_lines(
     """
     figure, axes = panel(title, "θ from the middle of the contact [°]", DISPLACEMENTS[column])
     for number, (solver, rows) in enumerate(lines.groupby("solver")):
-        look = _look(solver, order) | {"marker": "", "linestyle": LINES[number % len(LINES)]}
+        look = _look(solver, order) | {"marker": "", "linestyle": DASHES[number % len(DASHES)]}
         axes.plot(rows["theta_deg"], rows[column], **look)
-    axes.axhline(0, color="black", linewidth=0.8)
+    axes.axhline(0, color=INK, linewidth=0.8)
+    figure.data = lines[["case_id", "solver", "load_n", "theta_deg", column]]
     axes.set_xticks(np.arange(-180, 181, 60))
     axes.set_xlim(-180, 180)
     return _finished(figure, synthetic)

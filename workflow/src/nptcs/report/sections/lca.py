@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pandas as pd
 
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
@@ -16,12 +17,18 @@ from nptcs.report.figures.lca import (
     differences,
     fem_differences,
     load_displacement,
+    load_errors,
     stiffness_bars,
 )
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import lca_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.responses.displacement_by_load import same_tyres
+from nptcs.tables.cases import Cases
+from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
+from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.result_table import ReportSection
 
 
@@ -34,6 +41,7 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
             "sandwich section and the one as printed, each next to the printed results of table "
             f"11 (shear band C10 = {results.config.lca_validation.shear_band_c10_mpa:g} MPa)."
         ),
+        *lca_facts(results),
         Plots(
             "Differences from the printed angles and displacements of table 11. The grey band is "
             "1 %; the scale is the same for both sections.",
@@ -41,8 +49,10 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
         ),
         Plots(
             "Vertical stiffness of table 11's designs, and displacement against load at the loads "
-            "of figure 15. The paper draws figure 15 as curves without numbers, so that printed "
-            "values exist at table 11's load only.",
+            "of figure 15, by our load-bearing model and our finite elements. The paper draws "
+            "figure 15 as curves without numbers, so that printed displacements exist at table "
+            "11's load only; of the other loads it prints the largest error of its model, without "
+            "a sign.",
             (_stiffness_plot(results), *_load_plots(results)),
         ),
         Plots(
@@ -52,8 +62,10 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
         sheet_view(sheet_of(sheets, LcaValidation)),
         sheet_view(sheet_of(sheets, LcaAgainstFem)),
         Plots(
-            "Deformed middle line of the shear band by region (figure 14 of the paper). "
-            "Displacements are to scale; the rim is drawn for orientation.",
+            "Deformed middle line of the shear band (figure 14 of the paper), by the load-bearing "
+            "model, region by region, and by finite elements where the study of this rubber names "
+            "the case in neutral_line_cases. Displacements are to scale, on the same undeformed "
+            "circle; the rim is drawn for orientation.",
             tuple(_neutral_line_plots(results)),
         ),
     ]
@@ -92,15 +104,19 @@ def _stiffness_plot(results: Results) -> Plot:
 
 def _load_plots(results: Results) -> list[Plot]:
     sections = [rows for _, rows in results.table(LcaValidation).groupby("section", sort=False)]
-    plots = [
-        plot(
-            f"Displacement against load, section {rows['section'].iloc[0]}",
-            False,
-            load_displacement,
-            rows,
-        )
-        for rows in sections
-    ]
+    by_solver = results.table(DisplacementByLoad).groupby("solver", sort=False)
+    solved = [rows for _, rows in by_solver if rows["displacement_mm"].notna().any()]
+    nothing, synthetic = results.table(DisplacementByLoad).iloc[:0], results.plies_synthetic
+    plots = []
+    for rows in sections:
+        for fe in solved or [nothing]:
+            by = "" if fe.empty else f" and {fe['solver'].iloc[0]}"
+            alt = f"Displacement against load, LCA with section {rows['section'].iloc[0]}{by}"
+            marked = synthetic and not fe.empty
+            plots.append(plot(alt, marked, load_displacement, rows, fe, synthetic))
+    for fe in solved:
+        alt = f"Stiffness of the LCA against {fe['solver'].iloc[0]} at each load, in percent"
+        plots.append(plot(alt, synthetic, load_errors, fe, synthetic))
     return plots + [
         plot(f"{label} against load", False, contact_against_load, sections[0], column)
         for column, label in CONTACT.items()
@@ -108,19 +124,29 @@ def _load_plots(results: Results) -> list[Plot]:
 
 
 def _neutral_line_plots(results: Results) -> list[Plot]:
-    rim = results.config.tyre.rim_diameter_mm
-    return [
-        plot(
-            f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa",
-            False,
-            deformed_ring,
-            rows,
-            rim,
-        )
-        for (_, load, c10), rows in results.table(LcaNeutralLine).groupby(
-            ["section", "load_n", "spoke_c10_mpa"], sort=False
-        )
-    ]
+    rim, synthetic = results.config.tyre.rim_diameter_mm, results.plies_synthetic
+    plots = []
+    for (load, c10), rows in results.table(LcaNeutralLine).groupby(
+        ["load_n", "spoke_c10_mpa"], sort=False
+    ):
+        fe = finite_element_ring(results, float(str(load)), float(str(c10)))
+        by = "" if fe.empty else f" and {fe['solver'].iloc[0]}"
+        alt = f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa by LCA{by}"
+        marked = synthetic and not fe.empty
+        plots.append(plot(alt, marked, deformed_ring, rows, rim, fe, synthetic))
+    return plots
+
+
+def finite_element_ring(results: Results, load_n: float, spoke_c10_mpa: float) -> pd.DataFrame:
+    """Take the neutral line of a tyre of table 11 by the first FE solver that gave one."""
+    lines, cases = results.table(NeutralLine), results.table(Cases)
+    band = results.config.lca_validation.shear_band_c10_mpa
+    tyres = same_tyres(cases, lines, band)
+    tyres = tyres[tyres["load_n"].eq(load_n) & np.isclose(tyres["spoke_c10_mpa"], spoke_c10_mpa)]
+    if tyres.empty:
+        return lines.iloc[:0]
+    first = tyres.iloc[0]
+    return lines[lines["case_id"].eq(first["case_id"]) & lines["solver"].eq(first["solver"])]
 
 
 def _with_published(results: Results) -> pd.DataFrame:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
 import numpy as np
@@ -13,18 +14,20 @@ from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import material_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.material_card import RubberCard
+from nptcs.tables.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection
 
 
 def materials_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     blocks: list[PageBlock] = [
+        *material_facts(results),
         sheet_view(sheets[entries.PLY.sheet]),
         sheet_view(sheets[entries.RUBBERS.sheet]),
     ]
@@ -34,8 +37,9 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
     blocks += [
         Plots(
             "The rubbers' tests and their models (figure 5 of the paper): the model "
-            "within the range of its fit (full line) and beyond it (dotted). Last panel: how C10 "
-            "depends on that range.",
+            "within the range of its fit (full line) and beyond it (dotted); squares: the "
+            "neo-Hookean model with the C10 that the paper prints. Last panel: how C10 depends on "
+            "that range.",
             (*_fit_plots(results), *_range_plot(results)),
         ),
         sheet_view(sheet_of(sheets, ModelComparison)),
@@ -78,6 +82,7 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             f"{words(rubber.model)}\n{values}",
             rubber.strain_range,
             rubber.synthetic,
+            PUBLISHED_C10_MPA.get(rubber.name, math.nan),
         )
         plots.append(drawn)
     return plots

@@ -59,19 +59,20 @@ class SectionPlan:
 
 
 PLANS: Mapping[ReportSection, SectionPlan] = {
+    # what follows the first screen: to try out designs, then the results, then what they rest on
     ReportSection.EXPLORE: SectionPlan(explorer_section),
-    ReportSection.SPECIMENS: SectionPlan(specimens_section),
-    ReportSection.MATERIALS: SectionPlan(materials_section),
-    ReportSection.DESIGN: SectionPlan(design_section),
-    ReportSection.CASES: SectionPlan(cases_section),
-    ReportSection.SURFACES: SectionPlan(surfaces_section),
-    ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
-    ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
     ReportSection.DECISION: SectionPlan(decision_section),
-    ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
+    ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
+    ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
     ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress)),
     ReportSection.PUBLISHED_STIFFNESS: SectionPlan(published_stiffness_section, (NeutralLine,)),
     ReportSection.LCA: SectionPlan(lca_section, (LcaNeutralLine,)),
+    ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
+    ReportSection.SURFACES: SectionPlan(surfaces_section),
+    ReportSection.MATERIALS: SectionPlan(materials_section),
+    ReportSection.SPECIMENS: SectionPlan(specimens_section),
+    ReportSection.DESIGN: SectionPlan(design_section),
+    ReportSection.CASES: SectionPlan(cases_section),
     ReportSection.FURTHER: SectionPlan(further_section),
     ReportSection.PROVENANCE: SectionPlan(provenance_section),
 }

@@ -22,6 +22,7 @@ from nptcs.report.figures.published_stiffness import (
 )
 from nptcs.report.plots import plot
 from nptcs.report.sections.compared_cases import case_comparison, rests_on_synthetic, solver_order
+from nptcs.report.sections.key_facts import published_facts
 from nptcs.report.sections.neutral_lines import line_blocks
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.sections.rings import ring_blocks
@@ -61,6 +62,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
             "calibrated on are named in the configuration and summarised separately; all others "
             "are blind. " + ply_words(results)
         ),
+        *published_facts(results),
         sheet_view(sheet_of(sheets, StiffnessErrors)),
         *ring_blocks(results),
         Plots(
@@ -90,7 +92,12 @@ def _parity(results: Results, study: Study) -> Plot:
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
     alt = f"Computed against published stiffness of the study {study.name}"
-    given = (rows, f"study {study.name}", solver_order(results), synthetic)
+    given = (
+        rows,
+        f"Stiffness against the paper's,\nstudy {study.name}",
+        solver_order(results),
+        synthetic,
+    )
     return plot(alt, synthetic, parity, *given)
 
 

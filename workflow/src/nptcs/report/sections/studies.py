@@ -13,8 +13,10 @@ from nptcs.report.data import Results, SolverFacts
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
-from nptcs.report.figures.surface import MOST_MARKS, contours, pairs, slices
+from nptcs.report.figures.style import MOST_MARKS
+from nptcs.report.figures.surface import common_levels, contours, pairs, slices
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import ranking_facts, surface_facts
 from nptcs.report.sections.ranking import ranking_blocks
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
@@ -161,6 +163,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
             "and given in both units at full precision: a surface can be evaluated from this "
             "page. The published coefficient is next to it, rounded as the paper prints it."
         ),
+        *surface_facts(results),
         sheet_view(sheet_of(sheets, SurfaceQuality)),
     ]
     for study in results.config.studies:
@@ -182,17 +185,19 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         Text(study.title, "heading"),
         sheet_view(sheet, given_digits=precise, whole=True),
     ]
+    solved = {name: _solved(results, study, name) for name in results.surfaces[study.name]}
+    levels = common_levels([(results.surfaces[study.name][name], solved[name]) for name in solved])
     plots = [
         drawn
-        for solver in results.surfaces[study.name]
-        for drawn in _surface_plots(results, study, solver)
+        for solver, cases in solved.items()
+        for drawn in _surface_plots(results, study, solver, cases, levels)
     ]
     many = len(results.designs[study.name]) > MOST_MARKS
     held = " Factors that a panel does not show are at the middle level in its title."
     caption = (
-        f"{study.title}: each surface over two factors, the discs are the cases on the same "
-        "colour scale; and over one factor, the lines are the surface, the marks are the cases"
-        + (f", some {MOST_MARKS} of very many." if many else ".")
+        f"{study.title}: each surface over two factors, the discs are the cases; one colour scale "
+        "for all panels and solvers; and over one factor, the lines are the surface, the marks "
+        "are the cases" + (f", sampled, at most {MOST_MARKS} per panel." if many else ".")
     )
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     if residuals := _residual_plots(results, study):
@@ -211,7 +216,7 @@ def _residual_plots(results: Results, study: Study) -> list[Plot]:
     for solver, rows in table[table["study"] == study.name].groupby("solver", sort=False):
         synthetic = results.study_is_synthetic(study, str(solver))
         about = f"study {study.name}, solver {solver}"
-        given = (rows, f"Solver {solver}", synthetic)
+        given = (rows, f"Residuals, {solver}", synthetic)
         alt = f"Residuals over the value of the polynomial, {about}"
         plots.append(plot(alt, synthetic, residuals_over_value, *given))
         alt = f"Residuals against normal quantiles, {about}"
@@ -219,23 +224,30 @@ def _residual_plots(results: Results, study: Study) -> list[Plot]:
     return plots
 
 
-def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
+def _solved(results: Results, study: Study, solver: str) -> pd.DataFrame:
+    """Take the cases on which the surface of a solver rests."""
+    cases, factors = results.table(Cases), results.surfaces[study.name][solver].factors
+    return solved_cases(cases[cases["study"] == study.name], solver, factors).table
+
+
+def _surface_plots(
+    results: Results, study: Study, solver: str, solved: pd.DataFrame, levels: Sequence[float]
+) -> list[Plot]:
     surface, labels = results.surfaces[study.name][solver], factor_labels(study)
-    cases = results.table(Cases)
-    solved = solved_cases(cases[cases["study"] == study.name], solver, surface.factors).table
     synthetic = results.study_is_synthetic(study, solver)
     about = f"study {study.name}, solver {solver}"
     maps, lines = [], []
     for pair in pairs(surface):
         alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
-        maps.append(plot(alt, synthetic, contours, surface, solved, pair, labels, synthetic))
+        given = (surface, solved, pair, labels, synthetic, levels)
+        maps.append(plot(alt, synthetic, contours, *given))
     drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
     for varied in drawn:
         # the factor with more levels is drawn along the axis
         by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
         alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
-        given = (surface, solved, by_levels, labels, synthetic)
-        lines.append(plot(alt, synthetic, slices, *given))
+        lined = (surface, solved, by_levels, labels, synthetic, levels)
+        lines.append(plot(alt, synthetic, slices, *lined))
     return maps + lines
 
 
@@ -253,6 +265,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
             "its numbers, so that every rule is given here. The ranking and the order of the bars "
             f"are by {words(rules[0])}."
         ),
+        *ranking_facts(results),
         Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
         *ranking_blocks(results),
         sheet_view(sheet_of(sheets, Impact)),

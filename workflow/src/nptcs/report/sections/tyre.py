@@ -11,13 +11,13 @@ from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
+from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES
 from nptcs.tables.cases import Cases
 from nptcs.tables.result_table import ReportSection
+from nptcs.tables.solver_names import PUBLISHED
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 TITLE = "What the solved tyres do (section 4.1)"
-FIDUCIAL = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
-"""The paper's fiducial plates."""
 
 
 def tyre_section(results: Results, sheets: Sheets) -> Section:
@@ -37,7 +37,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
         *(Text(words, "warn") for words in not_assessed(responses)),
         Plots(
             "Load against vertical displacement, every tyre of a study (figure 10 b of the "
-            "paper, which has no numbers).",
+            "paper, which has no numbers; crosses: displacement by tables 5 and 7).",
             tuple(_curve_plots(results)),
         ),
     ]
@@ -87,9 +87,9 @@ def published_stress(results: Results) -> list[str]:
 def fiducial_cases(results: Results) -> list[str]:
     """Name the cases with the paper's fiducial plates."""
     cases = results.table(Cases)
-    if not set(FIDUCIAL) <= set(cases):
+    if not set(FIDUCIAL_PLATES) <= set(cases):
         return []
-    mine = cases[(cases[list(FIDUCIAL)] == pd.Series(FIDUCIAL)).all(axis=1)]
+    mine = cases[(cases[list(FIDUCIAL_PLATES)] == pd.Series(FIDUCIAL_PLATES)).all(axis=1)]
     return list(mine["case_id"].unique())
 
 
@@ -114,7 +114,10 @@ def _curve_plots(results: Results) -> list[Plot]:
         ["study", "solver"], sort=False
     ):
         synthetic = _synthetic(results, study, solver)
-        given = (curves, f"{study}, {solver}", synthetic)
+        cases = results.table(Cases)
+        published = cases[cases["study"].eq(study) & cases["solver"].eq(PUBLISHED)]
+        columns = ["case_id", "load_n", "displacement_mm"]
+        given = (curves, published[columns], f"Loading, {study}, {solver}", synthetic)
         alt = f"Load against displacement, {study}, {solver}"
         plots.append(plot(alt, synthetic, load_displacement, *given))
     return plots
@@ -132,7 +135,7 @@ def _stress_plots(results: Results) -> list[Plot]:
         for case_id in [*(mine - {worst} if len(mine) == 1 else ()), worst]:
             rows = stress[stress["case_id"] == case_id]
             synthetic = _synthetic(results, study, solver)
-            given = (rows, f"{case_id}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
+            given = (rows, f"Plate stress, {case_id}, {solver}", synthetic)
             alt = f"Stress at the plates' faces, {case_id}, {solver}"
             plots.append(plot(alt, synthetic, plate_faces, *given))
     return plots

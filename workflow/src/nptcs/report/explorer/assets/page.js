@@ -722,6 +722,7 @@ function start() {
   window.addEventListener("hashchange", () => readState(location.hash.slice(1)) && show());
   new ResizeObserver(() => requestAnimationFrame(show)).observe(ROOT);
   matchMedia("(prefers-color-scheme: dark)").addEventListener("change", show);
+  new MutationObserver(show).observe(document.documentElement, { attributeFilter: ["data-theme"] });
 }
 
 start();
