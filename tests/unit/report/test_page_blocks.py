@@ -14,6 +14,7 @@ from nptcs.report.blocks import (
     Finding,
     Findings,
     Folded,
+    Interactive,
     Listing,
     PageBlock,
     ParagraphKind,
@@ -34,6 +35,7 @@ BLOCKS = [
     Listing("words of the block", ()),
     Facts("words of the block", ()),
     Folded("words of the block", ""),
+    Interactive("<p>words of the block</p>"),
     Findings((Finding("q", "a", "words of the block", "a.csv", ReportSection.CASES),)),
 ]
 
