@@ -18,6 +18,7 @@ def solver_facts():
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
             "choices": facts.get(name, {}).get("choices", []),
+            "whole_plates": solver.whole_plates,
         }
         chosen = solver.choices
         if chosen and chosen not in facts[name]["choices"]:
@@ -137,8 +138,9 @@ rule report:
             "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
+                for folder in ("templates", "explorer/assets")
                 for template in sorted(
-                    Path(str(package_files("nptcs.report") / "templates")).iterdir()
+                    Path(str(package_files("nptcs.report") / folder)).iterdir()
                 )
             },
             "inputs": contents(configured_inputs()),

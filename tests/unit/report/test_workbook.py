@@ -40,7 +40,8 @@ def test_the_first_sheet_answers_and_says_what_each_sheet_is(workbook):
     assert links["cases"].location == "'cases'!A1"
     assert "No problems" in summary["A3"].value
     answers = {row[0].value: row[1].value for row in summary.iter_rows()}
-    assert answers["Are the data measured?"].startswith("3 of 3 specimens are SYNTHETIC")
+    assert answers["Origin of the data"].startswith("3 of 3 specimens are SYNTHETIC")
+    assert "How stiff is the tyre?" in answers
 
 
 def test_raw_points_are_a_file_beside_the_workbook(workbook):

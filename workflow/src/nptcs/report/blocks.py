@@ -182,8 +182,17 @@ class Findings:
     findings: tuple[Finding, ...]
 
 
-PageBlock = TableView | Plots | Text | Listing | Facts | Folded | Findings
-BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded", "findings"]
+@dataclass(frozen=True)
+class Interactive:
+    """A part of the page that computes: finished HTML with its data, styles and scripts."""
+
+    markup: str
+
+
+PageBlock = TableView | Plots | Text | Listing | Facts | Folded | Findings | Interactive
+BlockMacro = Literal[
+    "table", "plots", "text", "listing", "facts", "folded", "findings", "interactive"
+]
 
 
 def macro_of(block: PageBlock) -> BlockMacro:
@@ -201,6 +210,8 @@ def macro_of(block: PageBlock) -> BlockMacro:
             return "facts"
         case Folded():
             return "folded"
+        case Interactive():
+            return "interactive"
         case Findings():
             return "findings"
         case _:

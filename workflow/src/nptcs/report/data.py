@@ -13,9 +13,11 @@ import pandera.pandas as pa
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import read_model, sha256_of_file
+from nptcs.lca.section import SectionKind
 from nptcs.report.verdict import verdict
 from nptcs.runs.identity import RunIdentity
 from nptcs.runs.software import software_versions
+from nptcs.solvers.lca import LcaOptions
 from nptcs.surface.fit import Surface
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.surface.stored import read_registry, read_surfaces
@@ -36,6 +38,26 @@ class SolverFacts:
     needs_ply: bool
     loads_tyre: bool
     choices: Sequence[Mapping[str, str]] = ()
+    whole_plates: bool = False
+
+
+@dataclass(frozen=True)
+class LcaRing:
+    """The load-bearing model as the run's first study with it uses it.
+
+    Parameters
+    ----------
+    section : {"sandwich", "printed"}
+        Section of the shear band.
+    file : str
+        The table of spoke stiffness.
+    rows : sequence of mapping
+        Its rows.
+    """
+
+    section: SectionKind
+    file: str
+    rows: Sequence[Mapping[Any, Any]]
 
 
 @dataclass(frozen=True)
@@ -59,6 +81,7 @@ class Results:
     surfaces: Mapping[str, Mapping[str, Surface]]
     tables: Mapping[str, pd.DataFrame]
     models: Mapping[str, SurfaceRegistry] = field(default_factory=dict)
+    lca_ring: LcaRing | None = None
     identity: RunIdentity | None = None
 
     def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
@@ -156,7 +179,6 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     paths = {Path(file).name: file for file in files["tables"]}
     designs = {Path(file).stem: file for file in files["designs"]}
     surfaces = {Path(file).stem: file for file in files["surfaces"]}
-    models = {Path(file).stem: file for file in files["models"]}
     records = [read_model(file, IngestRecord) for file in files["records"]]
     return Results(
         config=config,
@@ -173,6 +195,23 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
             name: read_table(paths[name], row.contract)
             for name, row, _ in result_files(with_surface)
         },
-        models={name: read_registry(models[name]) for name in with_surface},
+        models={Path(file).stem: read_registry(file) for file in files["models"]},
+        lca_ring=_lca_ring(config),
         identity=read_model(files["identity"], RunIdentity),
     )
+
+
+def _lca_ring(config: Config) -> LcaRing | None:
+    """Read the spokes of the load-bearing model; None where no study uses it with two stiffnesses.
+
+    A model with a curve for each spoke is not evaluated on the page.
+    """
+    study = next((study for study in config.studies if "lca" in study.solvers), None)
+    if study is None:
+        return None
+    options = LcaOptions.model_validate(config.options_of(study.name, "lca"))
+    file = options.tables().get("spoke_stiffness")
+    if file is None or options.contact_spokes != "paper":
+        return None
+    rows = pd.read_csv(file).to_dict("records")
+    return LcaRing(options.section, file, rows)

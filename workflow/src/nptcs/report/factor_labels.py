@@ -31,7 +31,7 @@ def factor_labels(study: Study) -> dict[str, FactorLabel]:
 
 
 def all_labels(studies: Iterable[Study]) -> dict[str, FactorLabel]:
-    """Return how the factors of several studies are written; the first study that names one wins."""
+    """Return how the factors of several studies are written; the first study's label counts."""
     found: dict[str, FactorLabel] = {}
     for study in studies:
         found = factor_labels(study) | found

@@ -7,7 +7,6 @@ from importlib import resources
 from markupsafe import Markup
 
 from nptcs.language import language
-from nptcs.report.blocks import macro_of
 from nptcs.report.cover import cover_lines
 from nptcs.report.data import Results
 from nptcs.report.figures.theme import theme_css
@@ -46,7 +45,6 @@ def _page(results: Results) -> str:
         laboratory=laboratory,
         logo=logo_uri(laboratory.logo) if laboratory.logo else "",
         cover=cover_lines(laboratory),
-        macro_of=macro_of,
         sound=results.verdict()[0],
         synthetic=results.any_synthetic,
         summary=summary_blocks(results, sheets),

@@ -29,13 +29,14 @@ from jinja2.meta import find_referenced_templates
 from nptcs.errors import InputError
 from nptcs.files import files_below
 from nptcs.language import tr, tr_count
+from nptcs.report.blocks import macro_of
 
 KEY = "report.templates"
 PACKAGE = "nptcs"
 """Prefix of the package's own templates, for templates that build on them."""
 
 
-def page_environment(folder: str | None) -> Environment:
+def page_environment(folder: str | None = None) -> Environment:
     """Return the environment in which the page is rendered.
 
     Parameters
@@ -54,7 +55,7 @@ def page_environment(folder: str | None) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
-    environment.globals |= {"tr": tr, "tr_count": tr_count}
+    environment.globals |= {"tr": tr, "tr_count": tr_count, "macro_of": macro_of}
     return environment
 
 

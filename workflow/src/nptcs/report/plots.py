@@ -27,7 +27,7 @@ from nptcs.files import read_sealed, write_sealed
 from nptcs.language import catalogue_digest, current_language
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
-from nptcs.report.figures.style import data_of, draw_svg
+from nptcs.report.figures.style import data_of, to_svg
 from nptcs.report.svg import compact
 
 KIND = "Figure"
@@ -107,7 +107,7 @@ def plot(
     if found is None:
         figure = draw(*args, **kwargs)
         data = data_of(figure)
-        found = compact(draw_svg(figure)), "" if data is None else csv_of(data)
+        found = compact(to_svg(figure)), "" if data is None else csv_of(data)
         if kept is not None and key is not None:
             kept.write(key, *found)
     svg, csv = found

@@ -8,10 +8,12 @@ from typing import Literal
 
 from markupsafe import Markup, escape
 
-WIDTH, LEFT, RIGHT = 360.0, 118.0, 86.0
-"""Width of a sketch, of the column of names and of the column of values, in pixels."""
+WIDTH = 360.0
+"""Width of a sketch, in pixels of a page of usual size."""
+CHARACTER, GAP = 6.9, 9.0
+"""Width of a character, rather too wide than too narrow, and the gap between text and mark."""
+LEAST_SPAN = 60.0
 ROW, BAR = 24.0, 11.0
-SPAN = WIDTH - LEFT - RIGHT
 LEGEND_COLUMN = 180.0
 
 Tone = Literal["accent", "soft", "good", "warn", "bad"]
@@ -58,6 +60,24 @@ class Part:
     tone: Tone
 
 
+@dataclass(frozen=True)
+class Columns:
+    """Where the marks are: between the names on the left and the values on the right."""
+
+    left: float
+    span: float
+
+    @classmethod
+    def beside(cls, rows: Sequence[IntervalRow | BarRow]) -> Columns:
+        """Leave room for the longest name and the longest value."""
+        left, right = (
+            GAP + CHARACTER * max((len(text) for text in texts), default=0)
+            for texts in ([row.name for row in rows], [row.text for row in rows])
+        )
+        left = min(left, WIDTH - right - LEAST_SPAN)
+        return cls(left, WIDTH - left - right)
+
+
 def intervals(
     rows: Sequence[IntervalRow], alt: str, band: tuple[float, float] | None = None
 ) -> Sketch:
@@ -78,8 +98,10 @@ def intervals(
     margin = 0.08 * (high - low) or 0.05 * abs(high) or 1.0
     low, high = low - margin, high + margin
 
+    columns = Columns.beside(rows)
+
     def place(value: float) -> float:
-        return LEFT + SPAN * (value - low) / (high - low)
+        return columns.left + columns.span * (value - low) / (high - low)
 
     parts = []
     if band is not None:
@@ -94,21 +116,23 @@ def intervals(
                 row.tone, place(row.value), middle
             )
         )
-        parts += _words(row.name, row.text, middle)
+        parts += _words(row.name, row.text, columns.left, middle)
     return _sketch(parts, ROW * len(rows), alt)
 
 
 def bars(rows: Sequence[BarRow], alt: str) -> Sketch:
     """Draw bars from zero, each with its name and value."""
     longest = max((max(row.value, row.reach) for row in rows), default=0.0) or 1.0
+    columns = Columns.beside(rows)
+    left, per_unit = columns.left, columns.span / longest
     parts = []
     for number, row in enumerate(rows):
         middle = ROW * (number + 0.5)
         if row.reach > row.value:
-            parts.append(_line(LEFT, LEFT + SPAN * row.reach / longest, middle, "soft"))
-        length = max(SPAN * row.value / longest, 1.0)
-        parts.append(_rectangle(LEFT, middle - BAR / 2, length, BAR, row.tone))
-        parts += _words(row.name, row.text, middle)
+            parts.append(_line(left, left + per_unit * row.reach, middle, "soft"))
+        length = max(per_unit * row.value, 1.0)
+        parts.append(_rectangle(left, middle - BAR / 2, length, BAR, row.tone))
+        parts += _words(row.name, row.text, left, middle)
     return _sketch(parts, ROW * len(rows), alt)
 
 
@@ -127,9 +151,9 @@ def whole(parts_of_it: Sequence[Part], alt: str) -> Sketch:
     return _sketch(drawn, 26 + 20 * ((len(shown) + 1) // 2), alt)
 
 
-def _words(name: str, text: str, middle: float) -> list[Markup]:
+def _words(name: str, text: str, left: float, middle: float) -> list[Markup]:
     return [
-        _text(LEFT - 8, middle + 4, name, "end"),
+        _text(left - GAP + 2, middle + 4, name, "end"),
         _text(WIDTH, middle + 4, text, "end"),
     ]
 

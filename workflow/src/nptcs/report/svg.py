@@ -70,7 +70,7 @@ def compact(svg: str) -> str:
     Parameters
     ----------
     svg : str
-        As `nptcs.report.figures.style.draw_svg` gives it.
+        As `nptcs.report.figures.style.to_svg` gives it.
     """
     root = ElementTree.fromstring(svg)
     for element in root.iter():

@@ -108,4 +108,5 @@ def _solver(name: str, given: Mapping[str, Any], bulk: bool) -> SolverFacts:
         case_s=(solver.table_case_s if in_tables else None) or options.case_s,
         case_memory_mb=options.case_memory_mb,
         timeout_s=options.timeout_s,
+        whole_plates=solver.realise is not None,
     )

@@ -27,6 +27,7 @@ class ReportSection(StrEnum):
     """Sections of the report, in reading order; the value is the anchor on the page."""
 
     SUMMARY = "verdict"
+    EXPLORE = "explore"
     DECISION = "decision"
     UNCERTAINTY = "uncertainty"
     SENSITIVITY = "sensitivity"

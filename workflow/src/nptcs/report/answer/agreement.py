@@ -36,7 +36,8 @@ def agreement_finding(results: Results) -> Finding:
     row = mine[mine["solver"] == solver].iloc[0]
     words = tr(
         "At {count} cases of the study {study} that {solver} was not calibrated on, its stiffness "
-        "differs from the published one by {mean} % on average and by {largest} % at most ({case}).",
+        "differs from the published one by {mean} % on average and by {largest} % at most "
+        "({case}).",
         count=row["compared"],
         study=study.name,
         solver=solver,

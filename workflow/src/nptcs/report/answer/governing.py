@@ -29,9 +29,7 @@ def governing_finding(results: Results) -> Finding:
         return Finding(
             tr("What governs it?"),
             tr("Not assessed"),
-            tr(
-                "No response surface of the stiffness could be fitted, so that no factor has an impact."
-            ),
+            tr("No surface was fitted to the stiffness, so that no factor has an impact."),
             "impact.csv",
             ReportSection.SENSITIVITY,
             assessed=False,
@@ -45,15 +43,8 @@ def governing_finding(results: Results) -> Finding:
     )
     words = [
         tr(
-            "Over its range in the study, each factor changes the stiffness by, at most: {named}. "
+            "Largest changes of the stiffness, each factor over its range in the study: {named}. "
             "Solver {solver}.",
-            named=named,
-            solver=solver,
-        )
-        if len(names) > NAMED
-        else tr(
-            "Over its range in the study, each factor changes the stiffness by: {named}. Solver "
-            "{solver}.",
             named=named,
             solver=solver,
         ),
@@ -65,7 +56,7 @@ def governing_finding(results: Results) -> Finding:
     ]
     return Finding(
         tr("What governs it?"),
-        tr("{factor} first", factor=names[0][:1].upper() + names[0][1:]),
+        names[0][:1].upper() + names[0][1:],
         " ".join(words),
         "impact.csv, response_impact.csv",
         ReportSection.SENSITIVITY,
@@ -128,7 +119,8 @@ def _shares(results: Results, solver: str) -> list[str]:
 
 def _share(study: Study, row: pd.Series) -> str:
     return tr(
-        "Within the study {study}, {factor} causes {share} % of the variance (Sobol index, ± {error}).",
+        "Within the study {study}, {factor} causes {share} % of the variance (Sobol index, "
+        "± {error}).",
         study=study.name,
         factor=factor_labels(study)[str(row["factor"])].label,
         share=f"{100 * row['total_index']:.0f}",

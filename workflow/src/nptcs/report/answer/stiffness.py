@@ -33,7 +33,8 @@ def stiffness_finding(results: Results) -> Finding:
         if rows := _uncertain(results, study):
             return _with_uncertainty(results, study, rows)
     for study in results.config.studies:
-        if study.reference and (solved := _solved_reference(results, study)):
+        solved = _solved_reference(results, study)
+        if len(solved):
             return _without_uncertainty(results, study, solved)
     return _over_all_cases(results)
 
@@ -65,13 +66,11 @@ def _with_uncertainty(results: Results, study: Study, rows: Mapping[str, Row]) -
     solver = leading_solver(study, list(rows))
     row = rows[solver]
     words = tr(
-        "The reference design of the study {study} ({design}) carries {load} N with a stiffness of "
-        "{value}, one standard deviation. {percent} % of such tyres lie between {low} and {high} "
-        "{unit}. Solver {solver}.",
+        "Reference design of the study {study}: {design}. ± is one standard deviation from "
+        "materials, tolerances and surface; {percent} % of the distribution lies between {low} "
+        "and {high} {unit}. Solver {solver}.",
         study=study.name,
         design=in_words(row["factors"], factor_labels(study)),
-        load=f"{study.load_n:g}",
-        value=with_error(row["mean"], row["sd"], row["unit"]),
         percent=f"{row['confidence_percent']:g}",
         low=rounded(row["low"], row["sd"]),
         high=rounded(row["high"], row["sd"]),
@@ -105,14 +104,13 @@ def _with_uncertainty(results: Results, study: Study, rows: Mapping[str, Row]) -
     )
 
 
-def _solved_reference(results: Results, study: Study) -> pd.DataFrame | None:
-    """Return the solved cases at the reference design; None if there are none."""
+def _solved_reference(results: Results, study: Study) -> pd.DataFrame:
+    """Return the solved cases at the reference design; no rows if there are none."""
     cases = _stiff_cases(results, study.name)
-    if not set(study.reference) <= set(cases):
-        return None
+    if not study.reference or not set(study.reference) <= set(cases):
+        return cases[:0]
     same = [np.isclose(cases[name].astype(float), value) for name, value in study.reference.items()]
-    found = cases[np.logical_and.reduce(same)]
-    return None if found.empty else found
+    return cases[np.logical_and.reduce(same)]
 
 
 def _without_uncertainty(results: Results, study: Study, solved: pd.DataFrame) -> Finding:

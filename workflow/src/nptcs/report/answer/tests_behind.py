@@ -39,10 +39,10 @@ def tests_finding(results: Results) -> Finding:
     return Finding(
         _question(),
         tr_count(
-            "{count} of {total} specimens deviates from its standard",
-            "{count} of {total} specimens deviate from their standard",
-            len(deviating),
-            total=total,
+            "{count} of {total} specimens used deviates from its standard",
+            "{count} of {total} specimens used deviate from their standard",
+            flagged,
+            total=used,
         ),
         " ".join([*_scatter(results), _origin(results)]),
         "flags.csv, statistics.csv",

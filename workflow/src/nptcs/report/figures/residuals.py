@@ -34,7 +34,7 @@ def residuals_over_value(influence: pd.DataFrame, title: str, synthetic: bool = 
     drawn = pd.concat([sampled(influence[~far]), sampled(influence[far])])
     numbers = pd.DataFrame(
         {
-            "case_id": drawn["case_id"],
+            "point": drawn["point"],
             "value_n_per_mm": drawn["response"] - drawn["residual"],
             "residual_n_per_mm": drawn["residual"],
             "studentised_residual": drawn["studentised_residual"],

@@ -15,6 +15,7 @@ from typing import Any, ParamSpec, TypeVar
 import matplotlib as mpl
 import numpy as np
 import pandas as pd
+from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
 from matplotlib.backends.backend_svg import FigureCanvasSVG
@@ -51,6 +52,7 @@ STYLE: Any = {
     "axes.grid": True,
     "axes.axisbelow": True,
     "axes.facecolor": "none",
+    "axes.prop_cycle": cycler(color=COLOURS),
     "grid.color": GRID,
     "grid.linewidth": 0.6,
     "hatch.linewidth": 0.7,
@@ -165,7 +167,7 @@ def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
 
 
 @styled
-def draw_svg(figure: Figure) -> str:
+def to_svg(figure: Figure) -> str:
     """Draw a figure as Matplotlib writes SVG, without a date; words stay text."""
     FigureCanvasSVG(figure)
     layout = figure.get_layout_engine()

@@ -47,7 +47,7 @@ DARK: Mapping[str, str] = {
 
 
 def theme_css() -> str:
-    """Write the variables for both modes: the reader's choice, else the system's; print is light."""
+    """Write the variables for both modes: the reader's choice or the system's; print is light."""
     light, dark = (
         "".join(f"{name}:{colour};" for name, colour in colours.items())
         for colours in (LIGHT, DARK)

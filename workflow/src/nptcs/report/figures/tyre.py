@@ -29,7 +29,8 @@ def load_displacement(
 ) -> Figure:
     """Draw load against displacement of all tyres, figure 10 b of the paper.
 
-    The softest and the stiffest tyre have their names; crosses are the paper's values at its load.
+    The softest and the stiffest tyre have their names and their secant stiffness at the end;
+    crosses are the paper's values at its load.
 
     Parameters
     ----------
@@ -60,9 +61,7 @@ def load_displacement(
             color=colour,
             marker=marker,
             markevery=max(len(curve) // 10, 1),
-            label=tr(
-                "{name}, {stiffness:.0f} N/mm at the end", name=name, stiffness=stiffness[name]
-            ),
+            label=f"{name}: {stiffness[name]:.0f} N/mm",
             zorder=3,
         )
     printed = published[published["case_id"].isin(drawn)]

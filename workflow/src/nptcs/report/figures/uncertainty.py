@@ -9,6 +9,7 @@ from matplotlib.figure import Figure
 from nptcs.language import tr
 from nptcs.report.figures.style import mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, PAPER
+from nptcs.report.tables.headings import heading
 
 KINDS = {
     "test": COLOURS[0],
@@ -31,7 +32,10 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, 1.3 + 0.3 * len(shares)))
+    names = [in_lines(str(text)) for text in shares["quantities"]]
+    lines = max(name.count("\n") + 1 for name in names)
+    height = 1.3 + (0.15 + 0.13 * lines) * len(names)
+    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, height))
     place = np.arange(len(shares))[::-1]
     for kind, colour in KINDS.items():
         mine = (shares["kind"] == kind).to_numpy()
@@ -44,16 +48,37 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
                 edgecolor=PAPER,
                 label=tr(kind),
             )
-    for height, share in zip(place, shares["share_percent"], strict=True):
+    for bar, share in zip(place, shares["share_percent"], strict=True):
         text = f"{share:.0f}" if share >= 1 else f"{share:.1g}"
         axes.annotate(
-            text, (share, height), (3, 0), textcoords="offset points", va="center", fontsize=7.5
+            text, (share, bar), (3, 0), textcoords="offset points", va="center", fontsize=7.5
         )
     figure.data = shares
-    names = [text.replace(", ", "\n", 1) for text in shares["quantities"]]
     axes.set_yticks(place, names, fontsize=7.5)
     axes.set_xlim(0, max(1.0, 1.12 * float(shares["share_percent"].max())))
     axes.grid(visible=False, axis="y")
     figure.legend(loc="outside lower center", ncols=4)
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def in_lines(quantities: str) -> str:
+    """Write quantities and their standard deviations for a reader, each on a line of its own.
+
+    Examples
+    --------
+    >>> print(in_lines("e1_mpa ± 2.04e+03, nu12 ± 0.01"))
+    E1 ± 2040 MPa
+    ν12 ± 0.01
+    """
+    lines = []
+    for part in quantities.split(", "):
+        name, between, spread = part.partition(" ± ")
+        try:
+            number = float(f"{float(spread):.3g}")
+        except ValueError:
+            lines.append(part)
+            continue
+        written = heading(name)
+        lines.append(f"{written.name}{between}{number:g} {written.unit}".rstrip())
+    return "\n".join(lines)

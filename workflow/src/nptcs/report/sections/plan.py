@@ -11,6 +11,7 @@ from nptcs.language import tr
 from nptcs.report.blocks import PageBlock, Section, TableView, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.decision import decision_section
+from nptcs.report.sections.explorer import explorer_section
 from nptcs.report.sections.lca import lca_section
 from nptcs.report.sections.materials import materials_section
 from nptcs.report.sections.provenance import provenance_section
@@ -60,6 +61,7 @@ class SectionPlan:
 
 PLANS: Mapping[ReportSection, SectionPlan] = {
     # what follows the first screen: to try out designs, then the results, then what they rest on
+    ReportSection.EXPLORE: SectionPlan(explorer_section),
     ReportSection.DECISION: SectionPlan(decision_section),
     ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
     ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),

@@ -10,6 +10,7 @@ from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.provenance import configuration_text, entries_table
 from nptcs.report.tables.sheets import Sheets
+from nptcs.runs.identity import RunIdentity
 from nptcs.tables.result_table import ReportSection
 
 TABLES = entries.Entry(
@@ -24,7 +25,8 @@ TABLES = entries.Entry(
 def provenance_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     ply = ply_words(results)
-    blocks: list[PageBlock] = [Text(ply)] if ply else []
+    blocks: list[PageBlock] = [Text(identity_words(results.identity))] if results.identity else []
+    blocks += [Text(ply)] if ply else []
     blocks += [
         table_view(entries_table([sheet.entry for sheet in sheets.values()]), TABLES),
         sheet_view(sheets[entries.INPUTS.sheet]),
@@ -32,3 +34,17 @@ def provenance_section(results: Results, sheets: Sheets) -> Section:
         Folded(tr("The configuration, with all defaults"), configuration_text(results)),
     ]
     return Section(ReportSection.PROVENANCE, tr("Where the numbers came from"), tuple(blocks))
+
+
+def identity_words(identity: RunIdentity) -> str:
+    """Name the run by its content, and say when its tables were complete."""
+    return tr(
+        "Run {short}: SHA-256 {identity} over {inputs} input files, the configuration, the code "
+        "and {tables} tables; the tables were complete on {made}. The command nptcs compare says "
+        "what differs from another run.",
+        short=identity.short,
+        identity=identity.identity,
+        inputs=len(identity.inputs),
+        tables=len(identity.tables),
+        made=identity.made_text,
+    )

@@ -61,7 +61,7 @@ def ring_blocks(results: Results) -> list[PageBlock]:
         blocks.append(
             Text(
                 tr(
-                    "Both rings stand here: what the paper's mesh does, and what a converged "
+                    "Both rings are shown: what the paper's mesh does, and what a converged "
                     "one says. Each has the section of the spoke that was calibrated with "
                     "it, on table 10 and five cases of table 5; no number of table 7 entered."
                 )

@@ -13,7 +13,7 @@ from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.report.data import Results
-from nptcs.report.factor_labels import factor_labels
+from nptcs.report.sections.summary import findings
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.workbook.cells import (
     FILLS,
@@ -27,14 +27,13 @@ from nptcs.report.workbook.cells import (
 )
 from nptcs.report.workbook.layout import fit_heights, page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
-from nptcs.surface.registry import STIFFNESS
 from nptcs.tables.decisions import DecisionConfirmation, Decisions
 from nptcs.tables.published_stiffness import StiffnessErrors
-from nptcs.tables.response_surfaces import ResponseImpact
 from nptcs.tables.uncertainty import ResponseUncertainty
 
 TITLE = "Summary"
-ANSWER_HEAD = ("question", "answer", "value", "from", "to", "unit", "what it rests on", "table")
+FINDING_HEAD = ("question", "answer", "", "", "", "", "in words", "table")
+ANSWER_HEAD = ("number", "in words", "value", "from", "to", "unit", "what it rests on", "table")
 INDEX_HEAD = ("sheet", "what it says", "rows", "synthetic", "", "rule", "made from", "file")
 WIDTHS = (34, 66, 12, 12, 12, 24, 66, 40)
 REFERENCE = "reference"
@@ -69,10 +68,9 @@ class IndexRow:
 
 
 def answers(results: Results) -> list[Answer]:
-    """Collect the answer of a run from its tables."""
+    """Collect the numbers behind the findings, as numbers, from the tables of a run."""
     return [
         *_stiffness(results),
-        *_governed_by(results),
         *_decisions(results),
         *_trust(results),
     ]
@@ -83,7 +81,7 @@ def _stiffness(results: Results) -> Iterator[Answer]:
     rows = table[(table["design"] == REFERENCE) & (table["response"] == "secant_stiffness")]
     for row in rows.to_dict("records"):
         yield Answer(
-            f"How stiff is the reference design at {row['at']}?",
+            f"Stiffness of the reference design at {row['at']}",
             f"{row['mean']:.4g} ± {row['sd']:.2g} {row['unit']} (mean ± standard deviation) at "
             f"{row['factors']}",
             "uncertainty.csv",
@@ -96,33 +94,13 @@ def _stiffness(results: Results) -> Iterator[Answer]:
         )
 
 
-def _governed_by(results: Results) -> Iterator[Answer]:
-    table = results.table(ResponseImpact)
-    stiffness = table[table["response"] == STIFFNESS]
-    for (study, solver), rows in stiffness.groupby(["study", "solver"], sort=False):
-        labels = factor_labels(results.config.study(str(study)))
-        ranked = rows.sort_values("impact", ascending=False).to_dict("records")
-        names = [labels[row["factor"]].label for row in ranked]
-        first = ranked[0]
-        yield Answer(
-            f"What governs the stiffness ({study})?",
-            " > ".join(names),
-            "response_impact.csv",
-            first["impact"],
-            None,
-            None,
-            first["unit"],
-            f"solver {solver}, {first['surface']}; value: impact of {names[0]}",
-        )
-
-
 def _decisions(results: Results) -> Iterator[Answer]:
     confirmed = results.table(DecisionConfirmation)
     for row in results.table(Decisions).to_dict("records"):
         words = {"feasible": "", "infeasible": "no design meets it; nearest: "}
         answer = words.get(row["status"], "refused: ") + (row["design"] or row["message"])
         yield Answer(
-            f"Which design for: {row['goals']}?",
+            f"Design for: {row['goals']}",
             answer,
             "decisions.csv",
             row["probability"],
@@ -134,7 +112,7 @@ def _decisions(results: Results) -> Iterator[Answer]:
         )
         for one in confirmed[confirmed["decision"] == row["decision"]].to_dict("records"):
             yield Answer(
-                f"Was it confirmed? Round {one['round']}, {one['response']} {one['at']}".rstrip(),
+                f"Confirmation, round {one['round']}: {one['response']} {one['at']}".rstrip(),
                 f"solved {_text(one['solved'])}, predicted {_text(one['predicted'])}: "
                 f"{one['result']}",
                 "decision_confirmation.csv",
@@ -150,7 +128,7 @@ def _trust(results: Results) -> Iterator[Answer]:
     for row in results.table(StiffnessErrors).to_dict("records"):
         if row["group"] == "blind" and row["compared"]:
             yield Answer(
-                f"How far from the published stiffness ({row['study']}, {row['solver']})?",
+                f"Difference from the published stiffness ({row['study']}, {row['solver']})",
                 f"mean {row['mean_percent']:+.2f} %, largest {row['largest_percent']:+.2f} % in "
                 f"case {row['largest_case_id']}",
                 "stiffness_errors.csv",
@@ -163,7 +141,7 @@ def _trust(results: Results) -> Iterator[Answer]:
     synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
     if synthetic:
         yield Answer(
-            "Are the data measured?",
+            "Origin of the data",
             f"{len(synthetic)} of {len(results.sheet)} specimens are SYNTHETIC example data; "
             "sheets with an orange header rest on them",
             "specimens.csv",
@@ -179,7 +157,8 @@ def write_summary(worksheet: Worksheet, results: Results, index: Sequence[IndexR
     worksheet.title = TITLE
     row = _write_head(worksheet, results)
     first = row + 1
-    row = _write_answers(worksheet, first, results)
+    row = _write_findings(worksheet, first, results)
+    row = _write_answers(worksheet, row + 1, results)
     _write_index(worksheet, row + 1, index)
     for column, width in enumerate(WIDTHS, start=1):
         worksheet.column_dimensions[get_column_letter(column)].width = width
@@ -208,6 +187,21 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
             cell.fill = FILLS["bad"]
         if text.startswith("SYNTHETIC"):
             cell.fill = SYNTHETIC
+    return worksheet.max_row + 1
+
+
+def _write_findings(worksheet: Worksheet, top: int, results: Results) -> int:
+    """Write the findings of the report's first screen; return the row after them."""
+    head_row(worksheet, top, FINDING_HEAD)
+    for row, one in enumerate(findings(results), start=top + 1):
+        badge = " (SYNTHETIC DATA)" if one.synthetic else ""
+        known = [one.question, one.answer + badge, None, None, None, None, one.words, one.source]
+        write_row(worksheet, row, known)
+        for column in range(1, len(FINDING_HEAD) + 1):
+            worksheet.cell(row, column).alignment = WRAPPED
+        worksheet.cell(row, 2).font = Font(name=FONT, bold=True)
+        if one.synthetic:
+            worksheet.cell(row, 2).fill = SYNTHETIC
     return worksheet.max_row + 1
 
 
