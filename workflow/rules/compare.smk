@@ -116,3 +116,21 @@ rule lca_validation:
         },
     script:
         "../scripts/lca_validation.py"
+
+
+rule displacement_by_load:
+    input:
+        cases="results/tables/cases.csv",
+        curves="results/tables/tyre_curves.csv",
+        validation="results/tables/lca_validation.csv",
+    output:
+        table="results/tables/displacement_by_load.csv",
+    log:
+        "results/logs/displacement_by_load.log",
+    params:
+        job={
+            "shear_band_c10_mpa": CONFIG.lca_validation.shear_band_c10_mpa,
+            "code": code_of("displacement_by_load"),
+        },
+    script:
+        "../scripts/displacement_by_load.py"

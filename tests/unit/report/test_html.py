@@ -13,15 +13,15 @@ from nptcs.tables.impact import Impact
 from nptcs.tables.surface import SurfaceQuality, SurfaceTable
 
 IDENTIFIERS = [
-    "specimens",
-    "materials",
-    "design",
-    "cases",
-    "surfaces",
     "sensitivity",
-    "spoke",
     "published_stiffness",
     "lca",
+    "spoke",
+    "surfaces",
+    "materials",
+    "specimens",
+    "design",
+    "cases",
     "provenance",
 ]
 
@@ -101,7 +101,7 @@ def test_all_sections_are_there_and_linked(page):
 def test_the_verdict_comes_first(page):
     words = page.text
     assert "No problems: all 78 cases solved; 2 of 3 specimens used (1 left out" in words
-    assert words.index("No problems") < words.index("Specimens and files")
+    assert words.index("No problems") < words.index("How stiff is the tyre?")
 
 
 def test_titles_and_messages_are_text_not_markup(html, faulty_html):
@@ -110,7 +110,7 @@ def test_titles_and_messages_are_text_not_markup(html, faulty_html):
 
 
 def test_every_problem_stands_at_the_top(faulty_html):
-    head = faulty_html[: faulty_html.index('<section id="specimens">')]
+    head = faulty_html[: faulty_html.index('<div class="findings">')]
     assert "2 problems: 77 of 78 cases solved; 1 of 3 specimens used" in head
     assert "diverged" in head
     assert "T0-1.csv:12, column &#39;Force&#39;: not a number" in head
@@ -119,7 +119,7 @@ def test_every_problem_stands_at_the_top(faulty_html):
 
 
 def test_stray_files_are_pointed_out_at_the_top_and_notes_are_not(page):
-    head, rest = page.text.split("Specimens and files", 1)
+    head, rest = page.text.split("Worth knowing", 1)[1].split("Sensitivity", 1)
     assert "No row of the sheet names these files of the folder: notes.txt " in head
     assert "README" not in head
     assert "README.md note" in rest
@@ -137,9 +137,7 @@ def test_synthetic_data_carry_the_badge_and_measured_ones_do_not(html, measured,
 
 
 def test_published_studies_are_not_called_synthetic(html):
-    surfaces = html[
-        html.index('<section id="surfaces">') : html.index('<section id="sensitivity">')
-    ]
+    surfaces = html[html.index('<section id="surfaces">') : html.index('<section id="materials">')]
     assert "badge" not in surfaces
 
 

@@ -13,7 +13,7 @@ from nptcs.report.data import read_results
 from nptcs.report.html import render_report
 from nptcs.report.sections import plan
 from nptcs.report.tables.sheets import sheets_of
-from nptcs.report.workbook import build_workbook
+from nptcs.report.workbook.build import build_workbook
 from nptcs.surface.stored import dump
 from nptcs.tables.catalogue import TABLES, result_files
 from nptcs.tables.io import write_table

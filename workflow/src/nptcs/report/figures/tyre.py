@@ -6,41 +6,81 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from nptcs.report.figures.style import COLOURS, GREY, MARKERS, mark_synthetic, panel, styled
+from nptcs.language import tr
+from nptcs.report.figures.style import (
+    DASHES,
+    MARKERS,
+    line_look,
+    mark_synthetic,
+    note_sampled,
+    panel,
+    sampled,
+    styled,
+)
+from nptcs.report.figures.theme import COLOURS, GREY, INK
 
 PUBLISHED_STRESS_MPA = 89.5
 """Largest stress of a reinforcing plate at 5000 N, section 4.1 of the paper."""
 
 
 @styled
-def load_displacement(curves: pd.DataFrame, title: str, synthetic: bool = False) -> Figure:
-    """Draw load against displacement of all tyres, the softest and the stiffest with their names.
+def load_displacement(
+    curves: pd.DataFrame, published: pd.DataFrame, title: str, synthetic: bool = False
+) -> Figure:
+    """Draw load against displacement of all tyres, figure 10 b of the paper.
+
+    The softest and the stiffest tyre have their names and their secant stiffness at the end;
+    crosses are the paper's values at its load.
 
     Parameters
     ----------
     curves : DataFrame
         Rows of ``tyre_curves.csv`` of one study and solver.
+    published : DataFrame
+        ``case_id, load_n, displacement_mm`` of the same cases as published; may be empty.
     title : str
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "vertical displacement [mm]", "vertical load [kN]")
+    figure, axes = panel(title, tr("vertical displacement [mm]"), tr("vertical load [kN]"))
     cases = {str(name): curve for name, curve in curves.groupby("case_id", sort=False)}
-    ends = {name: curve.iloc[-1] for name, curve in cases.items()}
-    stiffness = {name: end["force_n"] / end["displacement_mm"] for name, end in ends.items()}
-    softest = min(stiffness, key=stiffness.__getitem__)
-    stiffest = max(stiffness, key=stiffness.__getitem__)
-    named = {stiffest: COLOURS[1], softest: COLOURS[0]}
-    for name, curve in cases.items():
-        place, load = curve["displacement_mm"], curve["force_n"] / 1000.0
-        if name in named:
-            label = f"{name}, {stiffness[name]:.0f} N/mm at the end"
-            axes.plot(place, load, color=named[name], marker="o", label=label, zorder=3)
-        else:
-            axes.plot(place, load, color=GREY, linewidth=0.6, alpha=0.6)
+    ends = pd.DataFrame({name: curve.iloc[-1] for name, curve in cases.items()}).T
+    stiffness = ends["force_n"].astype(float) / ends["displacement_mm"].astype(float)
+    looks = {stiffness.idxmax(): (COLOURS[1], "s"), stiffness.idxmin(): (COLOURS[0], "o")}
+    drawn = {*sampled(ends)["case_id"], *looks}
+    for name in drawn - set(looks):
+        curve = cases[name]
+        axes.plot(
+            curve["displacement_mm"], curve["force_n"] / 1000, color=GREY, linewidth=0.6, alpha=0.6
+        )
+    for name, (colour, marker) in looks.items():
+        curve = cases[str(name)]
+        axes.plot(
+            curve["displacement_mm"],
+            curve["force_n"] / 1000,
+            color=colour,
+            marker=marker,
+            markevery=max(len(curve) // 10, 1),
+            label=f"{name}: {stiffness[name]:.0f} N/mm",
+            zorder=3,
+        )
+    printed = published[published["case_id"].isin(drawn)]
+    if not printed.empty:
+        axes.plot(
+            printed["displacement_mm"],
+            printed["load_n"] / 1000,
+            "x",
+            color=INK,
+            ms=5,
+            zorder=4,
+            label=tr("paper, FEM"),
+        )
+    note_sampled(axes, len(drawn), len(cases), tr("tyres"))
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(loc="lower right")
+    figure.legend(loc="outside lower center", ncols=2)
+    columns = ["case_id", "displacement_mm", "force_n"]
+    figure.data = curves.loc[curves["case_id"].isin(drawn), columns]
     mark_synthetic(figure, synthetic)
     return figure
 
@@ -58,8 +98,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
     synthetic : bool
         Whether the materials are synthetic.
     """
-    height = f"height above the rim [mm], at {stress['load_n'].iloc[0]:g} N"
-    figure, axes = panel(title, height, "von Mises stress at a face [MPa]")
+    height = tr("height above the rim [mm], at {load_n:g} N", load_n=stress["load_n"].iloc[0])
+    figure, axes = panel(title, height, tr("von Mises stress at a face [MPa]"))
     worst = stress["spoke"].to_numpy()[int(stress["mises_mpa"].argmax())]
     rows = stress[stress["spoke"] == worst].sort_values("height_mm")
     for number in (0, 1):
@@ -67,16 +107,18 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         colour, marker = COLOURS[number], MARKERS[number]
         for leg in (0, 1):
             half = face[face["leg"] == leg]
-            label = f"ply {half['ply_deg'].iloc[0]:+g}°" if leg == 0 else None
+            label = tr("ply {ply_deg:+g}°", ply_deg=half["ply_deg"].iloc[0]) if leg == 0 else None
             place = half["height_mm"]
-            axes.plot(place, half["mises_mpa"], color=colour, marker=marker, label=label)
+            look = {**line_look(number), "linestyle": DASHES[number]}
+            axes.plot(place, half["mises_mpa"], label=label, **look)
             axes.plot(place, half["mean_mises_mpa"], marker, ms=8, mfc="none", mec=colour)
-    axes.axhline(PUBLISHED_STRESS_MPA, color="black", linestyle="--", linewidth=0.9)
+    axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
     axes.set_ylim(bottom=0)
+    figure.data = rows.drop(columns=["study", "along_mpa", "across_mpa", "shear_mpa"])
     handles, _ = axes.get_legend_handles_labels()
     handles += [
-        Line2D([], [], linestyle="", marker="o", mfc="none", mec="black", label="element mean"),
-        Line2D([], [], color="black", linestyle="--", linewidth=0.9, label="published largest"),
+        Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
+        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest")),
     ]
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)

@@ -23,7 +23,7 @@ from nptcs.tables.hyperelastic import ModelComparison
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.result_table import ReportSection, RowMark, SyntheticBy
 
-LONGEST_SHEET = 3000
+LONGEST_SHEET = 5000
 """Rows of the longest table that is a sheet of the workbook; a longer one is a CSV file only."""
 
 
@@ -43,6 +43,8 @@ class Sheet:
         Whether it rests on synthetic specimens.
     section : ReportSection, optional
         Section of the report that shows it by default; none for a table that a section names.
+    raw : bool
+        Whether it holds curves, shapes or fields point by point.
     """
 
     entry: Entry
@@ -50,11 +52,12 @@ class Sheet:
     mark: RowClass = no_row
     synthetic: bool = False
     section: ReportSection | None = None
+    raw: bool = False
 
     @property
     def in_workbook(self) -> bool:
-        """Tell whether the workbook has it; shapes and results in bulk are too long."""
-        return len(self.table) <= LONGEST_SHEET
+        """Tell whether the workbook has it; points of curves and shapes are CSV files beside it."""
+        return not self.raw and len(self.table) <= LONGEST_SHEET
 
 
 Sheets = Mapping[str, Sheet]
@@ -84,6 +87,7 @@ def sheets_of(results: Results) -> Sheets:
                 row_class(row.mark, results.left_out()),
                 is_synthetic(results, row.synthetic, table, study),
                 row.section,
+                row.raw,
             )
         )
     sheets.append(Sheet(entries.INPUTS, inputs_table(results)))
