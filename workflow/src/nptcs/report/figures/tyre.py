@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr
 from nptcs.report.figures.style import (
     DASHES,
@@ -112,14 +114,18 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
             look = {**line_look(number), "linestyle": DASHES[number]}
             axes.plot(place, half["mises_mpa"], label=label, **look)
             axes.plot(place, half["mean_mises_mpa"], marker, ms=8, mfc="none", mec=colour)
-    axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
+    compared = bool(np.isclose(stress["load_n"].iloc[0], PAPER_LOAD_N))
+    if compared:
+        axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
     axes.set_ylim(bottom=0)
     figure.data = rows.drop(columns=["study", "along_mpa", "across_mpa", "shear_mpa"])
     handles, _ = axes.get_legend_handles_labels()
     handles += [
         Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
-        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest")),
     ]
+    if compared:
+        paper = {"color": INK, "linestyle": "--", "linewidth": 0.9}
+        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 
+from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr, translatable
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
@@ -74,6 +76,7 @@ def published_stress(results: Results) -> list[str]:
     found = responses[
         responses["response"].eq("plate_largest_mises")
         & responses["status"].eq("ok")
+        & np.isclose(responses["load_n"].astype(float), PAPER_LOAD_N)
         & responses["case_id"].isin(fiducial)
     ]
     if found.empty:
