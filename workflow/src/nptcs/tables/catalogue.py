@@ -17,6 +17,7 @@ from nptcs.tables.decisions import (
     DecisionFront,
     Decisions,
 )
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -355,6 +356,14 @@ TABLES: dict[str, ResultTable] = {
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
         raw=True,
+    ),
+    "deformed_tyre.csv": ResultTable(
+        DeformedTyre,
+        "Outlines of a loaded tyre with all its spokes (figure 10 a)",
+        "deformed_tyre",
+        "the first case that neutral_line_cases names, solved again for the motions of its spokes",
+        section=ReportSection.TYRE,
+        synthetic=SyntheticBy.ROWS,
     ),
     "plate_stress.csv": ResultTable(
         PlateStress,
