@@ -1,6 +1,8 @@
 # All results → the list of problems, the report and the workbook, and the verdict on the run.
 from importlib.resources import files as package_files
 
+from nptcs.language import catalogue_digest
+
 
 def solver_facts():
     """What the report says about each solver: what it is, and what it is given.
@@ -28,6 +30,7 @@ def configured_inputs():
     """Input files that the configuration names; raw laboratory files are listed in files.csv."""
     formats = sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
     paths = [str(SHEET), *map(str, formats), *CONFIG.published_inputs()]
+    paths += CONFIG.page_inputs()
     for study in CONFIG.studies:
         for name in study.solvers:
             paths += solver_of(study.name, name).tables().values()
@@ -141,6 +144,7 @@ rule report:
                 )
             },
             "inputs": contents(configured_inputs()),
+            "language": catalogue_digest(CONFIG.laboratory.language),
             "code": code_of("report", words=True),
         },
     script:

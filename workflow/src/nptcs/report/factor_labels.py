@@ -7,6 +7,7 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 
 from nptcs.config.study import Study
+from nptcs.language import tr
 from nptcs.report.text import number_text
 
 
@@ -24,7 +25,7 @@ class FactorLabel:
 def factor_labels(study: Study) -> dict[str, FactorLabel]:
     """Return how a study's factors are written, by the names of their columns."""
     return {
-        factor.name: FactorLabel(factor.label, "°" if factor.unit == "deg" else factor.unit)
+        factor.name: FactorLabel(tr(factor.label), "°" if factor.unit == "deg" else factor.unit)
         for factor in study.factors
     }
 

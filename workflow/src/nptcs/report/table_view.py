@@ -8,6 +8,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import Cell, TableView
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
@@ -90,7 +91,7 @@ def table_view(
         rows.append((mark({str(key): value for key, value in record.items()}), cells))
     return TableView(
         entry,
-        caption or entry.title,
+        caption or tr(entry.title),
         tuple(heading(name, entry.headings) for name in shown),
         numeric,
         tuple(rows),
@@ -154,7 +155,7 @@ def _cell(value: object, digits: int, is_number: bool) -> Cell:
     if value is None or value is pd.NA:
         return Cell("–" if is_number else "")
     if isinstance(value, bool | np.bool_):
-        return Cell("yes" if value else "no")
+        return Cell(tr("yes") if value else tr("no"))
     if isinstance(value, int | float | np.integer | np.floating):
         number = float(value)
         return Cell(number_text(number, digits), "" if math.isnan(number) else repr(number))

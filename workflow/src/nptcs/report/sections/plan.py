@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 
 import pandera.pandas as pa
 
+from nptcs.language import tr
 from nptcs.report.blocks import PageBlock, Section, TableView, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.decision import decision_section
@@ -39,7 +40,7 @@ MOST_ROWS = 500
 
 def further_section(results: Results, sheets: Sheets) -> Section:
     """Begin the section of tables that no other section claims."""
-    return Section(ReportSection.FURTHER, "Further tables", ())
+    return Section(ReportSection.FURTHER, tr("Further tables"), ())
 
 
 @dataclass(frozen=True)
@@ -107,5 +108,17 @@ def _shown(sheet: Sheet) -> PageBlock:
     """Show a table, or say where it is if it is too long for a page."""
     if len(sheet.table) <= MOST_ROWS:
         return sheet_view(sheet)
-    place = f" and in the sheet {sheet.entry.sheet} of the workbook" if sheet.in_workbook else ""
-    return Text(f"{sheet.entry.title}: {len(sheet.table):,} rows, in {sheet.entry.file}{place}.")
+    place = (
+        tr(" and in the sheet {sheet} of the workbook", sheet=sheet.entry.sheet)
+        if sheet.in_workbook
+        else ""
+    )
+    return Text(
+        tr(
+            "{title}: {count:,} rows, in {file}{place}.",
+            title=tr(sheet.entry.title),
+            count=len(sheet.table),
+            file=sheet.entry.file,
+            place=place,
+        )
+    )

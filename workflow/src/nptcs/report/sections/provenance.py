@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from nptcs.language import tr
+from nptcs.language import tr, translatable
 from nptcs.report.blocks import Folded, PageBlock, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.ply import ply_words
@@ -14,7 +14,11 @@ from nptcs.runs.identity import RunIdentity
 from nptcs.tables.result_table import ReportSection
 
 TABLES = entries.Entry(
-    "about", "Which rule made which table", "this report", "report", "the catalogue of tables"
+    "about",
+    translatable("Which rule made which table"),
+    translatable("this report"),
+    "report",
+    translatable("the catalogue of tables"),
 )
 
 
@@ -27,17 +31,17 @@ def provenance_section(results: Results, sheets: Sheets) -> Section:
         table_view(entries_table([sheet.entry for sheet in sheets.values()]), TABLES),
         sheet_view(sheets[entries.INPUTS.sheet]),
         sheet_view(sheets[entries.SOFTWARE.sheet]),
-        Folded("The configuration, with all defaults", configuration_text(results)),
+        Folded(tr("The configuration, with all defaults"), configuration_text(results)),
     ]
-    return Section(ReportSection.PROVENANCE, "Where the numbers came from", tuple(blocks))
+    return Section(ReportSection.PROVENANCE, tr("Where the numbers came from"), tuple(blocks))
 
 
 def identity_words(identity: RunIdentity) -> str:
     """Name the run by its content, and say when its tables were complete."""
     return tr(
         "Run {short}: SHA-256 {identity} over {inputs} input files, the configuration, the code "
-        "and {tables} tables; the tables were complete on {made}. The command nptcs compare says what "
-        "differs from another run.",
+        "and {tables} tables; the tables were complete on {made}. The command nptcs compare says "
+        "what differs from another run.",
         short=identity.short,
         identity=identity.identity,
         inputs=len(identity.inputs),

@@ -71,16 +71,22 @@ def _remarks(results: Results) -> tuple[str, ...]:
     if results.any_synthetic:
         synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
         remarks.append(
-            f"{len(synthetic)} of {len(results.sheet)} specimens are SYNTHETIC example data; "
-            "everything made from them carries the badge."
+            tr(
+                "{count} of {count_2} specimens are SYNTHETIC example data; everything "
+                "made from them carries the badge.",
+                count=len(synthetic),
+                count_2=len(results.sheet),
+            )
         )
     for name, reason in results.left_out().items():
-        remarks.append(f"Specimen {name} is left out by the sheet: {reason}")
+        remarks.append(
+            tr("Specimen {name} is left out by the sheet: {reason}", name=name, reason=reason)
+        )
     files = results.table(Files)
     stray = files[files["status"] == FileStatus.NOT_NAMED]
     if len(stray):
         remarks.append(
-            "No row of the sheet names these files of the folder: " + joined(stray["file"])
+            tr("No row of the sheet names these files of the folder: ") + joined(stray["file"])
         )
     remarks += [
         f"{card.name}: {check.removeprefix(WARNING)}"

@@ -90,7 +90,7 @@ def _describe(workbook: Workbook, results: Results) -> None:
     settings, identity = results.config.report, results.identity
     properties = workbook.properties
     properties.title = settings.title
-    properties.creator = properties.lastModifiedBy = settings.laboratory or "nptcs"
+    properties.creator = properties.lastModifiedBy = results.config.laboratory.name or "nptcs"
     properties.subject = "Results of a run of nptcs" + (f" {identity.short}" if identity else "")
     properties.description = results.verdict()[1]
     properties.keywords = "non-pneumatic tyre; response surface; " + (

@@ -170,7 +170,7 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
     """Write title, verdict and identity; return the row after them."""
     sound, line = results.verdict()
     settings, identity = results.config.report, results.identity
-    lines = [settings.title, settings.laboratory, line]
+    lines = [settings.title, results.config.laboratory.name, line]
     if identity is not None:
         lines.append(f"Run {identity.short}, tables complete {identity.made_text}")
     if results.any_synthetic:
