@@ -12,6 +12,7 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
+from nptcs.ingest.conditioning.across import settle_transverse
 from nptcs.ingest.conditioning.declared_test import require_declared_test
 from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
@@ -28,6 +29,7 @@ from nptcs.ingest.conditioning.steps import (
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import NO_STRAIN, resolve_strains
+from nptcs.ingest.conditioning.tare import flag_tare
 from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
@@ -104,6 +106,8 @@ def ingest_specimen(
     drop_empty_rows(signals, settings.missing_values)
     _require_rows(signals, specimen, strain, source)
     orient(signals, specimen, strain.path, settings.signs, source)
+    settle_transverse(signals, specimen, strain.columns)
+    flag_tare(signals)
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)

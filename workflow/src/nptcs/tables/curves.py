@@ -121,6 +121,10 @@ class IngestRecord(Strict):
     )
     steps: tuple[Step, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
+    made_from: str = Field(
+        "", description="Hash of row, content of the files, profiles, settings and code"
+    )
+    curve_sha256: str = Field("", description="Of the curve's file")
 
     @property
     def understood(self) -> bool:
