@@ -219,3 +219,47 @@ def test_a_rubber_that_breaks_at_four_percent_is_flagged(tmp_path, profiles):
     fields = {"test": "rubber_tension", "orientation_deg": None}
     _, _, words = reduce(tmp_path, profiles, {"a.csv": text_of(columns)}, **fields)
     assert "breaks at a strain of 4 %" in words
+
+
+LOST = "leap away and back"
+
+
+def changed(readings: Any, rows: Any, value: float) -> Any:
+    new = np.array(readings, dtype=float)
+    new[rows] = value
+    return new
+
+
+@pytest.mark.parametrize(
+    ("force", "strain"),
+    [
+        (changed(FORCE, slice(110, 130), 0.0), STRAIN),
+        (changed(FORCE, slice(598, 600), 3 * FORCE.max()), STRAIN),
+        (changed(FORCE, slice(300, 304), -200.0), STRAIN),
+        (FORCE, changed(STRAIN, slice(150, 153), 0.5)),
+        (FORCE, changed(STRAIN, slice(99, 102), 0.0)),
+    ],
+    ids=["load cell out", "overshoot at the break", "below zero", "strain up", "strain to zero"],
+)
+def test_a_channel_that_is_away_for_some_readings_is_emptied(tmp_path, profiles, force, strain):
+    values, flags, words = reduce(tmp_path, profiles, one(force, strain))
+    check(values, flags, ALL)
+    assert LOST in words
+
+
+@pytest.mark.parametrize("rows", [2, 4])
+def test_a_machine_that_lets_go_and_loads_again_is_no_lost_cable(tmp_path, profiles, rows):
+    """Force and strain leap together: a loading of its own, or a step of dead weights."""
+    up = np.linspace(0, 0.004, 200)
+    strain = np.concatenate([up, np.zeros(rows), up, STRAIN])
+    force = np.concatenate([1.2e6 * up, np.zeros(rows), 1.2e6 * up, FORCE])
+    values, flags, words = reduce(tmp_path, profiles, one(force, strain))
+    check(values, flags, ALL)
+    assert LOST not in words
+
+
+def test_a_large_shift_of_the_origin_is_flagged(tmp_path, profiles):
+    strain = np.where(TIME < 60, STRAIN + 0.002, STRAIN)
+    values, flags, words = reduce(tmp_path, profiles, one(FORCE, strain))
+    check(values, flags, ALL)
+    assert "strain origin shifted by -0.002" in words

@@ -14,6 +14,7 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.across import settle_transverse
 from nptcs.ingest.conditioning.declared_test import require_declared_test
+from nptcs.ingest.conditioning.excursions import empty_excursions
 from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
@@ -88,6 +89,7 @@ def ingest_specimen(
         require_declared_test(signals, specimen, table, name)
     mark_dead(signals, settings.missing_values)
     empty_spikes(signals, settings.missing_values)
+    empty_excursions(signals, settings.missing_values)
     _flag_time(signals)
     _require_force(signals, specimen, load)
     check_machine_area(signals, specimen, load, settings.plausible)

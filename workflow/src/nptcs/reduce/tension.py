@@ -25,7 +25,8 @@ from nptcs.reduce.rows import (
 
 STIFFENING = 1.5
 """Ratio of slopes within a chord that no laminate shows, but slack or a toe does."""
-
+TOE_LEFT = 1.1
+"""The same beyond what carbon fibres do, which stiffen by some 20 % per percent of strain."""
 
 ANOTHER_RANGE = "chord over another range"
 
@@ -131,7 +132,13 @@ def modulus(
     if (ratio := stiffening(strain, stress, low, high)) > STIFFENING:
         reason = f"the curve stiffens {ratio:.3g} times within the range: slack or toe is left"
         return missing("modulus", "MPa", rule, reason)
-    return from_chord("modulus", chord, "MPa", rule, nominal)
+    found = from_chord("modulus", chord, "MPa", rule, nominal)
+    if ratio > TOE_LEFT:
+        words = (
+            f"the curve stiffens by {100 * (ratio - 1):.2g} % within the range: a toe may be left"
+        )
+        return found.flagged([words])
+    return found
 
 
 def stiffening(strain: Array, stress: Array, low: float, high: float) -> float:
