@@ -71,9 +71,12 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
         return gone
     values = readings[kept]
     step = np.diff(values)
-    usual = float(np.median(np.abs(step)))
+    size_of = np.abs(step)
+    usual = float(np.median(size_of))
+    if not size_of.max() > USUAL_STEPS * usual:
+        return gone
     low, high = np.percentile(values, [1, 99])
-    leaps = np.flatnonzero(np.abs(step) > max(SMALLEST_SHARE * (high - low), USUAL_STEPS * usual))
+    leaps = np.flatnonzero(size_of > max(SMALLEST_SHARE * (high - low), USUAL_STEPS * usual))
     longest = max(SHORTEST, int(LONGEST_SHARE * len(values)))
     for first in leaps:
         if gone[kept[first]] or _along(

@@ -17,6 +17,8 @@ _BARE_DATE = re.compile(rf"(?<![\d.:/-]){_DATE}(?![\d.:/-])")
 _HALF_A_DAY_S = 43_200
 _DAY_S = 86_400
 _SAMPLE = 60
+_HEAD = 20_000
+"""Characters in which a table's first numbers are."""
 
 BLANKS = "\u00a0\u202f\u2007\u2009'\u2019"
 """No-break, narrow, figure and thin space, apostrophes: thousands marks of many locales."""
@@ -44,7 +46,7 @@ def join_grouped_digits(text: str) -> str:
     not the hyphen of the keyboard becomes one, and Fortran's exponent ``1.5D+02`` an ``E``.
     """
     text = _MINUS.sub("-", text) if "\u2212" in text else text
-    if any(mark in text for mark in ("D+", "D-", "d+", "d-")):
+    if any(mark in text[:_HEAD] for mark in ("D+", "D-", "d+", "d-")):
         text = _FORTRAN.sub(r"\1E\2", text)
     if not any(blank in text for blank in BLANKS):
         return text

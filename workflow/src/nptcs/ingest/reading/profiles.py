@@ -131,6 +131,7 @@ class FormatProfile(Strict):
         )
 
 
+@lru_cache(maxsize=16384)
 def normalise(name: str) -> str:
     """Write a column name the one way in which names are compared: no case, accents, wide forms."""
     if not name.isascii():
