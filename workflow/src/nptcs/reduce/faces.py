@@ -35,5 +35,10 @@ def branch_of_faces(branch: Branch) -> tuple[Branch, tuple[str, ...]]:
     total = first + second
     share = f"{100 * abs(first - second) / total:.3g} %" if total > 0 else "not assessed"
     words = f"strain is the mean of both faces, bending {share}"
-    parts = {name: mean_of_faces(getattr(branch, name)) for name in ("rows", "to_peak", "turned")}
-    return replace(branch, **parts), (words,)
+    mean = replace(
+        branch,
+        rows=mean_of_faces(branch.rows),
+        to_peak=mean_of_faces(branch.to_peak),
+        turned=mean_of_faces(branch.turned),
+    )
+    return mean, (words,)
