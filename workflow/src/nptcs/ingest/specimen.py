@@ -35,6 +35,7 @@ from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
+from nptcs.ingest.sketch import data_sketch
 from nptcs.tables.curves import CURVE_COLUMNS, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
@@ -81,7 +82,7 @@ def ingest_specimen(
     """
     tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
-    digest = data_digest(tables)
+    digest, sketch = data_digest(tables), data_sketch(tables)
     factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
     signals.flags += factors
@@ -120,7 +121,7 @@ def ingest_specimen(
         check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
-    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest))
+    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest, sketch))
 
 
 def _with_gauge_length(
@@ -197,7 +198,12 @@ def _curve(signals: Signals) -> pd.DataFrame:
 
 
 def _record(
-    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str, digest: str
+    specimen: Specimen,
+    tables: tuple[RawFile, ...],
+    signals: Signals,
+    source: str,
+    digest: str,
+    sketch: tuple[int, ...],
 ) -> IngestRecord:
     roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
         ("force", "strain") if len(tables) > 1 else ("force and strain",)
@@ -234,6 +240,7 @@ def _record(
             thickness_stations=len(specimen.thickness_mm),
         ),
         data_sha256=digest,
+        data_sketch=sketch,
         strain_source=source,
         failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),

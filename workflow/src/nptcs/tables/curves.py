@@ -116,6 +116,9 @@ class IngestRecord(Strict):
         "only)",
     )
     data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
+    data_sketch: tuple[int, ...] = Field(
+        (), description="Sample of pairs of load and strain: shared by copies that were changed"
+    )
     failure_seen: bool = Field(
         False, description="A break was recorded: force lost, and no unloading"
     )
