@@ -14,7 +14,7 @@ from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.across import settle_transverse
 from nptcs.ingest.conditioning.declared_test import require_declared_test
-from nptcs.ingest.conditioning.excursions import empty_excursions
+from nptcs.ingest.conditioning.excursions import empty_excursions, empty_in_table
 from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
@@ -139,7 +139,9 @@ def _with_gauge_length(
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
     if len(tables) == 1:
         return Signals(dict(tables[0].values))
-    return pair(
+    # before pairing, which adds the row of the largest force and interpolates
+    words = [flag for table in tables for flag in empty_in_table(table, settings.missing_values)]
+    paired = pair(
         tables[0],
         tables[1],
         specimen.time_offset_s,
@@ -147,6 +149,8 @@ def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSetti
         specimen.specimen,
         settings.end_of_test.force_drop,
     )
+    paired.flags += words
+    return paired
 
 
 def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:

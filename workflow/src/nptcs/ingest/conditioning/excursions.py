@@ -7,6 +7,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.ingest import MissingValues
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
+from nptcs.ingest.reading.raw_file import RawFile
 
 SMALLEST_SHARE = 0.1
 """Share of the channel's range: a smaller leap is not looked at."""
@@ -22,7 +23,8 @@ def empty_excursions(signals: Signals, settings: MissingValues) -> None:
     """Empty readings between a leap and the leap back, and what leaps up just before a break.
 
     Only where the other channel, strain for a force and force for a strain, does not leap along: a
-    machine that unloads and loads within one reading moves both.
+    machine that unloads and loads within one reading moves both. Without another channel, at most
+    `SHORTEST` readings are emptied at a time.
 
     Parameters
     ----------
@@ -49,6 +51,20 @@ def empty_excursions(signals: Signals, settings: MissingValues) -> None:
         first = next(iter(found))
         signals.flags.append(f"readings that leap away and back emptied: {words}")
         signals.note("excursions", f"emptied: {words}", **{f"{first}_readings": found[first]})
+
+
+def empty_in_table(table: RawFile, settings: MissingValues) -> list[str]:
+    """Empty the excursions of one of two files, before they are paired.
+
+    Returns
+    -------
+    list of str
+        A flag where something was emptied.
+    """
+    signals = Signals(dict(table.values))
+    empty_excursions(signals, settings)
+    table.values = signals.values
+    return [f"{table.path.name}: {flag}" for flag in signals.flags]
 
 
 def find_excursions(readings: Array, other: Array | None, before_break: bool) -> np.ndarray:
@@ -78,6 +94,7 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
     low, high = np.percentile(values, [1, 99])
     leaps = np.flatnonzero(size_of > max(SMALLEST_SHARE * (high - low), USUAL_STEPS * usual))
     longest = max(SHORTEST, int(LONGEST_SHARE * len(values)))
+    longest = longest if other is not None else SHORTEST
     for first in leaps:
         if gone[kept[first]] or _along(
             other, kept[first], kept[first + 1], step[first], high - low
@@ -96,9 +113,9 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
 
 
 def _along(other: Array | None, row: int, later: int, step: float, span: float) -> bool:
-    """Tell whether the other channel leaps along, or cannot tell."""
+    """Tell whether the other channel leaps along; without one, it does not."""
     if other is None or np.isnan(other[[row, later]]).any():
-        return other is None
+        return False
     finite = other[~np.isnan(other)]
     low, high = np.percentile(finite, [1, 99])
     moved = abs(float(other[later] - other[row]))

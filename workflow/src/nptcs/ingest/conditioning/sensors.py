@@ -14,6 +14,7 @@ from nptcs.loading import noise_of
 
 AXIAL_CHANNELS = ("strain", "stretch", "extension", "displacement")
 _LEAST_SIGHT = 6
+_LARGER = 3.0
 _HELD = 0.9
 """Share of the largest force above which a test that was stopped still holds it."""
 
@@ -137,7 +138,10 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     moving = np.abs(step[step != 0])
     usual = float(np.median(moving)) if len(moving) else 0.0
     usual_gain = float(np.median(np.abs(gain)))
-    leaps = np.abs(step) > max(jump_factor * usual, smallest)
+    size = np.abs(step)
+    # a travel through slack is fast for long: a leap is larger than the step just before it
+    before = np.concatenate([[np.inf], size[:-1]])
+    leaps = (size > max(jump_factor * usual, smallest)) & (size > _LARGER * before)
     leaps &= (gain > -0.05 * load[peak]) & (np.abs(gain) < 0.25 * jump_factor * usual_gain)
     return Loss(int(rows[int(np.argmax(leaps)) + 1]), "jumps") if leaps.any() else None
 
