@@ -27,6 +27,7 @@ from nptcs.tables.diagnostics import (
 )
 from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.files import Files
+from nptcs.tables.flags import FlagsTable
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
@@ -92,6 +93,14 @@ TABLES: dict[str, ResultTable] = {
         "the properties of the specimens that the sheet includes",
         section=ReportSection.SPECIMENS,
         mark=RowMark.OUTLIERS,
+    ),
+    "flags.csv": ResultTable(
+        FlagsTable,
+        "What was flagged: deviations from the standards, values not assessed, remarks",
+        "statistics",
+        "the flags of the specimens' properties; flags that differ in their numbers only are one",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.DEVIATION,
     ),
     "hyperelastic_models.csv": ResultTable(
         ModelComparison,
@@ -327,6 +336,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the single spokes",
         section=ReportSection.SPOKE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "tyre_responses.csv": ResultTable(
         TyreResponses,
@@ -345,6 +355,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "deformed_tyre.csv": ResultTable(
         DeformedTyre,
@@ -361,6 +372,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres, whose most loaded spokes were solved again at their motion",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "stiffness_against_published.csv": ResultTable(
         StiffnessAgainstPublished,
@@ -405,6 +417,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the cases that the studies' neutral_line_cases names",
         section=ReportSection.PUBLISHED_STIFFNESS,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "lca_validation.csv": ResultTable(
         LcaValidation,
@@ -438,6 +451,7 @@ TABLES: dict[str, ResultTable] = {
         "the same solutions of the model, evaluated along the ring",
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
+        raw=True,
     ),
 }
 """Tables of ``results/tables`` by file name, in the order of the workbook.

@@ -47,9 +47,11 @@ DARK: Mapping[str, str] = {
 
 
 def theme_css() -> str:
-    """Write the variables for both modes; print is light."""
+    """Write the variables for both modes: the reader's choice or the system's; print is light."""
     light, dark = (
         "".join(f"{name}:{colour};" for name, colour in colours.items())
         for colours in (LIGHT, DARK)
     )
-    return f":root{{{light}}}\n@media screen and (prefers-color-scheme: dark){{:root{{{dark}}}}}\n"
+    chosen = f":root[data-theme=dark]{{{dark}}}"
+    system = f"@media (prefers-color-scheme: dark){{:root:not([data-theme=light]){{{dark}}}}}"
+    return f":root{{{light}}}\n@media screen{{{chosen}{system}}}\n"

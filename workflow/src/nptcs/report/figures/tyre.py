@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 from matplotlib.patches import Patch
 
+from nptcs.compare.conditions import PAPER_LOAD_N
+from nptcs.language import tr
 from nptcs.report.figures.style import (
     DASHES,
     MARKERS,
@@ -46,7 +49,7 @@ def load_displacement(
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "vertical displacement [mm]", "vertical load [kN]")
+    figure, axes = panel(title, tr("vertical displacement [mm]"), tr("vertical load [kN]"))
     cases = {str(name): curve for name, curve in curves.groupby("case_id", sort=False)}
     ends = pd.DataFrame({name: curve.iloc[-1] for name, curve in cases.items()}).T
     stiffness = ends["force_n"].astype(float) / ends["displacement_mm"].astype(float)
@@ -77,9 +80,9 @@ def load_displacement(
             color=INK,
             ms=5,
             zorder=4,
-            label="paper, FEM",
+            label=tr("paper, FEM"),
         )
-    note_sampled(axes, len(drawn), len(cases), "tyres")
+    note_sampled(axes, len(drawn), len(cases), tr("tyres"))
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     figure.legend(loc="outside lower center", ncols=2)
@@ -161,8 +164,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
     synthetic : bool
         Whether the materials are synthetic.
     """
-    height = f"height above the rim [mm], at {stress['load_n'].iloc[0]:g} N"
-    figure, axes = panel(title, height, "von Mises stress at a face [MPa]")
+    height = tr("height above the rim [mm], at {load_n:g} N", load_n=stress["load_n"].iloc[0])
+    figure, axes = panel(title, height, tr("von Mises stress at a face [MPa]"))
     worst = stress["spoke"].to_numpy()[int(stress["mises_mpa"].argmax())]
     rows = stress[stress["spoke"] == worst].sort_values("height_mm")
     for number in (0, 1):
@@ -170,19 +173,23 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         colour, marker = COLOURS[number], MARKERS[number]
         for leg in (0, 1):
             half = face[face["leg"] == leg]
-            label = f"ply {half['ply_deg'].iloc[0]:+g}°" if leg == 0 else None
+            label = tr("ply {ply_deg:+g}°", ply_deg=half["ply_deg"].iloc[0]) if leg == 0 else None
             place = half["height_mm"]
             look = {**line_look(number), "linestyle": DASHES[number]}
             axes.plot(place, half["mises_mpa"], label=label, **look)
             axes.plot(place, half["mean_mises_mpa"], marker, ms=8, mfc="none", mec=colour)
-    axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
+    compared = bool(np.isclose(stress["load_n"].iloc[0], PAPER_LOAD_N))
+    if compared:
+        axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
     axes.set_ylim(bottom=0)
     figure.data = rows.drop(columns=["study", "along_mpa", "across_mpa", "shear_mpa"])
     handles, _ = axes.get_legend_handles_labels()
     handles += [
-        Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label="element mean"),
-        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label="paper, largest"),
+        Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
     ]
+    if compared:
+        paper = {"color": INK, "linestyle": "--", "linewidth": 0.9}
+        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure
