@@ -14,6 +14,7 @@ from nptcs.campaign.bulk import in_bulk, known_in_bulk, solve_bulk
 from nptcs.campaign.bulk_file import read_bulk, write_bulk
 from nptcs.campaign.cases import cases_table, read_cases
 from nptcs.campaign.record import RecordStore, write_records
+from nptcs.config.root import Campaign
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.design import build_design
@@ -152,9 +153,19 @@ def test_batches_divide_the_cases(tmp_path):
 
 
 def test_who_solves_tables():
-    able = {name for name in MODULES if in_bulk(load(MODULES[name]), 1000, 1000)}
+    study, from_two = study_of({"kind": [10.0, 11.0]}, "lca"), Campaign(bulk_from=2)
+    able = {name for name in MODULES if in_bulk(load(MODULES[name]), study, from_two)}
     assert able == {"lca", "published", "ring"}
-    assert not in_bulk(load(MODULES["lca"]), 999, 1000)
+    assert not in_bulk(load(MODULES["lca"]), study, Campaign(bulk_from=3))
+
+
+def test_a_study_with_responses_keeps_a_record_of_each_case():
+    """Responses are read from curves, which a table of results does not have."""
+    plain = study_of({"kind": [10.0, 11.0]}, "lca")
+    asking = plain.model_copy(update={"responses": ["plate_mass"]})
+    campaign = Campaign(bulk_from=1)
+    assert campaign.in_tables(plain)
+    assert not campaign.in_tables(asking)
 
 
 TABLES = frames.data_frames(

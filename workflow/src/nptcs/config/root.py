@@ -46,7 +46,8 @@ class Campaign(Strict):
         1000,
         ge=1,
         description="Cases of a study from which solvers that can solve a table of cases do so: "
-        "minutes instead of hours, one file of columns, but no curves and no neutral lines",
+        "minutes instead of hours, one file of columns, but no curves and no neutral lines; a "
+        "study that asks for `responses`, which are read from curves, has a record of each case",
     )
     batches: int = Field(
         1,
@@ -72,6 +73,10 @@ class Campaign(Strict):
         description="Cores that a batch asks for, at most those of `-j`; divided by the cores of "
         "one case (one, or the solver's `cpus`) they give the number of cases solved at a time",
     )
+
+    def in_tables(self, study: Study) -> bool:
+        """Tell whether solvers that can solve a table of cases do so for a study."""
+        return not study.responses and study.number_of_cases() >= self.bulk_from
 
 
 class LcaValidation(Strict):

@@ -83,7 +83,7 @@ def _files(config: Config, solvers: Mapping[str, Mapping[str, SolverFacts]]) -> 
 
 def _solvers(study: Study, config: Config) -> dict[str, SolverFacts]:
     options = config.solver_options(study)
-    bulk = study.number_of_cases() >= config.campaign.bulk_from
+    bulk = config.campaign.in_tables(study)
     return {name: _solver(name, options[name], bulk) for name in study.solvers}
 
 
