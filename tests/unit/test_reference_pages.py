@@ -17,7 +17,6 @@ def commands_text():
     return schema.commands_text(subparsers)
 
 
-
 @pytest.mark.parametrize(
     ("file", "text"),
     [
