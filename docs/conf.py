@@ -9,6 +9,7 @@ network for them.
 
 from __future__ import annotations
 
+import re
 import sys
 from fnmatch import fnmatch
 from pathlib import Path
@@ -30,7 +31,7 @@ language = "en"
 extensions = ["myst_parser"]
 root_doc = "docs/index"
 include_patterns = ["*.md", "docs/**", "config/README.md", "raw_data/published/README.md"]
-exclude_patterns = [".*", "build", "results", "workflow", "tests", "benchmarks"]
+exclude_patterns = [".*", "docs/_static", "build", "results", "workflow", "tests", "benchmarks"]
 
 myst_enable_extensions = ["dollarmath"]
 myst_fence_as_directive = ["math"]  # ```math, as forges set it
@@ -94,16 +95,29 @@ def add_navigation(app: Sphinx, name: str, source: list[str]) -> None:
         source[0] += navigation(app.env.found_docs)
 
 
+def primes(tex: str) -> str:
+    """Write primes as powers, which is how the converter can set them."""
+
+    def raised(found: re.Match[str]) -> str:
+        power = (found[3] or "").strip("^{}")
+        return f"{found[1]}^{{{PRIME * len(found[2])} {power}}}"
+
+    return re.sub(r"(\w|\})('+)(\^(?:\w|\{[^{}]*\}))?", raised, tex)
+
+
 def mathml(translator: Any, node: nodes.math | nodes.math_block) -> None:
     """Write an equation as MathML; a mistake in its TeX stops the build with the place."""
     block = isinstance(node, nodes.math_block)
     try:
-        written = str(tex2mathml(node.astext(), as_block=block))
+        written = str(tex2mathml(primes(node.astext()), as_block=block))
     except (MathError, SyntaxError) as error:
         place = f"{node.source or translator.builder.current_docname}:{node.line}"
         raise ExtensionError(f"{place}: cannot set {node.astext()!r}: {error}") from error
     translator.body.append(f'<div class="equation">{written}</div>' if block else written)
     raise nodes.SkipNode
+
+
+PRIME = r"\prime"
 
 
 def setup(app: Sphinx) -> None:
