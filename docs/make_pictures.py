@@ -32,26 +32,34 @@ OPTIONS = [
 ONLY = """<style>
 section:not(#{section}), nav, header, footer {{ display: none !important }}
 </style>"""
+FIGURES = """<style>
+section *:not(:has(figure), figure, figure *, h2) { display: none !important }
+</style>"""
 WIDTH = 1000
 TUTORIAL = {
     "first-screen": ("", 760),
-    "curves": ("specimens", 700),
+    "curves": ("specimens figures", 640),
     "materials": ("materials", 760),
-    "surface": ("surfaces", 760),
+    "surface": ("surfaces figures", 640),
     "decision": ("decision", 620),
 }
-"""Picture → section of the report (empty: the page from its top) and height in pixels."""
+"""Picture → section of the report and height in pixels.
+
+Without a section it is the page from its top; ``figures`` leaves out tables and text.
+"""
 
 
-def shoot(page: Path, section: str, height: int, picture: Path) -> None:
+def shoot(page: Path, what: str, height: int, picture: Path) -> None:
     """Draw the top of a page, or of one of its sections, into a PNG file of 64 colours."""
+    section, _, figures = what.partition(" ")
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         text = page.read_text(encoding="utf-8")
         if section and f'id="{section}"' not in text:
             raise SystemExit(f"{page} has no section {section!r}")
         copy = folder / "page.html"
-        copy.write_text(text + (ONLY.format(section=section) if section else ""), "utf-8")
+        style = ONLY.format(section=section) if section else ""
+        copy.write_text(text + style + (FIGURES if figures else ""), "utf-8")
         size = [f"--window-size={WIDTH},{height}", f"--user-data-dir={folder / 'profile'}"]
         shot = folder / "shot.png"
         command = [str(BROWSER), *OPTIONS, *size, f"--screenshot={shot}", copy.as_uri()]
@@ -76,8 +84,8 @@ def main() -> int:
     if arguments.report:
         shoot(page, "", 900, IMAGES / "report.png")
     else:
-        for name, (section, height) in TUTORIAL.items():
-            shoot(page, section, height, IMAGES / f"tutorial-{name}.png")
+        for name, (what, height) in TUTORIAL.items():
+            shoot(page, what, height, IMAGES / f"tutorial-{name}.png")
     return 0
 
 
