@@ -34,13 +34,14 @@ def project(folder: Path) -> None:
     for study in values["studies"]:
         quick = [name for name in study["solvers"] if name in QUICK]
         if quick:
-            dropped = {"calibration_cases", "published_spoke_stiffness"}
+            dropped = {
+                *("calibration_cases", "published_spoke_stiffness", "decisions", "responses"),
+            }
             kept = {key: value for key, value in study.items() if key not in dropped}
             options = study.get("solver_options", {})
             kept["solver_options"] = {key: options[key] for key in quick if key in options}
             studies.append({**kept, "solvers": quick})
     values["studies"] = studies
-    values.pop("decisions", None)
     config.write_text(yaml.safe_dump(values, sort_keys=False), encoding="utf-8")
 
 

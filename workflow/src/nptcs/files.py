@@ -145,7 +145,7 @@ def read_model(path: str | Path, model: type[Model], by_hand: bool = False) -> M
 
 
 def write_sealed(path: str | Path, content: Mapping[str, Any], kind: str) -> None:
-    """Write plain values as JSON with a checksum, atomically: for whatever is no pydantic model.
+    """Write plain values as JSON with a checksum, atomically: for whatever is not a pydantic model.
 
     Parameters
     ----------

@@ -111,7 +111,7 @@ def parse(terms: Sequence[str], factors: Sequence[str], through_origin: bool = F
     for position, powers in enumerate(exponents):
         if powers in exponents[:position]:
             raise InputError(
-                "this term stands twice", column="terms", value=terms[position], remedy="drop one"
+                "this term is given twice", column="terms", value=terms[position], remedy="drop one"
             )
     if through_origin:
         if (0,) * len(factors) in exponents:

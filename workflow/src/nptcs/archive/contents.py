@@ -1,4 +1,4 @@
-"""Which files of a project folder belong into the archive of a study, and as what."""
+"""Which files of a project folder belong in the archive of a study, and as what."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ def stiffness_exponents(table: pd.DataFrame, studies: Mapping[str, Comparison]) 
     """Find d ln K / d ln C10 of `StiffnessAgainstPublished`, as `StiffnessExponents`.
 
     Over all levels of a modulus it is the slope of the line of least squares through the
-    logarithms. Factors that are no moduli have no exponent.
+    logarithms. Factors that are not moduli have no exponent.
 
     Parameters
     ----------

@@ -202,7 +202,7 @@ def _surface(
 def registry_surface(
     registry: SurfaceRegistry | None, results: StudyResults, response: ResponseName, name: str
 ) -> FittedSurface | None:
-    """Return the stored surface of that name; for what is no stiffness, else the best one.
+    """Return the stored surface of that name; for what is not a stiffness, else the best one.
 
     The stiffness at the study's own load is stored under a name of its own.
     """

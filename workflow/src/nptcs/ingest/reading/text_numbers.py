@@ -16,7 +16,7 @@ def numbers_of_texts(rows: list[Row]) -> tuple[list[Row], str]:
     """Turn the cells of columns that hold numbers as text only into numbers.
 
     All such cells of a sheet must have one decimal mark, and with a comma one of them must prove
-    that it is no thousands mark; otherwise they stay text, and the reading says so. A lone text
+    that it is not a thousands mark; otherwise they stay text, and the reading says so. A lone text
     among numbers stays, too: it is a slip of somebody's hand.
 
     Returns

@@ -51,7 +51,7 @@ def ring_blocks(results: Results) -> list[PageBlock]:
     if len(found) == len(RINGS):
         blocks.append(
             Text(
-                "Both rings stand here: what the paper's mesh does, and what a converged one says. "
+                "Both rings are shown: what the paper's mesh does, and what a converged one says. "
                 "Each has the section of the spoke that was calibrated with it, on table 10 and "
                 "five cases of table 5; no number of table 7 entered."
             )
