@@ -64,7 +64,7 @@ STYLE: Any = {
     "legend.title_fontsize": 8,
     "lines.linewidth": 1.3,
     "lines.markersize": 4.5,
-    "savefig.facecolor": "none",
+    "figure.facecolor": "none",
     "svg.fonttype": "none",
     "svg.hashsalt": "nptcs",
 }
