@@ -164,7 +164,7 @@ def _curve_plots(results: Results) -> list[Plot]:
     ):
         synthetic = _synthetic(results, study, solver)
         cases = results.table(Cases)
-        published = cases[cases["study"].eq(study) & cases["solver"].eq(PUBLISHED)]
+        published = cases[cases["study"].eq(str(study)) & cases["solver"].eq(PUBLISHED)]
         columns = ["case_id", "load_n", "displacement_mm"]
         given = (
             curves,
