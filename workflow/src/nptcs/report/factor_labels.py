@@ -46,6 +46,7 @@ def in_words(text: str, labels: Mapping[str, FactorLabel]) -> str:
     >>> in_words("22 plates, spacing_mm 14.333", {"spacing_mm": FactorLabel("spacing S", "mm")})
     '22 plates, spacing S 14.33 mm'
     """
+    text = re.sub(r"\b(\d+) plates\b", lambda found: tr("{plates} plates", plates=found[1]), text)
     for name, label in labels.items():
         value = re.compile(rf"\b{re.escape(name)} ([-+]?[\d.]+(?:e[-+]?\d+)?)")
         text = value.sub(lambda found, label=label: _with_value(label, found[1]), text)

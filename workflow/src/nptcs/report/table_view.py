@@ -39,6 +39,13 @@ PERCENTS = ("difference_percent", "change_percent")
 """Endings of the names of further columns that get three digits."""
 
 
+WORDS = frozenset(
+    {"status", "origin", "include", "synthetic", "result", "confirmation", "group", "kind", "test"}
+    | {"scope", "reported_statistic", "region", "goal_met", "drucker_stable", "outside_the_box"}
+    | {"failed", "values_used", "model"}
+)
+"""Columns that hold words of closed sets: the page writes them in its own language."""
+
 PAGE_ROWS = 30
 """Rows of the longest table that the page shows whole; the CSV file has them all."""
 
@@ -85,7 +92,7 @@ def table_view(
     rows = []
     for record in (table if whole else on_page(table, mark)).to_dict("records"):
         cells = tuple(
-            _cell(record[name], digits.get(name, DIGITS), is_number)
+            _cell(_word(name, record[name]), digits.get(name, DIGITS), is_number)
             for name, is_number in zip(shown, numeric, strict=True)
         )
         rows.append((mark({str(key): value for key, value in record.items()}), cells))
@@ -137,6 +144,11 @@ def sheet_view(
         synthetic=sheet.synthetic,
         whole=whole,
     )
+
+
+def _word(column: str, value: object) -> object:
+    """Write a word of a closed set in the language of the run; other values stay as they are."""
+    return tr(value) if column in WORDS and isinstance(value, str) else value
 
 
 def _is_numeric(column: pd.Series) -> bool:

@@ -46,7 +46,7 @@ def _question() -> str:
 def _finding(results: Results, row: Row) -> Finding:
     study = results.config.study(str(row["study"]))
     labels = factor_labels(study)
-    asked = _decision(results, row).title or in_words(words(str(row["goals"])), labels)
+    asked = tr(_decision(results, row).title) or in_words(words(str(row["goals"])), labels)
     design = in_words(str(row["design"]), labels)
     match row["status"]:
         case "feasible":
