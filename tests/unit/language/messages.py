@@ -78,7 +78,9 @@ def texts_of_configurations() -> Iterator[str]:
             node = waiting.pop()
             if isinstance(node, dict):
                 yield from (node[key] for key in ("title", "label") if key in node)
-            waiting += node.values() if isinstance(node, dict) else node if isinstance(node, list) else []
+                waiting += node.values()
+            elif isinstance(node, list):
+                waiting += node
 
 
 SAME = re.compile(r"[\W\d_]*|[A-Z]{1,2}\d*|[xyn]|k B|MNR|PRESS|SHA-256|(results|config)/.*")

@@ -49,7 +49,7 @@ class Campaign(Strict):
         1000,
         ge=1,
         description="Cases of a study from which solvers that can solve a table of cases do so: "
-        "minutes instead of hours, one file of columns, but no curves and no neutral lines",
+        "minutes instead of hours, one file of columns, but no neutral lines and no plate stress",
     )
     batches: int = Field(
         1,

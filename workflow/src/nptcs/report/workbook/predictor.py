@@ -34,6 +34,7 @@ from nptcs.report.workbook.layout import page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
 from nptcs.report.workbook.predictor_models import (
     INPUTS,
+    SPACING,
     PredictorModel,
     predictor_models,
     start_values,
@@ -197,7 +198,9 @@ def _named(fitted: FittedSurface, study: Study) -> list[str]:
 def takes(model: PredictorModel) -> str:
     """Say which inputs a polynomial takes, what its study holds, and what has no part in it."""
     taken = [
-        f"{INPUTS[name][0]} with whole plates" if name in model.fitted.realised else INPUTS[name][0]
+        f"{INPUTS[name][0]} with whole plates"
+        if name == SPACING and model.snaps
+        else INPUTS[name][0]
         for name in model.fitted.factors
     ]
     held = [f"{INPUTS[name][0]} = {value:g}" for name, value in model.fixed.items()]

@@ -45,17 +45,15 @@ class PredictorModel:
         What the polynomial is of: the response itself, its logarithm or its reciprocal.
     fixed : mapping of str to float
         Values that all cases of the study share.
+    snaps : bool
+        Whether the solver turns the spacing into that of a whole number of plates.
     """
 
     fitted: FittedSurface
     inner: Surface
     link: Link
     fixed: Mapping[str, float]
-
-    @property
-    def snaps(self) -> bool:
-        """Whether the solver turns the spacing into that of a whole number of plates."""
-        return SPACING in self.fitted.realised
+    snaps: bool
 
     @property
     def t_quantile(self) -> float:
@@ -86,7 +84,8 @@ def predictor_models(results: Results) -> tuple[list[PredictorModel], dict[str, 
             if polynomial is None or not set(fitted.factors) <= set(INPUTS):
                 others[fitted.name] = others.get(fitted.name, 0) + 1
             else:
-                models.append(PredictorModel(fitted, *polynomial, fixed))
+                whole = results.solvers[fitted.solver].whole_plates or SPACING in fitted.realised
+                models.append(PredictorModel(fitted, *polynomial, fixed, whole))
     return models, others
 
 
