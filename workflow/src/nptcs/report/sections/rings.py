@@ -108,7 +108,7 @@ def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
         ),
         Listing(
             tr("Excluded, each by an experiment with the model outside this run"),
-            tuple(map(tr, tuple(map(tr, EXCLUDED)))),
+            tuple(map(tr, EXCLUDED)),
         ),
         Text(tr(OPEN_CLUE)),
     ]
