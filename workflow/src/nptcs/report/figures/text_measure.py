@@ -33,8 +33,8 @@ def wide_characters_measured() -> Iterator[None]:
             _, height, descent = measure(self, "Åg", prop, ismath)
         return width, height, descent
 
-    RendererSVG.get_text_width_height_descent = measured
+    RendererSVG.get_text_width_height_descent = measured  # type: ignore[method-assign]
     try:
         yield
     finally:
-        RendererSVG.get_text_width_height_descent = measure
+        RendererSVG.get_text_width_height_descent = measure  # type: ignore[method-assign]

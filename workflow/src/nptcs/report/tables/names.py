@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from functools import partial
 
 from nptcs.config.study import Study
 from nptcs.language import tr, translatable
@@ -38,8 +39,12 @@ def in_words(text: str, labels: Mapping[str, Heading]) -> str:
     'E1\xa0± 76.2\xa0MPa, ν12'
     """
     for phrase, words in PHRASES.items():
-        text = phrase.sub(lambda found, words=words: tr(words, **found.groupdict()), text)
+        text = phrase.sub(partial(_phrase, words), text)
     return NAME.sub(lambda found: _in_words(found, labels), text)
+
+
+def _phrase(words: str, found: re.Match[str]) -> str:
+    return tr(words, **found.groupdict())
 
 
 def _in_words(found: re.Match[str], labels: Mapping[str, Heading]) -> str:
