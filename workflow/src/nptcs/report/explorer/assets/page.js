@@ -159,7 +159,6 @@ function build() {
     chooser("study", say("study"), chooseStudy),
     chooser("solver", say("solver"), chooseSolver),
     chooser("model", say("model"), (value) => (state.model = value)),
-    (parts.conditions = make("p", { class: "ex-note" })),
     ...DATA.factors.map(factorControl),
     loadControl(),
     bandControl(),
@@ -291,7 +290,7 @@ function showControls() {
   fillSelect(parts.up, varied, state.up);
   fillSelect(parts.shown, rowsOf().filter((row) => row.response).map((row) => [row.key, rowTitle(row)]), state.shown);
   parts.across.disabled = parts.up.disabled = study.factors.length < 2;
-  parts.conditions.textContent = solver.about;
+  parts.solver.title = solver.about;
   for (const factor of DATA.factors) showFactor(factor, study);
   showLoad(solver);
   parts.band.forEach((input, i) => (input.value = tidy(state.band[i])));
@@ -414,7 +413,7 @@ function biasNote(solver) {
   const words = bias
     ? say("bias_note", { cases: bias.cases, least: round(bias.low_percent), most: round(bias.high_percent), mean: round(bias.mean_percent) })
     : say(solver.name === "published" ? "bias_reference" : "bias_none");
-  return make("p", { class: "ex-note" }, words);
+  return make("p", { class: "ex-note" }, `${solver.name}: ${solver.about}. ${words}`);
 }
 
 // ---- profiles ----------------------------------------------------------------------------------
