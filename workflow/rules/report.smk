@@ -1,6 +1,8 @@
 # All results → the list of problems, the report and the workbook, and the verdict on the run.
 from importlib.resources import files as package_files
 
+from nptcs.language import catalogue_digest
+
 
 def solver_facts():
     """What the report says about each solver: what it is, and what it is given.
@@ -28,6 +30,7 @@ def configured_inputs():
     """Input files that the configuration names; raw laboratory files are listed in files.csv."""
     formats = sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
     paths = [str(SHEET), *map(str, formats), *CONFIG.published_inputs()]
+    paths += CONFIG.page_inputs()
     for study in CONFIG.studies:
         for name in study.solvers:
             paths += solver_of(study.name, name).tables().values()
@@ -67,9 +70,46 @@ rule problems:
         "../scripts/problems.py"
 
 
+# what the identity of a run does not depend on: how its numbers are shown
+PAGES = ("configuration", "identity", "report", "verdict")
+
+
+def code_of_tables():
+    """Hash of the code that made the tables: every rule's script but those of pages, and solvers."""
+    solvers = {
+        module_of(name, options)
+        for study in CONFIG.studies
+        for name, options in CONFIG.solver_options(study).items()
+    }
+    scripts = sorted(path for path in SCRIPTS.glob("*.py") if path.stem not in PAGES)
+    return FACTS.code_of(*map(str, scripts), *sorted(solvers))
+
+
+rule identity:
+    input:
+        tables=TABLES,
+        card="results/material_card.json",
+        inputs=[ancient(path) for path in configured_inputs()],
+    output:
+        identity="results/identity.json",
+    log:
+        "results/logs/identity.log",
+    params:
+        job={
+            "config": plain(CONFIG),
+            "inputs": contents(configured_inputs()),
+            "code_of_tables": code_of_tables(),
+            "folder": SHEET.parent.as_posix(),
+            "code": code_of("identity"),
+        },
+    script:
+        "../scripts/identity.py"
+
+
 rule report:
     input:
         tables=TABLES,
+        identity="results/identity.json",
         card="results/material_card.json",
         curves=curves(SPECIMENS),
         records=records(SPECIMENS),
@@ -104,6 +144,7 @@ rule report:
                 )
             },
             "inputs": contents(configured_inputs()),
+            "language": catalogue_digest(CONFIG.laboratory.language),
             "code": code_of("report", words=True),
         },
     script:

@@ -64,7 +64,8 @@ def config():
         study["neutral_line_cases"] = []
         study.pop("decisions", None)  # they ask a solver that this run does not have
     values["studies"] = studies
-    values["report"] = {"title": "A title <b>&", "laboratory": "Laboratory of tyres"}
+    values["report"] = {"title": "A title <b>&"}
+    values["laboratory"] = {"name": "Laboratory of tyres"}
     return read_config(values)
 
 

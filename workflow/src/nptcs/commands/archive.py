@@ -45,7 +45,8 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.archive.crate import write_crate
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
-    from nptcs.files import sha256_of_file
+    from nptcs.files import read_model, sha256_of_file
+    from nptcs.runs.identity import RunIdentity
     from nptcs.yaml_files import read_yaml
 
     root, target = Path(arguments.project), Path(arguments.archive)
@@ -60,6 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     count = write_crate(target, contents_of(root, config), config, commit_of(root))
     print(f"{target}: {count} files, {target.stat().st_size / 1e6:.1f} MB")
     print(f"SHA-256 {sha256_of_file(target)}")
+    print(f"run {read_model(root / 'results' / 'identity.json', RunIdentity).identity}")
     return 0
 
 

@@ -45,6 +45,7 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.ingest.folder import is_there
     from nptcs.ingest.reading.profiles import load_profiles
     from nptcs.ingest.repeats import repeats_in_sheet
+    from nptcs.report.page_files import page_faults
     from nptcs.solvers.registry import needs_ply
     from nptcs.tables.specimens import read_sheet
     from nptcs.yaml_files import read_yaml
@@ -54,7 +55,7 @@ def run(arguments: argparse.Namespace) -> int:
     if not isinstance(values, dict):
         raise InputError("is not a configuration", "write 'key: value' lines", path)
     config = read_config(values, str(path))
-    faults = study_faults(config)
+    faults = [*study_faults(config), *page_faults(config)]
     if not faults:
         print(*plan_lines(config, arguments.results), sep="\n")
     specimens, errors = read_sheet(config.lab_data.specimen_sheet)

@@ -45,7 +45,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what was checked; 1 for any fault or difference."""
-    from nptcs.archive.verify import count_files, faults_of, unpack
+    from nptcs.archive.verify import count_files, faults_of, run_identity, unpack
     from nptcs.errors import InputError
     from nptcs.files import sha256_of_file
 
@@ -67,6 +67,8 @@ def run(arguments: argparse.Namespace) -> int:
         if faults:
             return 1
         print(f"{given}: {count_files(folder)} files, all as packed; tables and card are sound")
+        if (identity := run_identity(folder)) is not None:
+            print(f"run {identity.identity}, {identity.made_text}")
     if arguments.rerun:
         return rerun(given, Path(arguments.rerun), arguments.jobs, arguments.within)
     return 0

@@ -2,22 +2,21 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from importlib.metadata import version
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pandera.pandas as pa
 
-from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import read_model, sha256_of_file
 from nptcs.lca.section import SectionKind
 from nptcs.report.verdict import verdict
+from nptcs.runs.identity import RunIdentity
+from nptcs.runs.software import software_versions
 from nptcs.solvers.lca import LcaOptions
 from nptcs.surface.fit import Surface
 from nptcs.surface.registry import SurfaceRegistry
@@ -29,16 +28,6 @@ from nptcs.tables.io import read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
 from nptcs.tables.problems import Problems
 from nptcs.tables.specimens import Specimen
-
-SOFTWARE = (
-    "snakemake",
-    "numpy",
-    "scipy",
-    "pandas",
-    "scikit-learn",
-    "matplotlib",
-    "openpyxl",
-)
 
 
 @dataclass(frozen=True)
@@ -76,7 +65,8 @@ class Results:
     """Everything that a run has made.
 
     ``tables`` holds the tables of ``results/tables`` by file name; `table` returns one by its
-    contract. ``models`` holds all stored surfaces by study.
+    contract. ``surfaces`` are the polynomials of the stiffness by study and solver, ``models`` the
+    surfaces of every kind and response by study.
     """
 
     config: Config
@@ -92,6 +82,7 @@ class Results:
     tables: Mapping[str, pd.DataFrame]
     models: Mapping[str, SurfaceRegistry] = field(default_factory=dict)
     lca_ring: LcaRing | None = None
+    identity: RunIdentity | None = None
 
     def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
         """Return the result table that keeps a contract; for a table of one study, the study's."""
@@ -169,9 +160,9 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         ``config``, ``specimens`` (rows of the sheet), ``solvers`` (`SolverFacts` by name), as
         plain values.
     files : mapping
-        A path for ``card``; lists of paths under ``tables`` (all of ``results/tables``),
-        ``curves``, ``records``, ``designs``, ``surfaces``, ``models`` (all three named by their
-        study) and ``inputs``.
+        A path for ``card`` and one for ``identity``; lists of paths under ``tables`` (all of
+        ``results/tables``), ``curves``, ``records``, ``designs``, ``surfaces``, ``models`` (these
+        three named by their study) and ``inputs``.
 
     Returns
     -------
@@ -193,11 +184,7 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         config=config,
         sheet=tuple(Specimen.model_validate(row) for row in job["specimens"]),
         solvers={name: SolverFacts(**facts) for name, facts in job["solvers"].items()},
-        software={
-            "nptcs": __version__,
-            "Python": platform.python_version(),
-            **{name: version(name) for name in SOFTWARE},
-        },
+        software=software_versions(),
         inputs={str(file): sha256_of_file(file) for file in files["inputs"]},
         card=read_model(files["card"], MaterialCard),
         curves=read_curves(files["curves"]),
@@ -210,6 +197,7 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         },
         models={Path(file).stem: read_registry(file) for file in files["models"]},
         lca_ring=_lca_ring(config),
+        identity=read_model(files["identity"], RunIdentity),
     )
 
 

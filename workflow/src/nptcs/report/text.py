@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from nptcs.language import tr
+
 DIGITS = 5
 """Significant digits of numbers in the report; the CSV files and the workbook have all."""
 
@@ -53,4 +55,4 @@ def joined(words: Iterable[str]) -> str:
     parts = list(words)
     if len(parts) < 2:
         return "".join(parts)
-    return ", ".join(parts[:-1]) + " and " + parts[-1]
+    return tr("{several} and {last}", several=tr(", ").join(parts[:-1]), last=parts[-1])

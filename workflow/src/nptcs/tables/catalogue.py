@@ -17,6 +17,7 @@ from nptcs.tables.decisions import (
     DecisionFront,
     Decisions,
 )
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -335,6 +336,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the single spokes",
         section=ReportSection.SPOKE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "tyre_responses.csv": ResultTable(
         TyreResponses,
@@ -353,6 +355,15 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
+    ),
+    "deformed_tyre.csv": ResultTable(
+        DeformedTyre,
+        "Outlines of a loaded tyre with all its spokes (figure 10 a)",
+        "deformed_tyre",
+        "the first case that neutral_line_cases names, solved again for the motions of its spokes",
+        section=ReportSection.TYRE,
+        synthetic=SyntheticBy.ROWS,
     ),
     "plate_stress.csv": ResultTable(
         PlateStress,
@@ -361,6 +372,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres, whose most loaded spokes were solved again at their motion",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "stiffness_against_published.csv": ResultTable(
         StiffnessAgainstPublished,
@@ -405,6 +417,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the cases that the studies' neutral_line_cases names",
         section=ReportSection.PUBLISHED_STIFFNESS,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "lca_validation.csv": ResultTable(
         LcaValidation,
@@ -438,6 +451,7 @@ TABLES: dict[str, ResultTable] = {
         "the same solutions of the model, evaluated along the ring",
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
+        raw=True,
     ),
 }
 """Tables of ``results/tables`` by file name, in the order of the workbook.

@@ -94,6 +94,9 @@ class ResultTable:
         What makes it synthetic.
     sheet : str
         Name of its sheet in the workbook, if not that of its file; `PER_STUDY` as there.
+    raw : bool
+        Whether it holds curves, shapes or fields point by point: a CSV file beside the workbook,
+        which draws what matters of it.
     """
 
     contract: type[pa.DataFrameModel]
@@ -105,3 +108,4 @@ class ResultTable:
     mark: RowMark = RowMark.NONE
     synthetic: SyntheticBy = SyntheticBy.SPECIMENS
     sheet: str = ""
+    raw: bool = False

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.language import tr
 from nptcs.report.figures.style import HATCHES, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.report.tables.headings import words
@@ -37,8 +38,8 @@ def impact_bars(
     solver = impact["solver"].iloc[0]
     height = 1.3 + 0.24 * len(order) * (len(rules) + 1)
     figure, axes = panel(
-        f"Impact of each factor, {solver}",
-        "impact on the vertical stiffness [N/mm]",
+        tr("Impact of each factor, {solver}", solver=solver),
+        tr("impact on the vertical stiffness [N/mm]"),
         "",
         (4.3, height),
     )
@@ -61,7 +62,7 @@ def impact_bars(
     published = by_rule[rules[0]]["published_impact"].to_numpy()
     if np.isfinite(published).any():
         axes.plot(published, place, "|", color=INK, ms=26, mew=1.6)
-        axes.plot([], [], "|", color=INK, ms=8, mew=1.6, label="published, table 9 (FE)")
+        axes.plot([], [], "|", color=INK, ms=8, mew=1.6, label=tr("published, table 9 (FE)"))
     axes.axvline(0, color=INK, linewidth=0.8)
     axes.set_yticks(place, [labels[key] for key in order])
     axes.grid(visible=False, axis="y")

@@ -10,18 +10,22 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from nptcs.language import tr, translatable
 from nptcs.report.figures.style import HATCHES, line_look, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
 
-SECTION_NAMES = {"sandwich": "sandwich section", "printed": "section as printed"}
+SECTION_NAMES = {
+    "sandwich": translatable("sandwich section"),
+    "printed": translatable("section as printed"),
+}
 DIFFERENCES = {
-    "theta_c_difference_percent": "contact angle θc",
-    "theta_t_difference_percent": "transition angle θt",
-    "displacement_difference_percent": "displacement δ",
+    "theta_c_difference_percent": translatable("contact angle θc"),
+    "theta_t_difference_percent": translatable("transition angle θt"),
+    "displacement_difference_percent": translatable("displacement δ"),
 }
 CONTACT = {
-    "contact_length_mm": "contact length [mm]",
-    "mean_pressure_mpa": "mean contact pressure [MPa]",
+    "contact_length_mm": translatable("contact length [mm]"),
+    "mean_pressure_mpa": translatable("mean contact pressure [MPa]"),
 }
 REGIONS = {
     "contact": (COLOURS[1], "-"),
@@ -30,14 +34,14 @@ REGIONS = {
 }
 """Colour and dash of the regions of the load-bearing model."""
 
-LOAD = "vertical load [N]"
+LOAD = translatable("vertical load [N]")
 RING_MARKS = 60
 """Points of a finite element ring that are marked; its numbers hold all."""
 
 
 def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Figure, Axes]:
     """Make a panel titled with the section of the band to which its rows belong."""
-    return panel(f"LCA, {SECTION_NAMES[table['section'].iloc[0]]}", x_label, y_label)
+    return panel(f"LCA, {tr(SECTION_NAMES[table['section'].iloc[0]])}", x_label, y_label)
 
 
 def _line_per_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: str) -> None:
@@ -50,7 +54,7 @@ def _line_per_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: st
 def _rubber_legend(axes: Axes) -> None:
     """Begin the axis at zero and name the lines by the spokes' rubber."""
     axes.set_ylim(bottom=0)
-    axes.legend(title="spoke C10 [MPa]", ncols=2)
+    axes.legend(title=tr("spoke C10 [MPa]"), ncols=2)
 
 
 @styled
@@ -71,9 +75,10 @@ def load_displacement(
     synthetic : bool
         Whether the ply of the finite elements is synthetic.
     """
-    solver = "" if finite_elements.empty else f" and {finite_elements['solver'].iloc[0]}"
-    title = f"LCA, {SECTION_NAMES[table['section'].iloc[0]]},{solver}"
-    figure, axes = panel(title.rstrip(","), LOAD, "displacement [mm]", (4.3, 3.7))
+    first = finite_elements["solver"].iloc[:1]
+    solver = "".join(tr(" and {solver}", solver=name) for name in first)
+    title = f"LCA, {tr(SECTION_NAMES[table['section'].iloc[0]])},{solver}"
+    figure, axes = panel(title.rstrip(","), LOAD, tr("displacement [mm]"), (4.3, 3.7))
     printed = {"mfc": "none", "mec": INK, "linestyle": "", "zorder": 6}
     for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
         look, rows = line_look(number), rows.sort_values("load_n")
@@ -84,12 +89,14 @@ def load_displacement(
         fem = rows["load_n"] / rows["published_fem_stiffness_n_per_mm"]
         axes.plot(rows["load_n"], fem, **printed, marker=look["marker"], ms=9)
     axes.set_ylim(bottom=0)
-    axes.legend(title="spoke C10 (S-C) [MPa]", ncols=3, loc="upper left")
+    axes.legend(title=tr("spoke C10 (S-C) [MPa]"), ncols=3, loc="upper left")
     kinds = [
-        Line2D([], [], color=INK, label="our LCA"),
-        Line2D([], [], color=INK, linestyle="", marker="o", label="our FE"),
-        Line2D([], [], color=INK, linestyle="", marker="x", label="paper, LCA"),
-        Line2D([], [], color=INK, linestyle="", marker="o", mfc="none", ms=8, label="paper, FEM"),
+        Line2D([], [], color=INK, label=tr("our LCA")),
+        Line2D([], [], color=INK, linestyle="", marker="o", label=tr("our FE")),
+        Line2D([], [], color=INK, linestyle="", marker="x", label=tr("paper, LCA")),
+        Line2D(
+            [], [], color=INK, linestyle="", marker="o", mfc="none", ms=8, label=tr("paper, FEM")
+        ),
     ]
     figure.legend(handles=kinds, ncols=4, loc="outside lower center", columnspacing=1.2)
     figure.data = _loads(table, finite_elements)
@@ -122,17 +129,17 @@ def load_errors(table: pd.DataFrame, synthetic: bool = False) -> Figure:
     synthetic : bool
         Whether the ply is synthetic.
     """
-    title = f"Difference, LCA and {table['solver'].iloc[0]}"
-    figure, axes = panel(title, LOAD, "size of the difference in stiffness [%]")
+    title = tr("Difference, LCA and {solver}", solver=table["solver"].iloc[0])
+    figure, axes = panel(title, LOAD, tr("size of the difference in stiffness [%]"))
     for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
         rows = rows.sort_values("load_n")
         size = rows["lca_difference_percent"].abs()
         axes.plot(rows["load_n"], size, label=f"{c10:g}", **line_look(number))
     printed = table.drop_duplicates("load_n").sort_values("load_n")
     error = printed["published_largest_error_percent"]
-    axes.plot(printed["load_n"], error, "_", color=INK, ms=22, mew=1.6, label="paper, largest")
+    axes.plot(printed["load_n"], error, "_", color=INK, ms=22, mew=1.6, label=tr("paper, largest"))
     axes.set_ylim(bottom=0)
-    figure.legend(title="spoke C10 (S-C) [MPa]", ncols=3, loc="outside lower center")
+    figure.legend(title=tr("spoke C10 (S-C) [MPa]"), ncols=3, loc="outside lower center")
     figure.data = table[
         [
             "solver",
@@ -175,11 +182,11 @@ def differences(table: pd.DataFrame, limit: float) -> Figure:
     limit : float
         Largest difference on the axis, in percent, the same for all sections.
     """
-    figure, axes = _section_panel(table, "spoke C10 [MPa]", "computed − published [%]")
-    series = {label: table[column].to_numpy() for column, label in DIFFERENCES.items()}
+    figure, axes = _section_panel(table, tr("spoke C10 [MPa]"), tr("computed − published [%]"))
+    series = {tr(label): table[column].to_numpy() for column, label in DIFFERENCES.items()}
     _grouped_bars(axes, [f"{c10:g}" for c10 in table["spoke_c10_mpa"]], series)
     axes.axhline(0, color=INK, linewidth=0.8)
-    axes.axhspan(-1, 1, color=RANGE, zorder=0, label="within 1 %")
+    axes.axhspan(-1, 1, color=RANGE, zorder=0, label=tr("within 1 %"))
     axes.set_ylim(-limit, limit)
     figure.legend(loc="outside lower left", ncols=2)
     figure.data = table[["section", "spoke_c10_mpa", "load_n", *DIFFERENCES]]
@@ -196,7 +203,10 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
         Rows of ``lca_validation.csv`` that have printed values.
     """
     figure, axes = panel(
-        "LCA against FEM, table 11", "spoke C10 [MPa]", "vertical stiffness [N/mm]", (4.3, 3.7)
+        tr("LCA against FEM, table 11"),
+        tr("spoke C10 [MPa]"),
+        tr("vertical stiffness [N/mm]"),
+        (4.3, 3.7),
     )
     groups = {section: rows for section, rows in table.groupby("section", sort=False)}
     first = next(iter(groups.values()))
@@ -205,7 +215,7 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
         "LCA, paper": first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
-        name = f"LCA, computed, {SECTION_NAMES[str(section)]}"
+        name = tr("LCA, computed, {section_names}", section_names=tr(SECTION_NAMES[str(section)]))
         series[name] = rows["stiffness_n_per_mm"].to_numpy()
     _grouped_bars(axes, [f"{c10:g}" for c10 in first["spoke_c10_mpa"]], series)
     figure.legend(loc="outside lower left", ncols=2)
@@ -227,11 +237,11 @@ def fem_differences(table: pd.DataFrame, limit: float) -> Figure:
     limit : float
         Largest difference on the axis, in percent, the same for all sections.
     """
-    figure, axes = _section_panel(table, "spoke C10 [MPa]", "LCA − FEM, stiffness [%]")
+    figure, axes = _section_panel(table, tr("spoke C10 [MPa]"), tr("LCA − FEM, stiffness [%]"))
     _line_per_rubber(axes, table, "shear_band_c10_mpa", "spoke_c10_mpa", "fem_difference_percent")
     axes.axhline(0, color=INK, linewidth=0.8)
     axes.set_ylim(-limit, limit)
-    figure.legend(title="shear band C10 [MPa]", ncols=5, loc="outside lower center")
+    figure.legend(title=tr("shear band C10 [MPa]"), ncols=5, loc="outside lower center")
     keys = ["section", "shear_band_c10_mpa", "spoke_c10_mpa", "load_n"]
     figure.data = table[[*keys, "fem_difference_percent"]]
     return figure
@@ -279,7 +289,11 @@ def deformed_ring(
         Whether the ply of the finite elements is synthetic.
     """
     first = line.iloc[0]
-    title = f"Ring at {first['load_n']:g} N, spoke C10 {first['spoke_c10_mpa']:g} MPa"
+    title = tr(
+        "Ring at {load_n:g} N, spoke C10 {spoke_c10_mpa:g} MPa",
+        load_n=first["load_n"],
+        spoke_c10_mpa=first["spoke_c10_mpa"],
+    )
     figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 4.7))
     axes.plot(
         line["x_undeformed_mm"],
@@ -287,7 +301,7 @@ def deformed_ring(
         color=GREY,
         linestyle="--",
         linewidth=0.9,
-        label="undeformed",
+        label=tr("undeformed"),
     )
     for region, (colour, dash) in REGIONS.items():
         inside = (line["region"] == region).to_numpy()
@@ -298,11 +312,11 @@ def deformed_ring(
             color=colour,
             linewidth=2.2,
             linestyle=dash,
-            label=f"LCA, {region}",
+            label=f"LCA, {tr(region)}",
         )
     turn = np.linspace(0, 2 * np.pi, 181)
     rim = rim_diameter_mm / 2
-    axes.plot(rim * np.cos(turn), rim * np.sin(turn), color=GREY, linewidth=0.7, label="rim")
+    axes.plot(rim * np.cos(turn), rim * np.sin(turn), color=GREY, linewidth=0.7, label=tr("rim"))
     parts = [line[["x_mm", "y_mm"]].assign(what="LCA", theta_deg=line["theta_deg"])]
     if not finite_elements.empty:
         radius = float(np.hypot(first["x_undeformed_mm"], first["y_undeformed_mm"]))

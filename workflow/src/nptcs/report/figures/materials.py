@@ -10,6 +10,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.arrays import Array
+from nptcs.language import tr
 from nptcs.report.figures.specimens import NORMAL, thinned
 from nptcs.report.figures.style import DASHES, MARKERS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
@@ -50,7 +51,9 @@ def hyperelastic_fit(
     low, high = strain_range
     end = high + (high - low)
     figure, axes = panel(title, NORMAL.strain_words, NORMAL.stress_words)
-    axes.axvspan(100 * low, 100 * high, color=RANGE, ec=GREY, zorder=0, label="range of the fit")
+    axes.axvspan(
+        100 * low, 100 * high, color=RANGE, ec=GREY, zorder=0, label=tr("range of the fit")
+    )
     parts = []
     for number, (specimen, curve) in enumerate(curves.items()):
         shown = thinned(curve[curve["strain_axial"].between(low, end)])
@@ -78,7 +81,7 @@ def hyperelastic_fit(
     if math.isfinite(published_c10_mpa):
         stretch = np.linspace(1 + low, 1 + high, 7)[1:]
         level = 2 * published_c10_mpa * (stretch - stretch**-2)
-        label = f"paper: C10 = {published_c10_mpa:g} MPa"
+        label = tr("paper: C10 = {published_c10_mpa:g} MPa", published_c10_mpa=published_c10_mpa)
         axes.plot(100 * (stretch - 1), level, "s", ms=5.5, mfc=PAPER, mec=INK, label=label)
         published = pd.DataFrame({"strain_axial": stretch - 1, "stress_mpa": level})
         parts.append(published.assign(what="paper"))
@@ -103,7 +106,7 @@ def c10_against_range(ranges: pd.DataFrame, synthetic: bool = False) -> Figure:
         Whether any specimen is synthetic.
     """
     figure, axes = panel(
-        "C10 against strain range", "upper end of the strain range [%]", "C10 [MPa]"
+        tr("C10 against strain range"), tr("upper end of the strain range [%]"), tr("C10 [MPa]")
     )
     for number, (rubber, table) in enumerate(ranges.groupby("rubber", sort=True)):
         colour = COLOURS[number % len(COLOURS)]
@@ -118,7 +121,7 @@ def c10_against_range(ranges: pd.DataFrame, synthetic: bool = False) -> Figure:
         )
         used = table[table["in_card"]]
         axes.plot(100 * used["strain_high"], used["c10_mpa"], "o", mfc="none", mec=colour, ms=11)
-    axes.plot([], [], "o", mfc="none", mec=GREY, ms=9, label="on the card")
+    axes.plot([], [], "o", mfc="none", mec=GREY, ms=9, label=tr("on the card"))
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     figure.legend(loc="outside lower center", ncols=2)

@@ -9,6 +9,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.style import (
     DASHES,
@@ -26,8 +27,8 @@ BANDS_PERCENT = {3.0: ":", 8.0: "--"}
 """Differences marked in the parity figure, and the dashes of their lines."""
 
 DISPLACEMENTS = {
-    "radial_mm": "radial displacement, outward [mm]",
-    "tangential_mm": "tangential displacement [mm]",
+    "radial_mm": translatable("radial displacement, outward [mm]"),
+    "tangential_mm": translatable("tangential displacement [mm]"),
 }
 
 MOST_NUMBERS = 1000
@@ -65,10 +66,12 @@ def parity(
     synthetic : bool
         Whether the materials of any solver are synthetic.
     """
-    figure, axes = panel(title, "published stiffness [N/mm]", "computed stiffness [N/mm]", (4.3, 4))
+    figure, axes = panel(
+        title, tr("published stiffness [N/mm]"), tr("computed stiffness [N/mm]"), (4.3, 4)
+    )
     values = table[[COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS]].to_numpy(float)
     ends = np.array([0.97 * np.nanmin(values), 1.03 * np.nanmax(values)])
-    axes.plot(ends, ends, color=INK, linewidth=0.9, label="equal")
+    axes.plot(ends, ends, color=INK, linewidth=0.9, label=tr("equal"))
     for percent, dashes in BANDS_PERCENT.items():
         for sign in (-1, 1):
             edge = ends * (1 + sign * percent / 100)
@@ -77,10 +80,10 @@ def parity(
     for (solver, calibrated), rows in table.groupby(["solver", "used_for_calibration"]):
         look = _look(solver, order)
         if calibrated:
-            look |= {"mfc": "none", "label": f"{solver}, calibrated on"}
+            look |= {"mfc": "none", "label": tr("{solver}, calibrated on", solver=solver)}
         drawn = sampled(rows)
         axes.plot(drawn[PUBLISHED_STIFFNESS], drawn[COMPUTED_STIFFNESS], linestyle="", **look)
-        note_sampled(axes, len(drawn), len(rows), "cases per solver")
+        note_sampled(axes, len(drawn), len(rows), tr("cases per solver"))
     axes.set(xlim=ends, ylim=ends)
     axes.set_aspect("equal")
     columns = ["case_id", "solver", "used_for_calibration", PUBLISHED_STIFFNESS, COMPUTED_STIFFNESS]
@@ -106,9 +109,9 @@ def main_effect(
         Whether the materials of any solver are synthetic.
     """
     figure, axes = panel(
-        f"Mean stiffness, study {levels['study'].iloc[0]}",
+        tr("Mean stiffness, study {study}", study=levels["study"].iloc[0]),
         str(label),
-        "mean vertical stiffness [N/mm]",
+        tr("mean vertical stiffness [N/mm]"),
     )
     # solvers may have been compared over different cases: then each has a published mean of its own
     same = levels.groupby("level")["published_mean_n_per_mm"].nunique().max() == 1
@@ -122,7 +125,9 @@ def main_effect(
                 marker="o",
                 mfc=PAPER,
                 linestyle="--",
-                label="published" if same else f"published, cases of {solver}",
+                label=tr("published")
+                if same
+                else tr("published, cases of {solver}", solver=solver),
             )
         axes.plot(rows["level"], rows["computed_mean_n_per_mm"], **look)
     means = ["published_mean_n_per_mm", "computed_mean_n_per_mm"]
@@ -142,7 +147,9 @@ def level_differences(
         As in `main_effect`.
     """
     figure, axes = panel(
-        f"Difference, study {levels['study'].iloc[0]}", str(label), "computed − published [%]"
+        tr("Difference, study {study}", study=levels["study"].iloc[0]),
+        str(label),
+        tr("computed − published [%]"),
     )
     groups = list(levels.groupby("solver"))
     reach = float(np.ptp(levels["level"])) or 1.0
@@ -185,7 +192,7 @@ def neutral_lines(
     synthetic : bool
         Whether the materials of any solver are synthetic.
     """
-    figure, axes = panel(title, "θ from the middle of the contact [°]", DISPLACEMENTS[column])
+    figure, axes = panel(title, tr("θ from the middle of the contact [°]"), DISPLACEMENTS[column])
     for number, (solver, rows) in enumerate(lines.groupby("solver")):
         look = _look(solver, order) | {"marker": "", "linestyle": DASHES[number % len(DASHES)]}
         axes.plot(rows["theta_deg"], rows[column], **look)

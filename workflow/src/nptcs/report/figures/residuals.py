@@ -7,6 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy import stats
 
+from nptcs.language import tr
 from nptcs.report.figures.style import mark_synthetic, note_sampled, panel, sampled, styled
 from nptcs.report.figures.theme import COLOURS, GREY
 
@@ -28,7 +29,7 @@ def residuals_over_value(influence: pd.DataFrame, title: str, synthetic: bool = 
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "value of the surface [N/mm]", "residual [N/mm]")
+    figure, axes = panel(title, tr("value of the surface [N/mm]"), tr("residual [N/mm]"))
     far = influence["studentised_residual"].abs() > FAR
     drawn = pd.concat([sampled(influence[~far]), sampled(influence[far])])
     numbers = pd.DataFrame(
@@ -58,13 +59,13 @@ def residuals_over_value(influence: pd.DataFrame, title: str, synthetic: bool = 
             rows["residual_n_per_mm"],
             "o",
             mfc="none",
-            mec=COLOURS[1],
+            color=COLOURS[1],
             ms=10,
             mew=1.2,
-            label=f"studentised residual beyond {FAR:g}",
+            label=tr("studentised residual beyond {far:g}", far=FAR),
         )
         figure.legend(loc="outside lower center")
-    note_sampled(axes, len(drawn), len(influence), "cases")
+    note_sampled(axes, len(drawn), len(influence), tr("cases"))
     figure.data = numbers
     mark_synthetic(figure, synthetic)
     return figure
@@ -79,7 +80,7 @@ def residual_quantiles(influence: pd.DataFrame, title: str, synthetic: bool = Fa
     influence, title, synthetic
         As in `residuals_over_value`.
     """
-    figure, axes = panel(title, "normal quantile", "studentised residual")
+    figure, axes = panel(title, tr("normal quantile"), tr("studentised residual"))
     ordered = np.sort(influence["studentised_residual"].dropna().to_numpy())
     ranks = np.arange(1, len(ordered) + 1)
     quantiles = stats.norm.ppf((ranks - 0.375) / (len(ordered) + 0.25))
@@ -88,7 +89,7 @@ def residual_quantiles(influence: pd.DataFrame, title: str, synthetic: bool = Fa
         axes.plot(ends, ends, color=GREY, linewidth=0.8)
     drawn = sampled(pd.DataFrame({"normal_quantile": quantiles, "studentised_residual": ordered}))
     axes.plot(drawn["normal_quantile"], drawn["studentised_residual"], "o", color=COLOURS[0])
-    note_sampled(axes, len(drawn), len(ordered), "cases")
+    note_sampled(axes, len(drawn), len(ordered), tr("cases"))
     figure.data = drawn
     mark_synthetic(figure, synthetic)
     return figure

@@ -10,6 +10,7 @@ import pandas as pd
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
+from nptcs.language import tr, translatable
 from nptcs.report.figures.style import DASHES, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK
 
@@ -38,8 +39,18 @@ class Axis:
     stress_words: str
 
 
-NORMAL = Axis("strain_axial", "stress_mpa", "nominal strain [%]", "nominal stress [MPa]")
-SHEAR = Axis("shear_strain", "shear_stress_mpa", "shear strain γ12 [%]", "shear stress τ12 [MPa]")
+NORMAL = Axis(
+    "strain_axial",
+    "stress_mpa",
+    translatable("nominal strain [%]"),
+    translatable("nominal stress [MPa]"),
+)
+SHEAR = Axis(
+    "shear_strain",
+    "shear_stress_mpa",
+    translatable("shear strain γ12 [%]"),
+    translatable("shear stress τ12 [MPa]"),
+)
 
 
 @dataclass(frozen=True)
@@ -149,7 +160,7 @@ def _draw_curve(
         markevery=[len(drawn) - 1],
         markersize=7,
         zorder=3 if out else 2,
-        label=f"{specimen} (left out)" if out else specimen,
+        label=tr("{specimen} (left out)", specimen=specimen) if out else specimen,
     )
 
 
@@ -173,12 +184,12 @@ def _draw_moduli(
     lines = axes.get_lines()
     largest = max((np.abs(line.get_ydata()).max() for line in lines), default=1.0)
     for value, words, dash in (
-        (moduli.mean_mpa, "mean of the chords", "-."),
-        (moduli.published_mpa, "paper, table 2", (0, (1.2, 1.6))),
+        (moduli.mean_mpa, translatable("mean of the chords"), "-."),
+        (moduli.published_mpa, translatable("paper, table 2"), (0, (1.2, 1.6))),
     ):
         if np.isfinite(value):
             end = sign * np.array([0.0, 0.62 * largest])
-            label = f"{words}: {moduli.symbol} {value / 1000:.4g} GPa"
+            label = f"{tr(words)}: {moduli.symbol} {value / 1000:.4g} GPa"
             look = {"color": INK, "linewidth": 1.1, "linestyle": dash, "zorder": 5}
             axes.plot(100 * end / value, end, label=label, **look)
             ends = pd.DataFrame({axis.strain: end / value, axis.stress: end})
@@ -210,7 +221,7 @@ def rubber_curves(
     synthetic : bool
         Whether any of them is synthetic.
     """
-    figure, axes = panel("Rubbers in tension", NORMAL.strain_words, NORMAL.stress_words)
+    figure, axes = panel(tr("Rubbers in tension"), NORMAL.strain_words, NORMAL.stress_words)
     parts = []
     for number, (rubber, tests) in enumerate(curves.items()):
         for place, (specimen, curve) in enumerate(tests.items()):
@@ -221,7 +232,9 @@ def rubber_curves(
                 color=COLOURS[number % len(COLOURS)],
                 linestyle=DASHES[number % len(DASHES)],
                 linewidth=1.1,
-                label=f"{rubber}, {len(tests)} specimens" if place == 0 else None,
+                label=tr("{rubber}, {count} specimens", rubber=rubber, count=len(tests))
+                if place == 0
+                else None,
             )
             columns = drawn[["strain_axial", "stress_mpa"]]
             parts.append(columns.assign(rubber=rubber, specimen=specimen))

@@ -7,11 +7,15 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
+from nptcs.language import tr, translatable
 from nptcs.report.figures.style import MARKERS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.tables.spoke_stiffness import DIRECTIONS
 
-TRAVEL = {"tension": "elongation [mm]", "compression": "shortening [mm]"}
+TRAVEL = {
+    "tension": translatable("elongation [mm]"),
+    "compression": translatable("shortening [mm]"),
+}
 
 
 @styled
@@ -35,7 +39,11 @@ def force_displacement(
         Whether the materials are synthetic.
     """
     solver, stiffness = curves["solver"].iloc[0], f"{direction}_stiffness_n_per_mm"
-    figure, axes = panel(f"One spoke in {direction}, {solver}", TRAVEL[direction], "force [N]")
+    figure, axes = panel(
+        tr("One spoke in {direction}, {solver}", direction=tr(direction), solver=solver),
+        TRAVEL[direction],
+        tr("force [N]"),
+    )
     by_case = {line["case_id"]: line for line in lines.to_dict("records")}
     parts = []
     for number, (case_id, curve) in enumerate(curves.groupby("case_id", sort=False)):
@@ -80,10 +88,10 @@ def force_displacement(
     figure.data = pd.concat(parts, ignore_index=True)
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(title="spoke C10 [MPa]", ncols=2, loc="upper left")
+    axes.legend(title=tr("spoke C10 [MPa]"), ncols=2, loc="upper left")
     kinds = [
-        Line2D([], [], color=INK, label="computed"),
-        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label="line through origin"),
+        Line2D([], [], color=INK, label=tr("computed")),
+        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("line through origin")),
     ]
     if lines[f"published_{stiffness}"].notna().any():
         kinds.append(
@@ -94,7 +102,7 @@ def force_displacement(
                 marker="o",
                 mfc="none",
                 mec=INK,
-                label="paper, end of table 10's line",
+                label=tr("paper, end of table 10's line"),
             )
         )
     figure.legend(handles=kinds, ncols=2, loc="outside lower center")

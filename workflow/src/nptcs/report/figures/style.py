@@ -22,6 +22,7 @@ from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
+from nptcs.language import tr
 from nptcs.report.figures.theme import COLOURS, GREY, GRID, WARNING
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
@@ -99,7 +100,7 @@ def panel(
     axes = figure.add_subplot()
     fitting = round(TITLE_CHARACTERS * size[0] / PANEL[0])
     lines = [textwrap.fill(line, fitting) for line in title.split("\n")]
-    axes.set(title="\n".join(lines), xlabel=x_label, ylabel=y_label)
+    axes.set(title="\n".join(lines), xlabel=tr(x_label), ylabel=tr(y_label))
     for axis in (axes.xaxis, axes.yaxis):
         round_ticks(axis)
     return figure, axes
@@ -130,7 +131,7 @@ def mark_synthetic(figure: Figure, synthetic: bool) -> None:
     lines = axes.get_title(loc="left").split("\n")
     above = len(lines) if len(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
     axes.annotate(
-        "SYNTHETIC DATA",
+        tr("SYNTHETIC DATA"),
         (1, 1),
         (0, 5 + 13 * above),
         xycoords="axes fraction",
@@ -154,7 +155,7 @@ def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
     """Write into a figure that it draws a sample only."""
     if drawn < of:
         axes.annotate(
-            f"sampled: {drawn:,} of {of:,} {what}",
+            tr("sampled: {drawn:,} of {of:,} {what}", drawn=drawn, of=of, what=what),
             (1, 0),
             (-3, 4),
             xycoords="axes fraction",

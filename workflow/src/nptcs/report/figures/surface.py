@@ -13,6 +13,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from nptcs.arrays import Array
+from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.style import (
     DASHES,
@@ -29,7 +30,7 @@ from nptcs.report.figures.theme import COLOURS
 from nptcs.surface.fit import Surface
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
-STIFFNESS_LABEL = "vertical stiffness [N/mm]"
+STIFFNESS_LABEL = translatable("vertical stiffness [N/mm]")
 GRID = 41
 SPARSE = 4
 """Steps of the grid between the points of a surface that a figure carries as numbers."""
@@ -112,7 +113,9 @@ def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLa
     levels = [
         f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
     ]
-    return f"Stiffness, {solver}" + (f"\nat {', '.join(levels)}" if levels else "")
+    if not levels:
+        return tr("Stiffness, {solver}", solver=solver)
+    return tr("Stiffness, {solver}\nat {levels}", solver=solver, levels=", ".join(levels))
 
 
 def common_levels(surfaces: Sequence[tuple[Surface, pd.DataFrame]]) -> list[float]:
@@ -187,9 +190,9 @@ def contours(
         clip_on=False,
         zorder=5,
     )
-    bar = figure.colorbar(filled, ax=axes, label=STIFFNESS_LABEL, ticks=steps[::2], format="%g")
+    bar = figure.colorbar(filled, ax=axes, label=tr(STIFFNESS_LABEL), ticks=steps[::2], format="%g")
     bar.ax.grid(visible=False)
-    note_sampled(axes, len(shown), len(inside), "cases")
+    note_sampled(axes, len(shown), len(inside), tr("cases"))
     figure.data = _numbers(shown, (x, y, z), pair, held)
     axes.grid(visible=False)
     mark_synthetic(figure, synthetic)
@@ -269,9 +272,9 @@ def slices(
             linestyle="none",
             color=colour,
             marker=MARKERS[number % len(MARKERS)],
-            label="cases" if level is None else f"{level:.4g}",
+            label=tr("cases") if level is None else f"{level:.4g}",
         )
-        note_sampled(axes, len(at_level), len(inside), "cases per line")
+        note_sampled(axes, len(at_level), len(inside), tr("cases per line"))
     if len(limits):
         axes.set_ylim(limits[0], limits[-1])
     legend_title = str(labels[varied[1]]) if len(varied) > 1 else None

@@ -6,6 +6,7 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.language import tr
 from nptcs.report.figures.style import mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, PAPER
 from nptcs.report.tables.headings import heading
@@ -34,7 +35,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     names = [in_lines(str(text)) for text in shares["quantities"]]
     lines = max(name.count("\n") + 1 for name in names)
     height = 1.3 + (0.15 + 0.13 * lines) * len(names)
-    figure, axes = panel(title, "share of the variance [%]", "", (4.3, height))
+    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, height))
     place = np.arange(len(shares))[::-1]
     for kind, colour in KINDS.items():
         mine = (shares["kind"] == kind).to_numpy()
@@ -45,7 +46,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
                 color=colour,
                 hatch=HATCHES[kind],
                 edgecolor=PAPER,
-                label=kind,
+                label=tr(kind),
             )
     for bar, share in zip(place, shares["share_percent"], strict=True):
         text = f"{share:.0f}" if share >= 1 else f"{share:.1g}"

@@ -25,10 +25,14 @@ def material_facts(results: Results) -> tuple[PageBlock, ...]:
             if quantity.origin == "measured":
                 text = with_error(quantity.value, quantity.standard_error, quantity.unit)
                 constants.append(f"{words(name.removesuffix('_mpa'))} = {text}")
-        badge = " (SYNTHETIC data)" if card.synthetic else ""
+        badge = tr(" (SYNTHETIC data)") if card.synthetic else ""
         rows.append(
             Fact(
-                f"Measured constants of {card.name}{badge}, ± standard error",
+                tr(
+                    "Measured constants of {name}{badge}, ± standard error",
+                    name=card.name,
+                    badge=badge,
+                ),
                 "; ".join(constants),
                 "material_card.json",
             )
@@ -41,10 +45,20 @@ def surface_facts(results: Results) -> tuple[PageBlock, ...]:
     return _facts(
         [
             Fact(
-                f"Response surface of {row.study}, solver {row.solver}"
+                tr(
+                    "Response surface of {study}, solver {solver}",
+                    study=row.study,
+                    solver=row.solver,
+                )
                 + _badge(results, [str(row.study)], str(row.solver)),
-                f"R² = {row.r_squared:.5f}, leave-one-out R² = {row.leave_one_out_r_squared:.5f}, "
-                f"largest residual {row.largest_residual:.3g} N/mm, {row.points} cases",
+                tr(
+                    "R² = {r_squared:.5f}, leave-one-out R² = {leave_one_out_r_squared:.5f}, "
+                    "largest residual {largest_residual:.3g} N/mm, {points} cases",
+                    r_squared=row.r_squared,
+                    leave_one_out_r_squared=row.leave_one_out_r_squared,
+                    largest_residual=row.largest_residual,
+                    points=row.points,
+                ),
                 "surface_quality.csv",
             )
             for row in results.table(SurfaceQuality).itertuples()
@@ -65,7 +79,7 @@ def ranking_facts(results: Results) -> tuple[PageBlock, ...]:
         order = [f"{labels[key]} ({key[0]})" for key in ranked(table, rule)]
         rows.append(
             Fact(
-                f"Ranking by impact, solver {solver}, {words(rule)}"
+                tr("Ranking by impact, solver {solver}, {rule}", solver=solver, rule=words(rule))
                 + _badge(results, sorted(set(table["study"])), str(solver)),
                 " > ".join(order),
                 "impact.csv",
@@ -78,15 +92,23 @@ def published_facts(results: Results) -> tuple[PageBlock, ...]:
     """Summarise how far the computed stiffness is from the published one."""
     facts = []
     for row in results.table(StiffnessErrors).itertuples():
-        kind = "blind" if row.group == "blind" else "used for calibration"
-        text = f"{row.compared} of {row.cases} cases compared"
+        kind = tr("blind") if row.group == "blind" else tr("used for calibration")
+        text = tr("{compared} of {cases} cases compared", compared=row.compared, cases=row.cases)
         if row.compared:
-            text += (
-                f", mean {row.mean_percent:+.2f} %, mean absolute "
-                f"{row.mean_absolute_percent:.2f} %, largest {row.largest_percent:+.2f} % "
-                f"({row.largest_case_id})"
+            text += tr(
+                ", mean {mean_percent:+.2f} %, mean absolute {mean_absolute_percent:.2f} "
+                "%, largest {largest_percent:+.2f} % ({largest_case_id})",
+                mean_percent=row.mean_percent,
+                mean_absolute_percent=row.mean_absolute_percent,
+                largest_percent=row.largest_percent,
+                largest_case_id=row.largest_case_id,
             )
-        name = f"Stiffness of {row.study}, solver {row.solver}, against the published, {kind}"
+        name = tr(
+            "Stiffness of {study}, solver {solver}, against the published, {kind}",
+            study=row.study,
+            solver=row.solver,
+            kind=kind,
+        )
         badge = _badge(results, [str(row.study)], str(row.solver))
         facts.append(Fact(name + badge, text, "stiffness_errors.csv"))
     return _facts(facts)
@@ -97,12 +119,15 @@ def lca_facts(results: Results) -> tuple[PageBlock, ...]:
     facts = []
     for section, table in results.table(LcaValidation).groupby("section", sort=False):
         spans = [
-            f"{label} {table[column].min():+.2f} … {table[column].max():+.2f} %"
+            f"{tr(label)} {table[column].min():+.2f} … {table[column].max():+.2f} %"
             for column, label in DIFFERENCES.items()
         ]
         facts.append(
             Fact(
-                f"LCA, {SECTION_NAMES[str(section)]}, difference from the printed table 11",
+                tr(
+                    "LCA, {section_names}, difference from the printed table 11",
+                    section_names=tr(SECTION_NAMES[str(section)]),
+                ),
                 "; ".join(spans),
                 "lca_validation.csv",
             )
@@ -114,7 +139,7 @@ def _badge(results: Results, studies: list[str], solver: str) -> str:
     """Say so where a row rests on synthetic specimens."""
     config = results.config
     synthetic = any(results.study_is_synthetic(config.study(name), solver) for name in studies)
-    return " (SYNTHETIC data)" if synthetic else ""
+    return tr(" (SYNTHETIC data)") if synthetic else ""
 
 
 def _facts(facts: list[Fact]) -> tuple[PageBlock, ...]:

@@ -7,11 +7,13 @@ import math
 import numpy as np
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.lca import (
     CONTACT,
     DIFFERENCES,
+    SECTION_NAMES,
     contact_against_load,
     deformed_ring,
     differences,
@@ -36,40 +38,53 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     blocks: list[PageBlock] = [
         Text(
-            "The model is solved with the spoke stiffness of table 10. The section constants that "
-            "the paper prints are those of another bending axis. Both sections are shown here, the "
-            "sandwich section and the one as printed, each next to the printed results of table "
-            f"11 (shear band C10 = {results.config.lca_validation.shear_band_c10_mpa:g} MPa)."
+            tr(
+                "The model is solved with the spoke stiffness of table 10. The section "
+                "constants that the paper prints are those of another bending axis. Both "
+                "sections are shown here, the sandwich section and the one as printed, "
+                "each next to the printed results of table 11 (shear band C10 = "
+                "{shear_band_c10_mpa:g} MPa).",
+                shear_band_c10_mpa=results.config.lca_validation.shear_band_c10_mpa,
+            )
         ),
         *lca_facts(results),
         Plots(
-            "Differences from the printed angles and displacements of table 11. The grey band is "
-            "1 %; the scale is the same for both sections.",
+            tr(
+                "Differences from the printed angles and displacements of table 11. The "
+                "grey band is 1 %; the scale is the same for both sections."
+            ),
             tuple(_difference_plots(results)),
         ),
         Plots(
-            "Vertical stiffness of table 11's designs, and displacement against load at the loads "
-            "of figure 15, by our load-bearing model and our finite elements. The paper draws "
-            "figure 15 as curves without numbers, so that printed displacements exist at table "
-            "11's load only; of the other loads it prints the largest error of its model, without "
-            "a sign.",
+            tr(
+                "Vertical stiffness of table 11's designs, and displacement against load "
+                "at the loads of figure 15, by our load-bearing model and our finite "
+                "elements. The paper draws figure 15 as curves without numbers, so that "
+                "printed displacements exist at table 11's load only; of the other loads "
+                "it prints the largest error of its model, without a sign."
+            ),
             (_stiffness_plot(results), *_load_plots(results)),
         ),
         Plots(
-            "Difference of the stiffness from the FE values of table 7, on the same scale.",
+            tr("Difference of the stiffness from the FE values of table 7, on the same scale."),
             tuple(_fem_plots(results)),
         ),
         sheet_view(sheet_of(sheets, LcaValidation)),
         sheet_view(sheet_of(sheets, LcaAgainstFem)),
         Plots(
-            "Deformed middle line of the shear band (figure 14 of the paper), by the load-bearing "
-            "model, region by region, and by finite elements where the study of this rubber names "
-            "the case in neutral_line_cases. Displacements are to scale, on the same undeformed "
-            "circle; the rim is drawn for orientation.",
+            tr(
+                "Deformed middle line of the shear band (figure 14 of the paper), by the "
+                "load-bearing model, region by region, and by finite elements where the "
+                "study of this rubber names the case in neutral_line_cases. "
+                "Displacements are to scale, on the same undeformed circle; the rim is "
+                "drawn for orientation."
+            ),
             tuple(_neutral_line_plots(results)),
         ),
     ]
-    return Section(ReportSection.LCA, "Load-bearing model (LCA) against the paper", tuple(blocks))
+    return Section(
+        ReportSection.LCA, tr("Load-bearing model (LCA) against the paper"), tuple(blocks)
+    )
 
 
 def _difference_plots(results: Results) -> list[Plot]:
@@ -78,7 +93,10 @@ def _difference_plots(results: Results) -> list[Plot]:
     limit = math.ceil(largest + 0.5)
     return [
         plot(
-            f"Differences from table 11 in percent, section {section}",
+            tr(
+                "Differences from table 11 in percent, section {section}",
+                section=tr(SECTION_NAMES[str(section)]),
+            ),
             False,
             differences,
             rows,
@@ -92,13 +110,22 @@ def _fem_plots(results: Results) -> list[Plot]:
     table = results.table(LcaAgainstFem)
     limit = math.ceil(float(table["fem_difference_percent"].abs().max()) + 0.5)
     return [
-        plot(f"Differences from table 7, section {section}", False, fem_differences, rows, limit)
+        plot(
+            tr(
+                "Differences from table 7, section {section}",
+                section=tr(SECTION_NAMES[str(section)]),
+            ),
+            False,
+            fem_differences,
+            rows,
+            limit,
+        )
         for section, rows in table.groupby("section", sort=False)
     ]
 
 
 def _stiffness_plot(results: Results) -> Plot:
-    alt = "Stiffness by FEM, printed LCA and our LCA"
+    alt = tr("Stiffness by FEM, printed LCA and our LCA")
     return plot(alt, False, stiffness_bars, _with_published(results))
 
 
@@ -110,15 +137,28 @@ def _load_plots(results: Results) -> list[Plot]:
     plots = []
     for rows in sections:
         for fe in solved or [nothing]:
-            by = "" if fe.empty else f" and {fe['solver'].iloc[0]}"
-            alt = f"Displacement against load, LCA with section {rows['section'].iloc[0]}{by}"
+            by = "" if fe.empty else tr(" and {solver}", solver=fe["solver"].iloc[0])
+            alt = tr(
+                "Displacement against load, LCA with section {section}{by}",
+                section=tr(SECTION_NAMES[str(rows["section"].iloc[0])]),
+                by=by,
+            )
             marked = synthetic and not fe.empty
             plots.append(plot(alt, marked, load_displacement, rows, fe, synthetic))
     for fe in solved:
-        alt = f"Stiffness of the LCA against {fe['solver'].iloc[0]} at each load, in percent"
+        alt = tr(
+            "Stiffness of the LCA against {solver} at each load, in percent",
+            solver=fe["solver"].iloc[0],
+        )
         plots.append(plot(alt, synthetic, load_errors, fe, synthetic))
     return plots + [
-        plot(f"{label} against load", False, contact_against_load, sections[0], column)
+        plot(
+            tr("{label} against load", label=tr(label)),
+            False,
+            contact_against_load,
+            sections[0],
+            column,
+        )
         for column, label in CONTACT.items()
     ]
 
@@ -130,8 +170,13 @@ def _neutral_line_plots(results: Results) -> list[Plot]:
         ["load_n", "spoke_c10_mpa"], sort=False
     ):
         fe = finite_element_ring(results, float(str(load)), float(str(c10)))
-        by = "" if fe.empty else f" and {fe['solver'].iloc[0]}"
-        alt = f"Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa by LCA{by}"
+        by = "" if fe.empty else tr(" and {solver}", solver=fe["solver"].iloc[0])
+        alt = tr(
+            "Deformed ring at {load:g} N for spoke C10 of {c10:g} MPa by LCA{by}",
+            load=load,
+            c10=c10,
+            by=by,
+        )
         marked = synthetic and not fe.empty
         plots.append(plot(alt, marked, deformed_ring, rows, rim, fe, synthetic))
     return plots

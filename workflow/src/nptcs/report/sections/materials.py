@@ -10,6 +10,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.models import model_named
+from nptcs.language import tr
 from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
@@ -33,20 +34,22 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
     ]
     checks = [f"{card.name}: {check}" for card in results.cards for check in card.checks]
     if checks:
-        blocks.append(Listing("What the checks of the card found", tuple(checks), "warn"))
+        blocks.append(Listing(tr("What the checks of the card found"), tuple(checks), "warn"))
     blocks += [
         Plots(
-            "The rubbers' tests and their models (figure 5 of the paper): the model "
-            "within the range of its fit (full line) and beyond it (dotted); squares: the "
-            "neo-Hookean model with the C10 that the paper prints. Last panel: how C10 depends on "
-            "that range.",
+            tr(
+                "The rubbers' tests and their models (figure 5 of the paper): the model "
+                "within the range of its fit (full line) and beyond it (dotted); "
+                "squares: the neo-Hookean model with the C10 that the paper prints. Last "
+                "panel: how C10 depends on that range."
+            ),
             (*_fit_plots(results), *_range_plot(results)),
         ),
         sheet_view(sheet_of(sheets, ModelComparison)),
         sheet_view(sheet_of(sheets, RangeTable)),
     ]
     synthetic = results.plies_synthetic or results.rubbers_synthetic
-    return Section(ReportSection.MATERIALS, "Materials", tuple(blocks), synthetic)
+    return Section(ReportSection.MATERIALS, tr("Materials"), tuple(blocks), synthetic)
 
 
 def _fit_plots(results: Results) -> list[Plot]:
@@ -71,7 +74,11 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             modes.setdefault(specimen.test.value, []).append(specimen.specimen)
     plots = []
     for mode, names in modes.items():
-        alt = f"Stress over strain of {rubber.name} and its {words(rubber.model)} fit"
+        alt = tr(
+            "Stress over strain of {name} and its {model} fit",
+            name=rubber.name,
+            model=words(rubber.model),
+        )
         drawn = plot(
             alt,
             rubber.synthetic,
@@ -98,5 +105,5 @@ def _range_plot(results: Results) -> list[Plot]:
     if joint.empty:
         return []
     synthetic = results.rubbers_synthetic
-    alt = "C10 of each rubber over the strain range of its fit"
+    alt = tr("C10 of each rubber over the strain range of its fit")
     return [plot(alt, synthetic, c10_against_range, joint, synthetic)]

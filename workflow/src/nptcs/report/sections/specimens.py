@@ -7,6 +7,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.mechanical_tests import TestType
 from nptcs.reduce.shear import shear_curve
 from nptcs.report.blocks import Plot, Plots, Section, Text
@@ -44,15 +45,18 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
         sheet_of(sheets, Files),
     )
     curves = Plots(
-        "Stress–strain curves of each series after signal conditioning (figures 2 and 4 of the "
-        "paper). A bold piece of a curve is the chord of its modulus; lines through the origin "
-        "have the mean modulus and the one that the paper prints in table 2. Dashed grey: left "
-        "out by the specimen sheet. Compression is negative.",
+        tr(
+            "Stress–strain curves of each series after signal conditioning (figures "
+            "2 and 4 of the paper). A bold piece of a curve is the chord of its "
+            "modulus; lines through the origin have the mean modulus and the one "
+            "that the paper prints in table 2. Dashed grey: left out by the specimen "
+            "sheet. Compression is negative."
+        ),
         tuple(_series_plots(results)),
     )
     return Section(
         ReportSection.SPECIMENS,
-        "Specimens and files",
+        tr("Specimens and files"),
         (_counts(results), curves, *map(sheet_view, tables)),
         results.any_synthetic,
     )
@@ -60,12 +64,20 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
 
 def _counts(results: Results) -> Text:
     counts = results.table(Files)["status"].value_counts()
-    files = ", ".join(f"{number} {status}" for status, number in counts.sort_index().items())
+    files = ", ".join(
+        f"{number} {tr(str(status))}" for status, number in counts.sort_index().items()
+    )
     failed, left_out = len(results.failed()), len(results.left_out())
     return Text(
-        f"{len(results.sheet)} specimens in {len(results.series())} series; "
-        f"{left_out} left out by the sheet, {failed} that could not be read. "
-        f"Files of the folder: {files}."
+        tr(
+            "{count} specimens in {count_2} series; {left_out} left out by the "
+            "sheet, {failed} that could not be read. Files of the folder: {files}.",
+            count=len(results.sheet),
+            count_2=len(results.series()),
+            left_out=left_out,
+            failed=failed,
+            files=files,
+        )
     )
 
 
@@ -85,7 +97,13 @@ def _series_plots(results: Results) -> list[Plot]:
         if specimens[0].test is TestType.SHEAR:
             curves, axis = {name: with_shear(curve) for name, curve in curves.items()}, SHEAR
         given = (title, curves, left_out, synthetic, moduli, axis)
-        alt = f"{axis.stress_words} over {axis.strain_words}, {title}, {len(curves)} specimens"
+        alt = tr(
+            "{stress_words} over {strain_words}, {title}, {count} specimens",
+            stress_words=tr(axis.stress_words),
+            strain_words=tr(axis.strain_words),
+            title=title,
+            count=len(curves),
+        )
         plots.append(plot(alt, synthetic, stress_strain, *given))
     return plots + _rubber_plot(results)
 
@@ -99,7 +117,7 @@ def _rubber_plot(results: Results) -> list[Plot]:
             tests.setdefault(specimen.material, {})[specimen.specimen] = curve
     if len(tests) < 2:
         return []
-    alt = f"Stress over strain of {joined(tests)} in tension, all specimens"
+    alt = tr("Stress over strain of {names} in tension, all specimens", names=joined(tests))
     synthetic = results.rubbers_synthetic
     return [plot(alt, synthetic, rubber_curves, tests, synthetic)]
 

@@ -10,6 +10,7 @@ from nptcs.report.answer.stiffness import stiffness_finding
 from nptcs.report.answer.tests_behind import tests_finding
 from nptcs.report.blocks import Finding, Findings, Listing, PageBlock, Text
 from nptcs.report.data import Results
+from nptcs.report.sections.refused import all_refused
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined
@@ -71,17 +72,27 @@ def _remarks(results: Results) -> tuple[str, ...]:
     if results.any_synthetic:
         synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
         remarks.append(
-            f"{len(synthetic)} of {len(results.sheet)} specimens are SYNTHETIC example data; "
-            "everything made from them carries the badge."
+            tr(
+                "{count} of {total} specimens are SYNTHETIC example data; everything made from "
+                "them carries the badge.",
+                count=len(synthetic),
+                total=len(results.sheet),
+            )
         )
     for name, reason in results.left_out().items():
-        remarks.append(f"Specimen {name} is left out by the sheet: {reason}")
+        remarks.append(
+            tr("Specimen {name} is left out by the sheet: {reason}", name=name, reason=reason)
+        )
     files = results.table(Files)
     stray = files[files["status"] == FileStatus.NOT_NAMED]
     if len(stray):
         remarks.append(
-            "No row of the sheet names these files of the folder: " + joined(stray["file"])
+            tr(
+                "No row of the sheet names these files of the folder: {files}",
+                files=joined(stray["file"]),
+            )
         )
+    remarks += all_refused(results)
     remarks += [
         f"{card.name}: {check.removeprefix(WARNING)}"
         for card in results.cards
