@@ -1,6 +1,7 @@
 // The state of the explorer and what the stored surfaces say of it. No document here.
 
 const DATA = JSON.parse(document.getElementById("explorer-data").textContent);
+restoreCovariances(DATA.studies, DATA.covariances);
 const WORDS = DATA.words;
 
 // A text with its values put in.
