@@ -21,13 +21,15 @@ def test_every_stored_surface_of_the_run_is_evaluated_on_the_page_as_in_python(f
     data = re.search(r'id="explorer-data">(.*?)</script>', page, re.DOTALL)
     scripts = tmp_path / "scripts.html"
     head = "<!doctype html><meta charset=utf-8><script>"
-    scripts.write_text(f"{head}{asset('surfaces.js')}; const DATA = {data[1]};{RESTORE}</script>", "utf-8")
+    scripts.write_text(
+        f"{head}{asset('surfaces.js')}; const DATA = {data[1]};{RESTORE}</script>", "utf-8"
+    )
     random, seen = np.random.default_rng(7), 0
-    with browser(tmp_path / "profile") as tab:
+    with browser() as tab:
         tab.open(finished.path("results/report.html").as_uri() + "#s=15")
         assert "N/mm" in tab.text("#ex-results")
-        assert tab.complaints() == []
-        assert tab.requests() == []
+        assert tab.complaints == []
+        assert tab.requests == []
         tab.open(scripts.as_uri())
         for s, study in enumerate(json.loads(data[1])["studies"]):
             registry = read_registry(
