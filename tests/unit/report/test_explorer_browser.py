@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import replace
+from importlib import resources
 
 import numpy as np
 import pandas as pd
@@ -108,6 +109,8 @@ def address(payload, tmp_path_factory):
     markup = explorer_markup(payload, "needs scripts")
     head = '<!doctype html><html lang="en"><meta charset="utf-8"><title>t</title><main>'
     head += "<h1>Report</h1><h2>Explore</h2>"
+    style = resources.files("nptcs.report").joinpath("templates", "report.css").read_text("utf-8")
+    head += f"<style>{style}</style>"
     head += '<meta name="viewport" content="width=device-width, initial-scale=1">'
     page.write_text(f"{head}{markup}</main></html>", encoding="utf-8")
     return page.as_uri()
