@@ -7,7 +7,6 @@ it at its own size. A figure carries the numbers that it shows, which the page o
 from __future__ import annotations
 
 import io
-import textwrap
 from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -23,7 +22,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from nptcs.language import tr
+from nptcs.report.figures.text_measure import wide_characters_measured
 from nptcs.report.figures.theme import COLOURS, GREY, GRID, WARNING
+from nptcs.report.text import text_width, wrapped
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.5, 1.5)), (0, (6, 1.5, 1.5, 1.5)))
@@ -99,7 +100,7 @@ def panel(
     figure = Chart(figsize=size, layout="constrained")
     axes = figure.add_subplot()
     fitting = round(TITLE_CHARACTERS * size[0] / PANEL[0])
-    lines = [textwrap.fill(line, fitting) for line in title.split("\n")]
+    lines = [wrapped(line, fitting) for line in title.split("\n")]
     axes.set(title="\n".join(lines), xlabel=tr(x_label), ylabel=tr(y_label))
     for axis in (axes.xaxis, axes.yaxis):
         round_ticks(axis)
@@ -129,7 +130,7 @@ def mark_synthetic(figure: Figure, synthetic: bool) -> None:
         return
     axes = figure.axes[0]
     lines = axes.get_title(loc="left").split("\n")
-    above = len(lines) if len(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
+    above = len(lines) if text_width(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
     axes.annotate(
         tr("SYNTHETIC DATA"),
         (1, 1),
@@ -170,6 +171,11 @@ def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
 def to_svg(figure: Figure) -> str:
     """Draw a figure as Matplotlib writes SVG, without a date; words stay text."""
     FigureCanvasSVG(figure)
+    with wide_characters_measured():
+        return _drawn(figure)
+
+
+def _drawn(figure: Figure) -> str:
     layout = figure.get_layout_engine()
     if layout is not None:
         # savefig would draw the whole figure once more to find the same layout

@@ -137,13 +137,13 @@ def deformed_tyre(
         axes.autoscale_view()
     axes.grid(visible=False)
     handles = [
-        Patch(fc=RANGE, ec=GREY, label="spoke's rubber"),
-        Patch(fc=COLOURS[1], label="plates"),
-        Line2D([], [], color=COLOURS[0], label="band and tread"),
-        Line2D([], [], color=INK, label="rim, ground"),
+        Patch(fc=RANGE, ec=GREY, label=tr("spoke's rubber")),
+        Patch(fc=COLOURS[1], label=tr("plates")),
+        Line2D([], [], color=COLOURS[0], label=tr("band and tread")),
+        Line2D([], [], color=INK, label=tr("rim, ground")),
     ]
     if near:
-        handles.append(Line2D([], [], color=GREY, linestyle=":", label="before the load"))
+        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before the load")))
     figure.legend(handles=handles, ncols=3, loc="outside lower center")
     places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
     figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))

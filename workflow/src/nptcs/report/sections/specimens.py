@@ -126,9 +126,14 @@ def series_title(specimen: Specimen) -> str:
     """Name a series for a reader, such as "cfrp, tension at 90°"."""
     test = specimen.test.value.removeprefix("rubber_").replace("_", " ")
     if specimen.orientation_deg is None:
-        return f"{specimen.material}, {test}"
+        return tr("{material}, {test}", material=specimen.material, test=tr(test))
     sign = "±" if specimen.test is TestType.SHEAR else ""
-    return f"{specimen.material}, {test} at {sign}{specimen.orientation_deg:g}°"
+    return tr(
+        "{material}, {test} at {angle}°",
+        material=specimen.material,
+        test=tr(test),
+        angle=f"{sign}{specimen.orientation_deg:g}",
+    )
 
 
 def with_shear(curve: pd.DataFrame) -> pd.DataFrame:

@@ -60,9 +60,11 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
     if deformed := _deformed_plots(results):
         blocks.append(
             Plots(
-                "Deformation of spokes and shear band under the load (figure 10 a of the paper): "
-                "the section through the middle of a plate, to scale, every spoke solved again "
-                "at its own motion. Dotted: before the load.",
+                tr(
+                    "Deformation of spokes and shear band under the load (figure 10 a of the "
+                    "paper): the section through the middle of a plate, to scale, every "
+                    "spoke solved again at its own motion. Dotted: before the load."
+                ),
                 tuple(deformed),
             )
         )
@@ -183,8 +185,13 @@ def _deformed_plots(results: Results) -> list[Plot]:
     about = f"{first['case_id']}, {first['solver']}"
     plots = []
     for near in (False, True):
-        title = f"{'Spokes over the contact' if near else 'Loaded tyre'}, {about}"
-        alt = f"{title}: outlines at {first['load_n']:g} N and before the load"
+        what = tr("Spokes over the contact") if near else tr("Loaded tyre")
+        title = f"{what}, {about}"
+        alt = tr(
+            "{title}: outlines at {load_n:g} N and before the load",
+            title=title,
+            load_n=first["load_n"],
+        )
         plots.append(plot(alt, synthetic, deformed_tyre, outlines, title, near, synthetic))
     return plots
 
