@@ -188,8 +188,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
     ]
     if compared:
-        paper = {"color": INK, "linestyle": "--", "linewidth": 0.9}
-        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
+        line = Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest"))
+        handles.append(line)
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure
