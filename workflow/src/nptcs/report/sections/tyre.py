@@ -7,7 +7,7 @@ import pandas as pd
 
 from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr, translatable
-from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
+from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.tyre import (
     PUBLISHED_STRESS_MPA,
@@ -47,7 +47,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
             + ply_words(results)
         ),
         *(Text(line) for line in published_stress(results)),
-        *(Text(line, "warn") for line in not_assessed(responses)),
+        *_without_value(responses),
         Plots(
             tr(
                 "Load against vertical displacement, every tyre of a study (figure 10 b "
@@ -138,18 +138,27 @@ def fiducial_cases(results: Results) -> list[str]:
 def not_assessed(responses: pd.DataFrame) -> list[str]:
     """Say how many responses have no value, and why, one sentence for each reason."""
     missing = responses[responses["status"] != "ok"]
-    groups = missing.groupby(["response", "at", "status"], sort=False)
+    said: dict[tuple[str, int, str], list[str]] = {}
+    for (name, at, status), rows in missing.groupby(["response", "at", "status"], sort=False):
+        reason = (str(status), len(rows), str(rows["note"].iloc[0]))
+        place = tr(" at {at}", at=at) if at else ""
+        said.setdefault(reason, []).append(words(str(name)) + place)
     return [
         tr(
-            "{response}{which}: {status} for {count} tyres; the first: {note}.",
-            response=words(str(name)),
-            which=tr(" at {at}", at=at) if at else "",
+            "{responses}: {status} for {count} tyres; the first: {note}.",
+            responses=", ".join(names),
             status=status,
-            count=len(rows),
-            note=rows["note"].iloc[0],
+            count=count,
+            note=note,
         )
-        for (name, at, status), rows in groups
+        for (status, count, note), names in said.items()
     ]
+
+
+def _without_value(responses: pd.DataFrame) -> list[PageBlock]:
+    """List the responses without a value; nothing where all have one."""
+    lines = not_assessed(responses)
+    return [Listing(tr("What has no value, and why"), tuple(lines), "warn")] if lines else []
 
 
 def _synthetic(results: Results, study: object, solver: object) -> bool:
