@@ -99,7 +99,7 @@ class ComparedRuns:
         changed = summary.differences.dropna(subset=["largest_percent"])
         if changed.empty:
             return "" if len(summary.differences) else "The stiffness of every case is the same."
-        worst = changed.loc[changed["largest_percent"].abs().idxmax()]
+        worst = changed.iloc[int(changed["largest_percent"].abs().to_numpy(float).argmax())]
         cases = self.part("stiffness").table
         number = int((cases["result"] == Found.DIFFERENT).sum())
         return (
@@ -134,8 +134,7 @@ def compare_runs(
         compare_software(a, b),
         compare_tables(a, b, within),
     )
-    cards = [*a.card.plies.values(), *a.card.rubbers.values()]
-    cards += [*b.card.plies.values(), *b.card.rubbers.values()]
+    cards = [card for run in (a, b) for card in (run.card.plies, run.card.rubbers)]
     identities = a.identity, b.identity
     return ComparedRuns(
         a=a.what(),
@@ -143,7 +142,7 @@ def compare_runs(
         parts=parts,
         same_identity=None not in identities
         and len({one.identity for one in identities if one}) == 1,
-        synthetic=any(card.synthetic for card in cards),
+        synthetic=any(one.synthetic for card in cards for one in card.values()),
         k=k,
         within=within,
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -104,7 +105,7 @@ def percent(one: float, two: float) -> float:
     return float((two - one) / abs(one) * 100.0)
 
 
-def as_number(value: object) -> float:
+def as_number(value: Any) -> float:
     """Return a number; NaN for nothing."""
     return float("nan") if value is None or pd.isna(value) else float(str(value))
 

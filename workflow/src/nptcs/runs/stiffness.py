@@ -100,7 +100,7 @@ def stiffness_summary(part: Part) -> Part:
         found = cases[RESULT].value_counts()
         change = cases.dropna(subset=["difference_percent"])
         sizes = change["difference_percent"].abs()
-        largest = change.loc[sizes.idxmax()] if len(change) else None
+        largest = change.iloc[int(sizes.to_numpy().argmax())] if len(change) else None
         same = found.get(Found.SAME, 0) == len(cases)
         rows.append(
             {
@@ -183,7 +183,7 @@ def _keyed(table: pd.DataFrame, factors: list[str], by_id: bool) -> dict[tuple[A
     return found
 
 
-def _value(value: object) -> object:
+def _value(value: Any) -> float | None:
     """Return a factor's value such that equal ones compare as equal."""
     return None if value is None or pd.isna(value) else float(f"{as_number(value):.12g}")
 
