@@ -1,8 +1,11 @@
 # Computed results compared with the paper: section 4.3.1, tables 5, 7, 10 and 11, figures 14, 15.
+from nptcs.compare.conditions import plate_faults
 from nptcs.tables.solver_names import PUBLISHED
 
 COMPARED_STUDIES = [
-    study.name for study in CONFIG.studies if PUBLISHED in study.solvers
+    study.name
+    for study in CONFIG.studies
+    if PUBLISHED in study.solvers and not plate_faults(study)
 ]
 LINE_STUDIES = [study.name for study in CONFIG.studies if study.neutral_line_cases]
 PUBLISHED_SPOKES = {

@@ -17,6 +17,7 @@ from nptcs.report.figures.published_stiffness import (
 )
 from nptcs.report.figures.spoke import force_displacement
 from nptcs.report.sections.compared_cases import case_comparison
+from nptcs.report.sections.key_facts import published_facts
 from nptcs.report.sections.neutral_lines import line_words
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.sections.published_stiffness import published_stiffness_section
@@ -25,7 +26,6 @@ from nptcs.report.sections.rings import EXCLUDED, ring_blocks
 from nptcs.report.sections.spokes import spoke_section, what_differs
 from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
 from nptcs.report.sections.studies import cases_section
-from nptcs.report.sections.key_facts import published_facts
 from nptcs.report.tables.sheets import sheets_of
 from nptcs.report.workbook.build import build_workbook
 from nptcs.tables.impact import Impact

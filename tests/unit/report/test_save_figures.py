@@ -1,4 +1,4 @@
-"""Figures saved in a real browser: SVG, PNG of 300 dots per inch, and CSV with the table's values."""
+"""Figures saved in a real browser: SVG, PNG of 300 dots per inch, CSV with the table's values."""
 
 import base64
 import io

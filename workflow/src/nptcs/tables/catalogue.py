@@ -17,6 +17,7 @@ from nptcs.tables.decisions import (
     DecisionFront,
     Decisions,
 )
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -129,7 +130,7 @@ TABLES: dict[str, ResultTable] = {
     "case_coverage.csv": ResultTable(
         CaseCoverage,
         "Solved, failed and missing cases by level of each factor",
-        "coverage",
+        "case_coverage",
         "cases.csv and the design tables; estimability of the terms with the solved cases",
         section=ReportSection.CASES,
         synthetic=SyntheticBy.STUDIES,
@@ -355,6 +356,14 @@ TABLES: dict[str, ResultTable] = {
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
         raw=True,
+    ),
+    "deformed_tyre.csv": ResultTable(
+        DeformedTyre,
+        "Outlines of a loaded tyre with all its spokes (figure 10 a)",
+        "deformed_tyre",
+        "the first case that neutral_line_cases names, solved again for the motions of its spokes",
+        section=ReportSection.TYRE,
+        synthetic=SyntheticBy.ROWS,
     ),
     "plate_stress.csv": ResultTable(
         PlateStress,

@@ -12,9 +12,8 @@ from nptcs.config.decisions import Decision
 from nptcs.language import tr
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
-from nptcs.report.factor_labels import factor_labels, in_words
 from nptcs.report.sketches import IntervalRow, Sketch, intervals
-from nptcs.report.tables.headings import words
+from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import with_error
 from nptcs.tables.decisions import DecisionConfirmation, DecisionDesigns, Decisions
 from nptcs.tables.result_table import ReportSection
@@ -45,8 +44,8 @@ def _question() -> str:
 
 def _finding(results: Results, row: Row) -> Finding:
     study = results.config.study(str(row["study"]))
-    labels = factor_labels(study)
-    asked = _decision(results, row).title or in_words(words(str(row["goals"])), labels)
+    labels = factor_headings([study])
+    asked = _decision(results, row).title or in_words(str(row["goals"]), labels)
     design = in_words(str(row["design"]), labels)
     match row["status"]:
         case "feasible":

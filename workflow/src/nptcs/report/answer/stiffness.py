@@ -12,8 +12,8 @@ from nptcs.config.study import Study
 from nptcs.language import tr
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
-from nptcs.report.factor_labels import factor_labels, in_words
 from nptcs.report.sketches import IntervalRow, intervals
+from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import number_text, rounded, with_error
 from nptcs.tables.cases import Cases
 from nptcs.tables.published_stiffness import PUBLISHED, STIFFNESS
@@ -70,7 +70,7 @@ def _with_uncertainty(results: Results, study: Study, rows: Mapping[str, Row]) -
         "materials, tolerances and surface; {percent} % of the distribution lies between {low} "
         "and {high} {unit}. Solver {solver}.",
         study=study.name,
-        design=in_words(row["factors"], factor_labels(study)),
+        design=in_words(row["factors"], factor_headings([study])),
         percent=f"{row['confidence_percent']:g}",
         low=rounded(row["low"], row["sd"]),
         high=rounded(row["high"], row["sd"]),
@@ -131,7 +131,7 @@ def _without_uncertainty(results: Results, study: Study, solved: pd.DataFrame) -
             "The reference design of the study {study} ({design}) was solved with {solver}. How "
             "uncertain its stiffness is was not assessed.",
             study=study.name,
-            design=in_words(design, factor_labels(study)),
+            design=in_words(design, factor_headings([study])),
             solver=solver,
         ),
         "cases.csv",

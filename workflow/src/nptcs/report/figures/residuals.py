@@ -59,7 +59,7 @@ def residuals_over_value(influence: pd.DataFrame, title: str, synthetic: bool = 
             rows["residual_n_per_mm"],
             "o",
             mfc="none",
-            mec=COLOURS[1],
+            color=COLOURS[1],
             ms=10,
             mew=1.2,
             label=tr("studentised residual beyond {far:g}", far=FAR),

@@ -2,10 +2,14 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
+from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr
 from nptcs.report.figures.style import (
     DASHES,
@@ -17,7 +21,10 @@ from nptcs.report.figures.style import (
     sampled,
     styled,
 )
-from nptcs.report.figures.theme import COLOURS, GREY, INK
+from nptcs.report.figures.theme import COLOURS, GREY, INK, RANGE
+
+WINDOW_MM = 110.0
+"""Half the width of the surroundings of the contact that are drawn."""
 
 PUBLISHED_STRESS_MPA = 89.5
 """Largest stress of a reinforcing plate at 5000 N, section 4.1 of the paper."""
@@ -86,6 +93,65 @@ def load_displacement(
 
 
 @styled
+def deformed_tyre(
+    outlines: pd.DataFrame, title: str, near: bool, synthetic: bool = False
+) -> Figure:
+    """Draw the outlines of a loaded tyre, figure 10 a of the paper.
+
+    Parameters
+    ----------
+    outlines : DataFrame
+        Rows of ``deformed_tyre.csv``.
+    title : str
+    near : bool
+        Whether only the surroundings of the contact are drawn, with the undeformed outlines.
+    synthetic : bool
+        Whether the materials are synthetic.
+    """
+    figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 3.7 if near else 4.7))
+    ground = float(outlines["y_mm"].min())
+    if near:
+        around = outlines["x_mm"].abs().lt(WINDOW_MM) & outlines["y_mm"].lt(ground + WINDOW_MM)
+        kept = outlines.loc[around, "outline"].unique()
+        outlines = outlines[outlines["outline"].isin(kept)]
+        axes.set_xlim(-WINDOW_MM, WINDOW_MM)
+        axes.set_ylim(ground - 5, ground + 1.25 * WINDOW_MM)
+    looks = {
+        "spoke": {"facecolor": RANGE, "edgecolor": GREY, "linewidth": 0.5},
+        "plate": {"facecolor": COLOURS[1], "edgecolor": "none"},
+        "band": {"facecolor": "none", "edgecolor": COLOURS[0], "linewidth": 1.3},
+        "rim": {"facecolor": "none", "edgecolor": INK, "linewidth": 0.9},
+    }
+    for part, look in looks.items():
+        rows = outlines[outlines["part"] == part]
+        lines = [line[["x_mm", "y_mm"]].to_numpy() for _, line in rows.groupby("outline")]
+        axes.add_collection(PolyCollection(lines, zorder=2, **look))
+        if near and part in ("spoke", "band"):
+            columns = ["x_undeformed_mm", "y_undeformed_mm"]
+            before = [line[columns].to_numpy() for _, line in rows.groupby("outline")]
+            dotted = {"edgecolor": GREY, "linewidth": 0.6, "linestyle": ":"}
+            axes.add_collection(PolyCollection(before, facecolor="none", zorder=1, **dotted))
+    axes.axhline(ground, color=INK, linewidth=0.8)
+    axes.set_aspect("equal")
+    if not near:
+        axes.autoscale_view()
+    axes.grid(visible=False)
+    handles = [
+        Patch(fc=RANGE, ec=GREY, label="spoke's rubber"),
+        Patch(fc=COLOURS[1], label="plates"),
+        Line2D([], [], color=COLOURS[0], label="band and tread"),
+        Line2D([], [], color=INK, label="rim, ground"),
+    ]
+    if near:
+        handles.append(Line2D([], [], color=GREY, linestyle=":", label="before the load"))
+    figure.legend(handles=handles, ncols=3, loc="outside lower center")
+    places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
+    figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))
+    mark_synthetic(figure, synthetic)
+    return figure
+
+
+@styled
 def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Figure:
     """Draw the in-plane von Mises stress at the plates' faces along the height of a spoke.
 
@@ -112,14 +178,18 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
             look = {**line_look(number), "linestyle": DASHES[number]}
             axes.plot(place, half["mises_mpa"], label=label, **look)
             axes.plot(place, half["mean_mises_mpa"], marker, ms=8, mfc="none", mec=colour)
-    axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
+    compared = bool(np.isclose(stress["load_n"].iloc[0], PAPER_LOAD_N))
+    if compared:
+        axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
     axes.set_ylim(bottom=0)
     figure.data = rows.drop(columns=["study", "along_mpa", "across_mpa", "shear_mpa"])
     handles, _ = axes.get_legend_handles_labels()
     handles += [
         Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
-        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest")),
     ]
+    if compared:
+        paper = {"color": INK, "linestyle": "--", "linewidth": 0.9}
+        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

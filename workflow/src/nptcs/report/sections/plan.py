@@ -28,6 +28,7 @@ from nptcs.report.sections.tyre import tyre_section
 from nptcs.report.sections.uncertainty import uncertainty_section
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheet, Sheets
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.lca_validation import LcaNeutralLine
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.result_table import ReportSection
@@ -65,7 +66,7 @@ PLANS: Mapping[ReportSection, SectionPlan] = {
     ReportSection.DECISION: SectionPlan(decision_section),
     ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
     ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
-    ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress)),
+    ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress, DeformedTyre)),
     ReportSection.PUBLISHED_STIFFNESS: SectionPlan(published_stiffness_section, (NeutralLine,)),
     ReportSection.LCA: SectionPlan(lca_section, (LcaNeutralLine,)),
     ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),

@@ -19,6 +19,7 @@ from nptcs.report.figures.surface import common_levels, contours, pairs, slices
 from nptcs.report.plots import plot
 from nptcs.report.sections.key_facts import ranking_facts, surface_facts
 from nptcs.report.sections.ranking import ranking_blocks
+from nptcs.report.sections.refused import refused_blocks
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import heading, words
@@ -211,6 +212,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
         Text(tr(study.title), "heading"),
+        *refused_blocks(study),
         sheet_view(sheet, given_digits=precise, whole=True),
     ]
     solved = {name: _solved(results, study, name) for name in results.surfaces[study.name]}
@@ -309,6 +311,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
         ),
         *ranking_facts(results),
         Plots(tr("Impact of each factor on the vertical stiffness."), tuple(plots)),
+        *(block for study in results.config.studies for block in refused_blocks(study)),
         *ranking_blocks(results),
         sheet_view(sheet_of(sheets, Impact)),
     ]

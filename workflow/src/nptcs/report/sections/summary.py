@@ -10,6 +10,7 @@ from nptcs.report.answer.stiffness import stiffness_finding
 from nptcs.report.answer.tests_behind import tests_finding
 from nptcs.report.blocks import Finding, Findings, Listing, PageBlock, Text
 from nptcs.report.data import Results
+from nptcs.report.sections.refused import all_refused
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined
@@ -72,10 +73,10 @@ def _remarks(results: Results) -> tuple[str, ...]:
         synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
         remarks.append(
             tr(
-                "{count} of {count_2} specimens are SYNTHETIC example data; everything "
-                "made from them carries the badge.",
+                "{count} of {total} specimens are SYNTHETIC example data; everything made from "
+                "them carries the badge.",
                 count=len(synthetic),
-                count_2=len(results.sheet),
+                total=len(results.sheet),
             )
         )
     for name, reason in results.left_out().items():
@@ -86,8 +87,12 @@ def _remarks(results: Results) -> tuple[str, ...]:
     stray = files[files["status"] == FileStatus.NOT_NAMED]
     if len(stray):
         remarks.append(
-            tr("No row of the sheet names these files of the folder: ") + joined(stray["file"])
+            tr(
+                "No row of the sheet names these files of the folder: {files}",
+                files=joined(stray["file"]),
+            )
         )
+    remarks += all_refused(results)
     remarks += [
         f"{card.name}: {check.removeprefix(WARNING)}"
         for card in results.cards

@@ -2,12 +2,19 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 
+from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr, translatable
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
-from nptcs.report.figures.tyre import PUBLISHED_STRESS_MPA, load_displacement, plate_faces
+from nptcs.report.figures.tyre import (
+    PUBLISHED_STRESS_MPA,
+    deformed_tyre,
+    load_displacement,
+    plate_faces,
+)
 from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.tables.headings import words
@@ -15,6 +22,7 @@ from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
 from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES
 from nptcs.tables.cases import Cases
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.solver_names import PUBLISHED
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
@@ -49,6 +57,15 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
             tuple(_curve_plots(results)),
         ),
     ]
+    if deformed := _deformed_plots(results):
+        blocks.append(
+            Plots(
+                "Deformation of spokes and shear band under the load (figure 10 a of the paper): "
+                "the section through the middle of a plate, to scale, every spoke solved again "
+                "at its own motion. Dotted: before the load.",
+                tuple(deformed),
+            )
+        )
     stress = tuple(_stress_plots(results))
     if stress:
         blocks.append(
@@ -74,6 +91,7 @@ def published_stress(results: Results) -> list[str]:
     found = responses[
         responses["response"].eq("plate_largest_mises")
         & responses["status"].eq("ok")
+        & np.isclose(responses["load_n"].astype(float), PAPER_LOAD_N)
         & responses["case_id"].isin(fiducial)
     ]
     if found.empty:
@@ -153,6 +171,21 @@ def _curve_plots(results: Results) -> list[Plot]:
         )
         alt = tr("Load against displacement, {study}, {solver}", study=study, solver=solver)
         plots.append(plot(alt, synthetic, load_displacement, *given))
+    return plots
+
+
+def _deformed_plots(results: Results) -> list[Plot]:
+    outlines = results.table(DeformedTyre)
+    if outlines.empty:
+        return []
+    first = outlines.iloc[0]
+    synthetic = _synthetic(results, first["study"], first["solver"])
+    about = f"{first['case_id']}, {first['solver']}"
+    plots = []
+    for near in (False, True):
+        title = f"{'Spokes over the contact' if near else 'Loaded tyre'}, {about}"
+        alt = f"{title}: outlines at {first['load_n']:g} N and before the load"
+        plots.append(plot(alt, synthetic, deformed_tyre, outlines, title, near, synthetic))
     return plots
 
 

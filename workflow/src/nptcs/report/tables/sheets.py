@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import assert_never
 
 import pandas as pd
@@ -13,6 +13,7 @@ from nptcs.report.data import Results
 from nptcs.report.tables import entries
 from nptcs.report.tables.entries import Entry, result_entry
 from nptcs.report.tables.materials import ply_table, rubber_table
+from nptcs.report.tables.names import factor_headings
 from nptcs.report.tables.provenance import inputs_table, software_table
 from nptcs.report.tables.row_classes import RowClass, no_row, row_class
 from nptcs.report.tables.specimens import conditioning_table, sheet_table
@@ -75,7 +76,7 @@ def sheets_of(results: Results) -> Sheets:
 
     A table that the report makes itself comes before the result table that it leads to.
     """
-    leading = _leading_sheets(results)
+    leading, factors = _leading_sheets(results), factor_headings(results.config.studies)
     sheets: list[Sheet] = []
     for file, row, study in result_files(results.surface_studies):
         table = results.tables[file]
@@ -92,7 +93,8 @@ def sheets_of(results: Results) -> Sheets:
         )
     sheets.append(Sheet(entries.INPUTS, inputs_table(results)))
     sheets.append(Sheet(entries.SOFTWARE, software_table(results)))
-    return {sheet.entry.sheet: sheet for sheet in sheets}
+    named = [replace(sheet, entry=sheet.entry.with_factors(factors)) for sheet in sheets]
+    return {sheet.entry.sheet: sheet for sheet in named}
 
 
 def is_synthetic(results: Results, by: SyntheticBy, table: pd.DataFrame, study: str = "") -> bool:

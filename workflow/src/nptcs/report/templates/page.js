@@ -1,21 +1,19 @@
 // The page works without any of this: sorting of tables, light or dark, where the reader is.
 (function () {
   var root = document.documentElement, button = document.getElementById("theme");
-  var names = { "": button.dataset.auto, light: button.dataset.light, dark: button.dataset.dark };
   function show(theme) {
     if (theme) root.dataset.theme = theme; else delete root.dataset.theme;
-    button.textContent = names[theme];
+    button.textContent = { "": button.dataset.auto, light: button.dataset.light, dark: button.dataset.dark }[theme];
   }
-  function kept() {
-    try { return localStorage.getItem("nptcs-theme") || ""; } catch (refused) { return ""; }
+  if (button) {
+    button.hidden = false;
+    show(["light", "dark"].includes(root.dataset.theme) ? root.dataset.theme : "");
+    button.addEventListener("click", function () {
+      var order = ["", "dark", "light"], next = order[(order.indexOf(root.dataset.theme || "") + 1) % 3];
+      show(next);
+      try { localStorage.setItem("nptcs-theme", next); } catch (refused) { /* a page that may keep nothing */ }
+    });
   }
-  button.hidden = false;
-  show(kept() in names ? kept() : "");
-  button.addEventListener("click", function () {
-    var order = ["", "dark", "light"], next = order[(order.indexOf(root.dataset.theme || "") + 1) % 3];
-    show(next);
-    try { localStorage.setItem("nptcs-theme", next); } catch (refused) { /* a page that may keep nothing */ }
-  });
 
   // sort a table by the column whose head is clicked; once more turns the order round
   document.querySelectorAll("thead th").forEach(function (head) {
