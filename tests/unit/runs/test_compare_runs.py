@@ -336,6 +336,8 @@ def test_another_code_or_configuration_is_another_identity(march, tmp_path):
     assert again.identity == one.identity
     assert again.made != one.made
     assert other.identity != one.identity
+    named = {**configuration(), "report": {"title": "Another title"}}
+    assert identify_run(tmp_path / "run" / "results", named).identity == one.identity
 
 
 def test_identities_of_two_campaigns_differ(march, april):
