@@ -138,7 +138,7 @@ def test_a_column_has_the_format_of_its_unit(workbook):
 
     assert shown("vertical stiffness [N/mm]") == "#,##0.00"
     assert shown("load [N]") == "#,##0"
-    assert shown("thickness [mm]") == "#,##0.0"
+    assert shown("plate thickness T [mm]") == "#,##0.0"
     surface = workbook["surface_plate"]
     named = {cell.value: cell.column for cell in surface[1]}
     column = named["coefficient, natural [N/mm per unit of the term]"]

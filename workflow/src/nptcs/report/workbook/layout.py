@@ -56,8 +56,8 @@ def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:
     """Set the pages of a sheet: landscape, its header on each of them.
 
-    A sheet is as wide as one page, a table that would be too small to read on it as wide as several,
-    with its first column on each.
+    A sheet is as wide as one page; a table that would be too small to read on it is as wide as
+    several, with its first column on each.
     """
     worksheet.print_area = area or worksheet.dimensions
     worksheet.page_setup.orientation = "landscape"
