@@ -53,8 +53,10 @@ class Part:
 
     @property
     def differences(self) -> pd.DataFrame:
-        """The rows that are not the same in both runs."""
-        return self.table[self.table[RESULT] != Found.SAME]
+        """The rows that are not the same in both runs, those with two values first."""
+        rows = self.table[self.table[RESULT] != Found.SAME]
+        order = rows[RESULT].map(list(Found).index)
+        return rows.loc[order.sort_values(kind="stable").index] if len(rows) else rows
 
     @property
     def same(self) -> bool:

@@ -27,15 +27,15 @@ COLUMNS = (
     "solver",
     "case_a",
     "case_b",
-    "design_a",
-    "design_b",
-    "load_n",
     "stiffness_a_n_per_mm",
     "stiffness_b_n_per_mm",
     "difference_n_per_mm",
     "difference_percent",
     "status_a",
     "status_b",
+    "load_n",
+    "design_a",
+    "design_b",
     "note",
 )
 SUMMARY_COLUMNS = (
@@ -53,11 +53,10 @@ SUMMARY_COLUMNS = (
     "only_b",
 )
 HEADINGS = {
-    "stiffness_a_n_per_mm": Heading("stiffness A", "N/mm"),
-    "stiffness_b_n_per_mm": Heading("stiffness B", "N/mm"),
     "difference_n_per_mm": Heading("B − A", "N/mm"),
     "difference_percent": Heading("B − A", "%"),
 }
+
 Row = dict[str, Any]
 
 
