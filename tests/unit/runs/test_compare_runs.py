@@ -239,6 +239,11 @@ def test_wrong_arguments_are_refused_before_anything_is_read(options, tmp_path, 
     assert options[0] in capsys.readouterr().err
 
 
+def test_a_run_that_does_not_exist_is_refused(march, tmp_path, capsys):
+    assert main(["compare", str(march), str(tmp_path / "none")]) == 2
+    assert "this run does not exist" in capsys.readouterr().err
+
+
 def test_a_run_without_identity_is_compared_and_that_is_said(march, tmp_path):
     older = write_run(tmp_path, C10, MARKS, identified=False)
     done = both(march, older)
