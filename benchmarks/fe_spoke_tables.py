@@ -70,12 +70,12 @@ def solve(values: tuple[float, ...], options: dict[str, object]) -> Case:
     marks.append(time.process_time())
     _, stress = loaded_spokes(SpokeModel(design), table, state.motion)
     marks.append(time.process_time())
-    place, pressure = tyre.ground.pressure_profile(state.displacement, state.rise_mm)
+    cells = tyre.ground.cells(state.displacement, state.rise_mm)
     loads = LOAD_N * np.array([0.2, 0.5, 1.0])
     return Case(
         loads / np.interp(loads, state.path.force_n, state.path.rise_mm),
         {
-            **contact_responses(place, pressure, tyre.ground.point_length_mm),
+            **contact_responses(cells),
             **spoke_forces(table, state.motion),
             **stress,
         },
@@ -94,7 +94,6 @@ def a_matrix_for_each_step() -> Iterator[None]:
         factor: BlockCholesky,
         step: Array,
         work: float,
-        accepted: float,
     ) -> Array:
         for group in self.mixed:
             group.follow(step)

@@ -1,7 +1,7 @@
 """The sandwich ring against the finite element tyre: same spokes, same ground, same rubbers.
 
-    python benchmarks/ring_against_fe.py [--spokes results/5_solve/spokes] [--cases 26]
-        [--along 3] [--picture docs/images/ring-against-fe.png]
+    python benchmarks/ring_against_fe.py [--cases 26] [--along 3] [--picture FILE.png]
+        [--spokes results/5_solve/spokes [--section paper_mesh --card results/material_card.json]]
 
 Eight designs that span tables 5 and 7, then every third (``--cases 78``: each) of their 78 cases at
 ten loads, by the ring and by two finite element tyres: on the mesh of the campaign, and with
@@ -9,7 +9,9 @@ ten loads, by the ring and by two finite element tyres: on the mesh of the campa
 difference of the displacement in per cent at each load, of the neutral line (in per cent of the
 largest displacement), of peak pressure and contact length √(12 Var p), and the CPU time of each.
 The finite elements end at a load that they do not reach: the loads before it are compared. A folder
-of spokes saves the computation of their tables (2 to 9 s each).
+of spokes saves the computation of their tables (some 5 s each). Those of a study that has solved
+tables 5 and 7 by `fe_tyre_paper` have the section that was calibrated with the ring `paper_mesh`,
+and the plies of its card; both models take any spokes.
 """
 
 from __future__ import annotations
@@ -22,7 +24,7 @@ from pathlib import Path
 
 import numpy as np
 
-from nptcs.config.fe import FeModel, TyreMesh
+from nptcs.config.fe import SECTIONS, FeModel, TyreMesh
 from nptcs.config.ring import RingOptions
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design, tyre_model
@@ -30,10 +32,11 @@ from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
 from nptcs.fe.tyre.responses import contact_responses
+from nptcs.files import read_model
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.material_card import PUBLISHED_PLY, MaterialCard
 
 TYRE = TyreGeometry()
 FIDUCIAL = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
@@ -55,7 +58,13 @@ CASE_LOADS = np.linspace(500.0, 5000.0, 10).tolist()
 def cases() -> list[dict[str, float]]:
     """Designs of tables 5 and 7."""
     plates = [
-        {"spacing_mm": s, "thickness_mm": t, "angle_deg": a, "spoke_c10_mpa": 1.04, "band": 5.0}
+        {
+            "spacing_mm": s,
+            "thickness_mm": t,
+            "angle_deg": float(a),
+            "spoke_c10_mpa": 1.04,
+            "band": 5.0,
+        }
         for s, t, a in product((10.0, 15.0, 20.0), (1.2, 1.8, 2.4), range(0, 91, 15))
     ]
     rubbers = [
@@ -195,15 +204,20 @@ def main() -> None:
     """Read the arguments and print the tables."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--spokes", type=Path)
+    parser.add_argument("--section", choices=sorted(SECTIONS), default="converged")
+    parser.add_argument("--card", type=Path)
     parser.add_argument("--cases", type=int, default=26)
     parser.add_argument("--along", type=int, default=3)
     parser.add_argument("--picture", type=Path)
     arguments = parser.parse_args()
     every = cases()[:: max(78 // max(arguments.cases, 1), 1)][: arguments.cases]
     wanted = [(design, DESIGN_LOADS) for design in DESIGNS] + [(d, CASE_LOADS) for d in every]
-    plain = FeModel()
+    plain, ply = FeModel(ring=arguments.section), PUBLISHED_PLY
+    if arguments.card is not None:
+        (card,) = read_model(arguments.card, MaterialCard).plies.values()
+        ply = {name: card.values()[name] for name in PUBLISHED_PLY}
     tables = [
-        shared_table(plain, spoke_design(plain, TYRE, PUBLISHED_PLY, design), arguments.spokes)
+        shared_table(plain, spoke_design(plain, TYRE, ply, design), arguments.spokes)
         for design, _ in wanted
     ]
     by_mesh = compare(wanted, tables, arguments.along)

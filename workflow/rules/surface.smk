@@ -1,11 +1,15 @@
 # Solved cases → response surfaces → average gradients and comprehensive impact values.
 
+from nptcs.compare.conditions import surface_faults
+
 
 FITTED = (
     "name",
     "title",
     "factors",
+    "fixed",
     "solvers",
+    "solver_options",
     "terms",
     "least_cases",
     "surfaces",
@@ -120,6 +124,9 @@ rule sensitivity:
             "rules": list(CONFIG.sensitivity.rules),
             "near_tie_ratio": CONFIG.sensitivity.near_tie_ratio,
             "published": contents(PUBLISHED_IMPACT),
+            "refused": [
+                study.name for study in CONFIG.studies if surface_faults(study)
+            ],
             "code": code_of("sensitivity"),
         },
     script:

@@ -1,4 +1,4 @@
-"""The search for a Gaussian process's hyperparameters, and whether it has arrived.
+"""The search for a Gaussian process's hyperparameters, whether it has arrived, and its errors.
 
 scikit-learn warns of two different things in one class: a hyperparameter on its bound, which is an
 answer (a factor without effect, no noise), and a search that broke off, which is not. Here a broken
@@ -13,8 +13,10 @@ from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
+from scipy.linalg import cho_solve
 from scipy.optimize import minimize
 from sklearn.exceptions import ConvergenceWarning
+from sklearn.gaussian_process import GaussianProcessRegressor
 
 from nptcs.arrays import Array
 
@@ -59,6 +61,17 @@ def free_slope(objective: Callable[..., Any], theta: Array, bounds: Array) -> fl
         (theta >= bounds[:, 1] - edge) & (slope < 0)
     )
     return float(np.abs(np.where(held, 0.0, slope)).max())
+
+
+def left_out_inflation(process: GaussianProcessRegressor) -> float:
+    """Factor of a fitted process's standard error: what cases that are left out show of it.
+
+    With the hyperparameters kept, the error at a left-out case in standard errors is
+    (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms, at least 1.
+    """
+    inverse = cho_solve((process.L_, True), np.eye(len(process.L_)))
+    scores = np.ravel(process.alpha_) / np.sqrt(np.diag(inverse))
+    return max(1.0, float(np.sqrt(np.mean(scores**2))))
 
 
 @contextmanager

@@ -79,7 +79,7 @@ def test_a_matrix_is_used_for_several_steps(counted):
 def test_states_are_those_of_newtons_method_with_a_new_matrix_for_each_step(monkeypatch):
     few = sampled_states(SpokeModel(design(30.0), FEW.accepted_work), FEW)
 
-    def one_step(self, displacement, factor, step, work, accepted):
+    def one_step(self, displacement, factor, step, work):
         for group in self.mixed:
             group.follow(step)
         return displacement + step

@@ -7,6 +7,8 @@ import json
 from pathlib import Path
 from typing import Any
 
+from nptcs.arguments import add_command, existing_folder
+
 SCHEMA = Path("workflow/schemas/config.schema.json")
 REFERENCE = Path("docs/configuration.md")
 TABLES_PAGE = Path("docs/tables.md")
@@ -14,10 +16,21 @@ TABLES_PAGE = Path("docs/tables.md")
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "schema", help="rewrite the configuration schema and the reference pages in docs/"
+    parser = add_command(
+        subparsers,
+        "schema",
+        "rewrite the configuration schema and the reference pages in docs/",
+        "Writes the JSON schema with which editors complete and check the configuration, and the "
+        "reference pages of configuration and result tables, from the models in the code. For "
+        "those who change these models.",
+        "nptcs schema",
     )
-    parser.add_argument("--root", default=".", help="the project folder (default: the current one)")
+    parser.add_argument(
+        "--root",
+        type=existing_folder,
+        default=".",
+        help="the project folder; default: the current one",
+    )
     parser.set_defaults(run=run)
 
 

@@ -161,7 +161,7 @@ class EnergyTableOptions(Strict):
         "for half as much time again",
     )
     accepted_work: float = Field(
-        1e-9,
+        1e-7,
         ge=1e-12,
         le=1e-6,
         description="A state is accepted when the work of the next Newton step is below this part "

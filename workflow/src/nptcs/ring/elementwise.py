@@ -63,16 +63,24 @@ def band_energy(c: Value, h: Value, angle: Value, length: Value, m: Value, d: Va
 
 @compilable
 def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: Value) -> None:
-    """Set the derivatives (4) and (4, 4) of the energy by (e, κs, κf, s'), per length."""
+    """Set the derivatives (4) and (4, 4) of the energy by (e, κs, κf, s'), per length.
+
+    c and h are symmetric under any exchange of their places.
+    """
     for i in range(ALONG):
         stress[i] = 0.0
-        for j in range(ALONG):
+    for i in range(ALONG):
+        own = e if i == 0 else d[i + 1]
+        for j in range(i, ALONG):
             by_stretch = h[i, j, 0] * e
             for k in range(1, ALONG):
                 by_stretch = by_stretch + h[i, j, k] * d[k + 1]
             stiff[i, j] = c[i, j] + by_stretch
-            strain = e if j == 0 else d[j + 1]
-            stress[i] += (c[i, j] + 0.5 * by_stretch) * strain
+            stiff[j, i] = stiff[i, j]
+            secant = c[i, j] + 0.5 * by_stretch
+            stress[i] += secant * (e if j == 0 else d[j + 1])
+            if j > i:
+                stress[j] += secant * own
 
 
 @compilable

@@ -9,7 +9,6 @@ from nptcs.arrays import Array, Index
 from nptcs.fe.matrices.cyclic import folded_order
 from nptcs.ring import elementwise
 from nptcs.ring.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
-from nptcs.ring.spokes import SpokePolynomial
 from nptcs.ring.system import Ring, System, empty_system
 
 # neighbours in folded order are two nodes apart
@@ -113,10 +112,7 @@ def spoke_coordinates(ring: Ring, u: Array) -> Array:
 
 def spoke_derivatives(ring: Ring, coordinates: Array) -> Array:
     """Energy and derivatives (10, spokes) as `SpokePolynomial.evaluate` gives them."""
-    table = SpokePolynomial(
-        ring.height_mm, ring.low, ring.high, ring.narrowing, ring.coefficients, ring.sides
-    )
-    return table.evaluate(coordinates)
+    return ring.polynomial.evaluate(coordinates)
 
 
 def _add_spokes(ring: Ring, u: Array, system: System) -> None:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
+from numpy.polynomial import chebyshev
 
 from nptcs.arrays import Array, Index
 from nptcs.fe.spoke.energy_table import NAMES, SpokeEnergyTable
@@ -73,28 +75,56 @@ class SpokePolynomial:
 
     def evaluate(self, coordinates: Array) -> Array:
         """Energy and derivatives (10, spokes) in the order of `ORDERS` at (spokes, 3)."""
-        scale = 2.0 / (self.high - self.low)
-        local = (coordinates - self.low) * scale - 1.0
+        local = (coordinates - self.low) * self._scale - 1.0
         counts = (len(self.coefficients), *(self.sides.max(axis=0) + 1))
+        values = chebyshev_values(local, max(counts))
+        terms = len(self.sides)
         lines = [
-            [order * scale[axis] ** number for number, order in enumerate(chain)]
-            for axis in range(3)
-            for chain in [chebyshev_chain(local[:, axis], int(counts[axis]))]
+            np.matmul(values[:count, :, axis].T, matrix).reshape(-1, 3, terms)
+            for axis, (count, matrix) in enumerate(zip(counts, self._derivatives, strict=True))
         ]
-        radial = [line.T @ self.coefficients for line in lines[0]]
-        beta = [line.T[:, self.sides[:, 0]] for line in lines[1]]
-        phi = [line.T[:, self.sides[:, 1]] for line in lines[2]]
-        return np.stack([np.sum(radial[i] * beta[j] * phi[k], axis=1) for i, j, k in ORDERS])
+        s, beta, phi = lines
+        return np.stack(
+            [np.einsum("nt,nt,nt->n", s[:, i], beta[:, j], phi[:, k]) for i, j, k in ORDERS]
+        )
+
+    @cached_property
+    def _scale(self) -> Array:
+        scale: Array = 2.0 / (self.high - self.low)
+        return scale
+
+    @cached_property
+    def _derivatives(self) -> list[Array]:
+        """What Chebyshev values of s, β and φ are multiplied by: arrays (degrees, 3 × terms).
+
+        The three are the factor of each side term and its first two derivatives.
+        """
+        sides = [np.eye(own.max() + 1)[:, own] for own in self.sides.T]
+        return [
+            np.concatenate(
+                [self._scale[axis] ** order * differentiated(factor, order) for order in range(3)],
+                axis=1,
+            )
+            for axis, factor in enumerate([self.coefficients, *sides])
+        ]
 
 
-def chebyshev_chain(x: Array, count: int) -> tuple[Array, Array, Array]:
-    """Chebyshev polynomials (count, n) at x (n,) and their first two derivatives."""
-    value, first, second = (np.zeros((count, len(x))) for _ in range(3))
-    value[0] = 1.0
+def differentiated(series: Array, order: int) -> Array:
+    """Chebyshev series (degrees, n) differentiated, with as many degrees as before."""
+    found = np.zeros_like(series)
+    if len(series) > order:
+        found[: len(series) - order] = chebyshev.chebder(series, order)
+    return found
+
+
+def chebyshev_values(x: Array, count: int) -> Array:
+    """Chebyshev polynomials T_0 to T_(count-1) at x, array (count, …)."""
+    values = np.empty((count, *x.shape))
+    values[0] = 1.0
     if count > 1:
-        value[1], first[1] = x, 1.0
+        values[1] = x
+    double = 2.0 * x
     for i in range(2, count):
-        value[i] = 2.0 * x * value[i - 1] - value[i - 2]
-        first[i] = 2.0 * value[i - 1] + 2.0 * x * first[i - 1] - first[i - 2]
-        second[i] = 4.0 * first[i - 1] + 2.0 * x * second[i - 1] - second[i - 2]
-    return value, first, second
+        np.multiply(double, values[i - 1], out=values[i])
+        values[i] -= values[i - 2]
+    return values

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import cached_property
 
 import numpy as np
 
 from nptcs.arrays import Array, Index
 from nptcs.ring.elementwise import UNKNOWNS
+from nptcs.ring.spokes import SpokePolynomial
 
 
 @dataclass(frozen=True)
@@ -45,6 +47,13 @@ class Ring:
     high: Array
     coefficients: Array
     sides: Index
+
+    @cached_property
+    def polynomial(self) -> SpokePolynomial:
+        """The spokes' energy."""
+        return SpokePolynomial(
+            self.height_mm, self.low, self.high, self.narrowing, self.coefficients, self.sides
+        )
 
 
 @dataclass

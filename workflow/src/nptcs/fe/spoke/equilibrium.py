@@ -106,10 +106,13 @@ class SpokeModel(SpokePeriod):
 
     def rest(self) -> SpokeState:
         """Return the unloaded spoke: no energy and no force, not even of rounding."""
-        pressures = [np.zeros_like(group.pressure) for group in self.rubbers]
-        stresses = [np.zeros((*group.weight.shape, 6)) for group in self.plates]
-        unloaded = SpokeFields(np.zeros_like(self.mesh.positions), pressures, stresses)
-        return replace(self.settle(np.zeros(3), unloaded), energy=0.0, force=np.zeros(3))
+        unloaded, motion = np.zeros_like(self.mesh.positions), np.zeros(3)
+        for group in self.mixed:
+            group.release()
+        responses, force = self._respond(unloaded)
+        factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
+        state = self._condense(motion, unloaded, responses, force, factor, 0.0)
+        return replace(state, force=np.zeros(3))
 
     def move(self, state: SpokeState, motion: Array) -> SpokeState:
         """Go from an equilibrium to another motion of the band.
@@ -225,12 +228,11 @@ class SpokeModel(SpokePeriod):
             factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
             step, work = self._step(factor, force)
             energy = sum(response.energy for response in responses)
-            accepted = self._accepted_work * max(abs(energy), 1e-6)
             # the stresses are those of the displacements only after a step
-            if count and work < accepted:
+            if count and work < self._accepted(energy):
                 energy -= 0.5 * work
                 return self._condense(motion, displacement, responses, force, factor, energy)
-            displacement = self._followed(displacement, factor, step, work, accepted)
+            displacement = self._followed(displacement, factor, step, work)
         raise FloatingPointError(f"no equilibrium in {MAX_ITERATIONS} iterations")
 
     def _step(self, factor: BlockCholesky, force: Array) -> tuple[Array, float]:
@@ -246,17 +248,23 @@ class SpokeModel(SpokePeriod):
             raise FloatingPointError(f"an iteration moves a node by {largest:.0f} mm")
         return step.reshape(-1, 3), work
 
+    def _accepted(self, energy: float) -> float:
+        """Work of a step, N mm, below which a state of this energy is accepted."""
+        return self._accepted_work * max(abs(energy), 1e-6)
+
     def _followed(
-        self, displacement: Array, factor: BlockCholesky, step: Array, work: float, accepted: float
+        self, displacement: Array, factor: BlockCholesky, step: Array, work: float
     ) -> Array:
         """Take a step, and more with the same matrix as long as their work shrinks."""
         while True:
             displacement = self._taken(displacement, step)
             before = work
-            step, work = self._step(factor, self._forces(displacement)[1])
+            energy, force = self._forces(displacement)
+            step, work = self._step(factor, force)
             if work > FOLLOWED * before:
                 return displacement
-            if work**2 <= before * BELOW_ACCEPTED * accepted:
+            # a guess may store a thousand times the energy of the state that it leads to
+            if work**2 <= before * BELOW_ACCEPTED * self._accepted(energy):
                 return self._taken(displacement, step)
 
     def _taken(self, displacement: Array, step: Array) -> Array:

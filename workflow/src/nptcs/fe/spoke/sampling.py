@@ -107,9 +107,11 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
     """
     grid = Grid(options, model.design.geometry.height_mm)
     walk = _Walk(model, grid)
-    start, lowest = model.rest(), 0
+    rest, lowest = model.rest(), 0
+    starts: dict[float, SpokeState] = {}
     for row in grid.rows():
-        start = walk.along(row, start, [START])
+        # on from the row of equal φ and the next smaller β
+        start = starts[row.phi] = walk.begun(row, starts.get(row.phi, rest))
         up = [level for level in row.levels if grid.lengths[level] > 0.0]
         walk.along(row, start, up)
         try:
@@ -126,6 +128,13 @@ class _Walk:
     model: SpokeModel
     grid: Grid
     found: dict[Place, SpokeState] = field(default_factory=dict)
+
+    def begun(self, row: Row, near: SpokeState) -> SpokeState:
+        """Go from a state to the start of a row, which may be that state itself."""
+        if np.allclose(self.grid.motions(row, [START])[0], near.motion, rtol=0.0, atol=1e-12):
+            self.found[row.number, START] = near
+            return near
+        return self.along(row, near, [START])
 
     def along(self, row: Row, start: SpokeState, levels: Sequence[int]) -> SpokeState:
         """Go from a state through these levels of a row, and give the last state."""

@@ -14,7 +14,7 @@ from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, Whi
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.likelihood import SearchError, bounds_are_answers, maximise
+from nptcs.likelihood import SearchError, bounds_are_answers, left_out_inflation, maximise
 from nptcs.surface.fit import coding
 from nptcs.surface.response_surface import (
     Groups,
@@ -28,10 +28,34 @@ NUGGET = 1e-8
 """Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
 
 LENGTH_BOUNDS = (0.05, 50.0)
-"""Length scales, in half ranges of a factor."""
+"""Length scales, in half ranges of a factor; none is below the smallest gap between its levels,
+since cases say nothing of what happens within a shorter length."""
 
 NOISE_BOUNDS = (1e-8, 10.0)
 VARIANCE_BOUNDS = (1e-3, 1e3)
+
+
+@dataclass(frozen=True)
+class Weights:
+    """What the mean of a fitted process is made of.
+
+    Parameters
+    ----------
+    centre, half : ndarray of shape (n,)
+        Coding of the factors.
+    weights : ndarray of shape (m,)
+        Of the covariance with each case, in units of `scale`: K⁻¹ residual/scale.
+    scale : float
+        In the unit of the response.
+    inflation : float
+        Factor of the standard error.
+    """
+
+    centre: Array
+    half: Array
+    weights: Array
+    scale: float
+    inflation: float
 
 
 @dataclass(frozen=True)
@@ -74,11 +98,11 @@ class GaussianProcess:
         return value * self._scale + self._mean_at(x)
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
-        """Bounds of the interval of the process; the mean's own error is not in it."""
+        """Bounds of the interval of the process, at least as wide as left-out cases ask for."""
         value, deviation = self._process.predict(self._coded(x), return_std=True)
         middle = value * self._scale + self._mean_at(x)
-        half_width = stats.norm.ppf(0.5 + confidence / 2) * deviation * self._scale
-        return middle - half_width, middle + half_width
+        factor = stats.norm.ppf(0.5 + confidence / 2) * self._scale * self._inflation
+        return middle - factor * deviation, middle + factor * deviation
 
     def refit(self, x: Array, y: Array) -> GaussianProcess:
         """Fit mean and hyperparameters to other cases, from those found here."""
@@ -99,6 +123,11 @@ class GaussianProcess:
             "y": self.y.tolist(),
             "theta": self.theta.tolist(),
         }
+
+    def regressor(self) -> Weights:
+        """Return what a program needs that evaluates the process without this package."""
+        weights = np.ravel(self._process.alpha_)
+        return Weights(*coding(self.x), weights, self._scale, self._inflation)
 
     def _coded(self, x: Array) -> Array:
         centre, half = coding(self.x)
@@ -122,6 +151,11 @@ class GaussianProcess:
     def _scale(self) -> float:
         """Root mean square of the mean's residuals; 1 where there are none."""
         return float(np.sqrt(np.mean(self._residual**2))) or 1.0
+
+    @cached_property
+    def _inflation(self) -> float:
+        """Factor of the standard error: what cases that are left out show of it, at least 1."""
+        return left_out_inflation(self._process)
 
     @cached_property
     def _process(self) -> GaussianProcessRegressor:
@@ -158,11 +192,21 @@ def fit_process(
 
 def kernel_of(x: Array, y: Array) -> Kernel:
     """Matérn 5/2 with a length for each factor, and noise if equal cases differ in response."""
-    kernel = ConstantKernel(1.0, VARIANCE_BOUNDS) * Matern(np.ones(x.shape[1]), LENGTH_BOUNDS, 2.5)
+    shortest, longest = LENGTH_BOUNDS
+    bounds = [(max(shortest, gap), longest) for gap in _smallest_gaps(x)]
+    lengths = [max(1.0, low) for low, _ in bounds]
+    kernel = ConstantKernel(1.0, VARIANCE_BOUNDS) * Matern(lengths, bounds, 2.5)
     places, place = np.unique(x, axis=0, return_inverse=True)
     spread = [np.ptp(y[place.ravel() == number]) for number in range(len(places))]
     noisy = max(spread) > 1e-6 * np.ptp(y)
     return kernel + WhiteKernel(1e-2, NOISE_BOUNDS) if noisy else kernel
+
+
+def _smallest_gaps(x: Array) -> list[float]:
+    """Smallest distance between two levels of each factor, in half ranges."""
+    half = coding(x)[1]
+    gaps = [np.diff(np.unique(column)) for column in (x / half).round(9).T]
+    return [float(gap.min(initial=2.0)) for gap in gaps]
 
 
 def _fitted(
