@@ -135,6 +135,19 @@ EARLY = slice(60, LOADED + AFTER)
          {"a.csv": text_of({"Time": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN},
                            ["Force unit: kN", "Unit of strain: %", "Einheit Time: s"])},
          {}, ALL, ""),
+        ("a strain next to a travel, in a format that names only the travel",
+         {"a.csv": text_of({"Name": ["1_1"] * len(TIME), "Time": TIME, "Force": FORCE / 1000,
+                            "Stroke": 0.02 * TIME, "Strain_Ext": 100 * STRAIN})
+          .replace("Strain_Ext\n", "Strain_Ext\n,Sec,kN,mm,%\n")}, {}, ALL, ""),
+        ("a strain that no name tells next to a travel",
+         {"a.csv": text_of({"Time [s]": TIME, "Load [N]": FORCE, "Crosshead [mm]": 0.02 * TIME,
+                            "Strainmaster 7 [%]": 100 * STRAIN})},
+         {"gauge_length_mm": 100}, {"strength": ALL["strength"]}, "not read as a strain"),
+        ("units in a row of LabVIEW's head",
+         {"a.csv": "LabVIEW Measurement\nSeparator\tTab\n***End_of_Header***\n\n"
+          "Y_Unit_Label\tKilonewtons\tpercent\nDelta_X\t0.1\t0.1\n***End_of_Header***\t\t\n"
+          + text_of({"X_Value": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN}, by="\t")},
+         {}, ALL, ""),
         ("Fortran's exponents",
          {"a.csv": "Time [s],Force [N],Strain [%]\n"
           + "\n".join(f"{a:.6E},{b:.6E},{100 * c:.6E}".replace("E", "D")
