@@ -148,6 +148,10 @@ EARLY = slice(60, LOADED + AFTER)
           "Y_Unit_Label\tKilonewtons\tpercent\nDelta_X\t0.1\t0.1\n***End_of_Header***\t\t\n"
           + text_of({"X_Value": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN}, by="\t")},
          {}, ALL, ""),
+        ("a row of units with a word before it",
+         {"a.csv": "Test 7\nUnits,s,kN,%\nOperator,Ada\n"
+          + text_of({"Time": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN})},
+         {}, ALL, ""),
         ("Fortran's exponents",
          {"a.csv": "Time [s],Force [N],Strain [%]\n"
           + "\n".join(f"{a:.6E},{b:.6E},{100 * c:.6E}".replace("E", "D")

@@ -46,11 +46,18 @@ def add_units_of_head(test: Test) -> None:
 
 
 def _take_row(test: Test, row: int) -> None:
-    """Take the units of a row ``Y_Unit_Label, N, %``, one for each column behind the first."""
+    """Take the units of a row ``Y_Unit_Label, N, %``.
+
+    Each stands in the place of its column, or behind the word if there are as many as columns.
+    """
     key, *cells = [cell.strip() for cell in test.source.cells(row)] or [""]
     if normalise(key) not in _ROW_OF_UNITS:
         return
+    while cells and not cells[-1]:
+        cells.pop()
+    first = 0 if len(cells) == test.found_table.width else 1
     for column in test.found_table.columns:
-        unit = cells[column.position - 1] if 1 <= column.position <= len(cells) else ""
+        place = column.position - first
+        unit = cells[place] if 0 <= place < len(cells) else ""
         if unit and not column.unit and is_unit(unit):
             column.unit = clean_unit(unit)
