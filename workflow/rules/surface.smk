@@ -167,14 +167,14 @@ rule sobol:
         "../scripts/sobol.py"
 
 
-rule coverage:
+rule case_coverage:
     input:
         cases="results/tables/cases.csv",
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
     output:
         coverage="results/tables/case_coverage.csv",
     log:
-        "results/logs/coverage.log",
+        "results/logs/case_coverage.log",
     params:
         job={
             "studies": {
@@ -186,7 +186,7 @@ rule coverage:
                 }
                 for study in CONFIG.studies
             },
-            "code": code_of("coverage"),
+            "code": code_of("case_coverage"),
         },
     script:
-        "../scripts/coverage.py"
+        "../scripts/case_coverage.py"

@@ -130,7 +130,7 @@ TABLES: dict[str, ResultTable] = {
     "case_coverage.csv": ResultTable(
         CaseCoverage,
         "Solved, failed and missing cases by level of each factor",
-        "coverage",
+        "case_coverage",
         "cases.csv and the design tables; estimability of the terms with the solved cases",
         section=ReportSection.CASES,
         synthetic=SyntheticBy.STUDIES,
