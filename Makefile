@@ -7,7 +7,7 @@ VENV := .venv
 BIN := $(VENV)/bin
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: run joint test test-kernel lint format report clean
+.PHONY: run joint test test-kernel lint format report docs docs-links clean
 
 run: $(VENV)/ready
 	snakemake -j$(JOBS)
@@ -34,6 +34,16 @@ test-kernel: $(VENV)/ready-dev
 	$(PLAIN) OPENBLAS_NUM_THREADS=2 python -m pytest -q -n $(JOBS) --hypothesis-seed=2 \
 	  $(addprefix tests/unit/,calibrate lca reduce report surface fe/elements fe/matrices)
 
+# the documentation site, build/site/index.html: every warning is an error, every link is followed
+SPHINX := python -m sphinx -n -W --keep-going -q -c docs
+docs: $(VENV)/ready-docs
+	$(SPHINX) -b html . build/site
+	python docs/check_site.py build/site
+
+# the links that lead to other sites: needs a network, so CI does not ask for it
+docs-links: $(VENV)/ready-docs
+	$(SPHINX) -b linkcheck . build/links
+
 lint: $(VENV)/ready-dev
 	ruff check .
 	ruff format --check .
@@ -56,5 +66,9 @@ $(VENV)/ready-dev: $(VENV)/ready
 	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[dev]'
 	touch $@
 
+$(VENV)/ready-docs: $(VENV)/ready
+	$(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e '.[docs]'
+	touch $@
+
 clean:
-	rm -rf $(VENV) .snakemake results/[0-9]* results/tables results/logs results/report* results/workbook* results/verdict* results/material_card.json
+	rm -rf $(VENV) build .snakemake results/[0-9]* results/tables results/logs results/report* results/workbook* results/verdict* results/material_card.json

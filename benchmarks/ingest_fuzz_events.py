@@ -6,10 +6,10 @@ Each input is an invented test of a linear specimen, of which modulus, strength 
 instant are known: one file or machine and camera, with random rates, units, noise and clocks.
 Up to three events happen to it: a break or none, cycles, an extensometer that is taken off, stands
 still or slides back, a strain record that ends early, a load cell with the wrong sign, a part in
-compression before the pull, slack, a unit that is wrong by a thousand, the same data in another
-file. A test may be refused. A failure is an exception other than InputError, or a curve whose
-strength, modulus or strain at the largest force is not the truth (a strain that is empty is
-allowed: it is not assessed).
+compression before the pull, slack, a unit that is wrong by a thousand, a channel that is away for
+some readings, the same data in another file. A test may be refused. A failure is an exception other
+than InputError, or a curve whose strength, modulus or strain at the largest force is not the truth (a
+strain that is empty is allowed: it is not assessed).
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ from nptcs.tables.specimens import Specimen
 ROOT = Path(__file__).resolve().parents[1]
 EVENTS = (
     "cycles", "taken off", "stands still", "slides back", "ends early", "reversed cell",
-    "compression first", "slack", "wrong unit", "machine stops",
+    "compression first", "slack", "wrong unit", "machine stops", "away",
 )  # fmt: skip
 FORCE_UNITS = {"N": 1.0, "kN": 1e-3, "lbf": 1 / 4.4482216152605, "kgf": 1 / 9.80665}
 STRAIN_UNITS = {"mm/mm": 1.0, "%": 100.0, "µm/m": 1e6}
@@ -111,7 +111,17 @@ def record(truth: Truth, random: np.random.Generator) -> tuple[Array, Array]:
             "slides back": strain[at] - 0.6 * (truth.strain - truth.strain[at]),
         }[lost[0]]
         strain = np.where(after, rest, strain)
+    if "away" in truth.events:
+        _away(truth, random, force, strain)
     return force, strain
+
+
+def _away(truth: Truth, random: np.random.Generator, force: Array, strain: Array) -> None:
+    """Let one channel read something else for two to six readings of the last loading."""
+    begin = int(random.uniform(0.3, 0.95) * truth.peak)
+    rows = slice(begin, begin + int(random.integers(2, 7)))
+    channel = force if random.random() < 0.5 else strain
+    channel[rows] = random.choice([0.0, -0.3, 3.0]) * np.abs(channel[: truth.peak]).max()
 
 
 def write(

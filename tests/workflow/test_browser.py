@@ -19,9 +19,11 @@ QUIET = [
     "--virtual-time-budget=10000",
 ]
 TELL = """<script>addEventListener("load", () => {
-  const broken = [...document.images].filter((i) => !i.complete || !i.naturalWidth).length;
+  const figures = [...document.querySelectorAll(".plot svg")];
+  const drawn = (svg) => svg.getBoundingClientRect().height > 50 && svg.querySelector("path");
+  const broken = figures.filter((svg) => !drawn(svg)).length;
   const root = document.documentElement;
-  const found = [innerWidth, root.scrollWidth, broken, document.images.length];
+  const found = [innerWidth, root.scrollWidth, broken, figures.length];
   parent.postMessage(found.join(" "), "*");
 });</script>"""
 FRAME = """<!doctype html><iframe src="report.html" style="width:{width}px;height:800px;border:0">

@@ -137,7 +137,7 @@ def test_a_deleted_table_comes_back_and_nothing_is_solved(project):
     project.path("results/tables/impact.csv").unlink()
     plan = project.planned()
     assert plan["sensitivity"] == 1
-    assert not {"ingest", "design", "solve", "surface"} & set(plan)
+    assert not [n for n in plan if n.startswith(("ingest_", "design", "solve", "surface"))]
     assert project.snakemake().returncode == 0
     assert project.path("results/tables/impact.csv").read_bytes() == before
 

@@ -181,8 +181,9 @@ def batches_of(study_name, solver_name):
 
 def solved_in_bulk(study_name, solver_name):
     """Whether a solver solves the cases of a study as a table: no record of each, no curves."""
+    cases = CONFIG.study(study_name).number_of_cases()
     able = solver_of(study_name, solver_name).solves_tables
-    return able and CONFIG.campaign.in_tables(CONFIG.study(study_name))
+    return able and cases >= CONFIG.campaign.bulk_from
 
 
 def batches(study_name, solver_name=None):

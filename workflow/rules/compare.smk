@@ -1,8 +1,11 @@
 # Computed results compared with the paper: section 4.3.1, tables 5, 7, 10 and 11, figures 14, 15.
+from nptcs.compare.conditions import plate_faults
 from nptcs.tables.solver_names import PUBLISHED
 
 COMPARED_STUDIES = [
-    study.name for study in CONFIG.studies if PUBLISHED in study.solvers
+    study.name
+    for study in CONFIG.studies
+    if PUBLISHED in study.solvers and not plate_faults(study)
 ]
 LINE_STUDIES = [study.name for study in CONFIG.studies if study.neutral_line_cases]
 PUBLISHED_SPOKES = {
@@ -116,3 +119,21 @@ rule lca_validation:
         },
     script:
         "../scripts/lca_validation.py"
+
+
+rule displacement_by_load:
+    input:
+        cases="results/tables/cases.csv",
+        curves="results/tables/tyre_curves.csv",
+        validation="results/tables/lca_validation.csv",
+    output:
+        table="results/tables/displacement_by_load.csv",
+    log:
+        "results/logs/displacement_by_load.log",
+    params:
+        job={
+            "shear_band_c10_mpa": CONFIG.lca_validation.shear_band_c10_mpa,
+            "code": code_of("displacement_by_load"),
+        },
+    script:
+        "../scripts/displacement_by_load.py"

@@ -1,25 +1,35 @@
 # Raw files → one tidy curve per specimen, and an account of every file in the folder.
 from nptcs.ingest.folder import find_file, raw_files
 
+INGEST_BATCH = (
+    20  # Snakemake keeps the parameters of a job once for each of its outputs
+)
 
-def files_of_specimen(wildcards):
+
+def files_of_specimen(specimen):
     """The specimen's files that exist; a missing one is an error of that specimen alone."""
     found = []
-    for name in SPECIMEN[wildcards.specimen].files:
+    for name in specimen.files:
         try:
             found.append(str(find_file(SHEET.parent, name)))
         except InputError:
             continue
-    return [ancient(path) for path in found]
+    return found
+
+
+def files_of_batch(specimens):
+    return [ancient(path) for one in specimens for path in files_of_specimen(one)]
 
 
 LAB_FILES = [str(path) for path in raw_files(SHEET.parent).values() if path != SHEET]
 
 
-def ingest_job(wildcards):
+def ingest_job(specimens):
     return {
-        "specimen": plain(SPECIMEN[wildcards.specimen]),
-        "files": contents(files_of_specimen(wildcards)),
+        "specimens": [
+            {"specimen": plain(one), "files": contents(files_of_specimen(one))}
+            for one in specimens
+        ],
         "folder": str(SHEET.parent),
         "formats": CONFIG.lab_data.formats,
         "profiles": FACTS.profiles,  # what they say, not their comments or dates
@@ -28,18 +38,26 @@ def ingest_job(wildcards):
     }
 
 
-rule ingest:
-    input:
-        files_of_specimen,
-    output:
-        curve="results/1_ingest/{specimen}.csv",
-        record="results/1_ingest/{specimen}.json",
-    log:
-        "results/logs/ingest/{specimen}.log",
-    params:
-        job=ingest_job,
-    script:
-        "../scripts/ingest.py"
+# a rule for each batch, because the outputs of a rule cannot depend on what a wildcard stands for
+for series in SERIES:
+    for begin in range(0, len(specimens_of_series(series)), INGEST_BATCH):
+        batch = specimens_of_series(series)[begin : begin + INGEST_BATCH]
+
+        rule:
+            name:
+                f"ingest_{series}_{begin // INGEST_BATCH + 1}"
+            input:
+                lambda wildcards, batch=batch: files_of_batch(batch),
+            output:
+                # not removed before the job: what nothing changed for is left as it is
+                curves=update(curves(batch)),
+                records=update(records(batch)),
+            log:
+                f"results/logs/ingest/{series}_{begin // INGEST_BATCH + 1}.log",
+            params:
+                job=lambda wildcards, batch=batch: ingest_job(batch),
+            script:
+                "../scripts/ingest.py"
 
 
 rule account:

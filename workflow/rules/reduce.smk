@@ -31,6 +31,7 @@ rule statistics:
         records=records(SPECIMENS),
     output:
         specimens="results/tables/specimens.csv",
+        flags="results/tables/flags.csv",
         statistics=report(
             "results/tables/statistics.csv",
             caption="../report/statistics.rst",

@@ -1,6 +1,8 @@
 # All results → the list of problems, the report and the workbook, and the verdict on the run.
 from importlib.resources import files as package_files
 
+from nptcs.language import catalogue_digest
+
 
 def solver_facts():
     """What the report says about each solver: what it is, and what it is given.
@@ -16,6 +18,7 @@ def solver_facts():
             "needs_ply": solver.needs_ply,
             "loads_tyre": solver.loads_tyre,
             "choices": facts.get(name, {}).get("choices", []),
+            "whole_plates": solver.whole_plates,
         }
         chosen = solver.choices
         if chosen and chosen not in facts[name]["choices"]:
@@ -27,6 +30,7 @@ def configured_inputs():
     """Input files that the configuration names; raw laboratory files are listed in files.csv."""
     formats = sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
     paths = [str(SHEET), *map(str, formats), *CONFIG.published_inputs()]
+    paths += CONFIG.page_inputs()
     for study in CONFIG.studies:
         for name in study.solvers:
             paths += solver_of(study.name, name).tables().values()
@@ -66,14 +70,52 @@ rule problems:
         "../scripts/problems.py"
 
 
+# what the identity of a run does not depend on: how its numbers are shown
+PAGES = ("configuration", "identity", "report", "verdict")
+
+
+def code_of_tables():
+    """Hash of the code that made the tables: every rule's script but those of pages, and solvers."""
+    solvers = {
+        module_of(name, options)
+        for study in CONFIG.studies
+        for name, options in CONFIG.solver_options(study).items()
+    }
+    scripts = sorted(path for path in SCRIPTS.glob("*.py") if path.stem not in PAGES)
+    return FACTS.code_of(*map(str, scripts), *sorted(solvers))
+
+
+rule identity:
+    input:
+        tables=TABLES,
+        card="results/material_card.json",
+        inputs=[ancient(path) for path in configured_inputs()],
+    output:
+        identity="results/identity.json",
+    log:
+        "results/logs/identity.log",
+    params:
+        job={
+            "config": plain(CONFIG),
+            "inputs": contents(configured_inputs()),
+            "code_of_tables": code_of_tables(),
+            "folder": SHEET.parent.as_posix(),
+            "code": code_of("identity"),
+        },
+    script:
+        "../scripts/identity.py"
+
+
 rule report:
     input:
         tables=TABLES,
+        identity="results/identity.json",
         card="results/material_card.json",
         curves=curves(SPECIMENS),
         records=records(SPECIMENS),
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+        models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
         inputs=[ancient(path) for path in configured_inputs()],
     output:
         page=report(
@@ -96,11 +138,13 @@ rule report:
             "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
+                for folder in ("templates", "explorer/assets")
                 for template in sorted(
-                    Path(str(package_files("nptcs.report") / "templates")).iterdir()
+                    Path(str(package_files("nptcs.report") / folder)).iterdir()
                 )
             },
             "inputs": contents(configured_inputs()),
+            "language": catalogue_digest(CONFIG.laboratory.language),
             "code": code_of("report", words=True),
         },
     script:

@@ -1,11 +1,15 @@
 # Solved cases → response surfaces → average gradients and comprehensive impact values.
 
+from nptcs.compare.conditions import surface_faults
+
 
 FITTED = (
     "name",
     "title",
     "factors",
+    "fixed",
     "solvers",
+    "solver_options",
     "terms",
     "least_cases",
     "surfaces",
@@ -120,6 +124,9 @@ rule sensitivity:
             "rules": list(CONFIG.sensitivity.rules),
             "near_tie_ratio": CONFIG.sensitivity.near_tie_ratio,
             "published": contents(PUBLISHED_IMPACT),
+            "refused": [
+                study.name for study in CONFIG.studies if surface_faults(study)
+            ],
             "code": code_of("sensitivity"),
         },
     script:
@@ -160,14 +167,14 @@ rule sobol:
         "../scripts/sobol.py"
 
 
-rule coverage:
+rule case_coverage:
     input:
         cases="results/tables/cases.csv",
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
     output:
         coverage="results/tables/case_coverage.csv",
     log:
-        "results/logs/coverage.log",
+        "results/logs/case_coverage.log",
     params:
         job={
             "studies": {
@@ -179,7 +186,7 @@ rule coverage:
                 }
                 for study in CONFIG.studies
             },
-            "code": code_of("coverage"),
+            "code": code_of("case_coverage"),
         },
     script:
-        "../scripts/coverage.py"
+        "../scripts/case_coverage.py"

@@ -8,7 +8,7 @@ from nptcs.report.data import read_results
 from nptcs.report.html import render_report
 from nptcs.report.plots import kept_figures
 from nptcs.report.stale import stale_name
-from nptcs.report.workbook import build_workbook
+from nptcs.report.workbook.build import build_workbook
 
 
 def report(job: dict[str, Any], page: str, workbook: str, **files: Any) -> None:

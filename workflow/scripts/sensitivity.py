@@ -19,7 +19,8 @@ def assess(job: dict[str, Any], impact: str, **files: Any) -> None:
     designs = {Path(file).stem: read_table(file, Design) for file in files["designs"]}
     qualities = read_tables(files["quality_parts"], SurfaceQuality)
     computed = impact_table(surfaces, designs, qualities, job["rules"], job["near_tie_ratio"])
-    compared = with_published(computed, read_tables(files["published"], PublishedImpact))
+    published = read_tables(files["published"], PublishedImpact)
+    compared = with_published(computed, published, job["refused"])
     write_table(impact, compared, Impact)
     for name, contract in JOINED.items():
         write_table(files[name], read_tables(files[f"{name}_parts"], contract), contract)

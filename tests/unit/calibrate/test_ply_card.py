@@ -206,6 +206,26 @@ def test_a_constant_rests_on_sensors_alone_where_there_are_some(
     assert not any("rests on crosshead" in check for check in card.checks)
 
 
+def test_a_constant_of_two_tests_takes_no_travel_of_one_next_to_sensors_of_the_other(
+    properties: pd.DataFrame, make_ply: Make, sheet: list[Any]
+) -> None:
+    """Each test by itself is consistent: the mixture is in the constant's source."""
+    pressed = rows(
+        names("C0"), [value / 3 for value in E1], property="modulus", test="compression",
+        orientation_deg=0.0, flags="crosshead strain: x",
+    )  # fmt: skip
+    both = ConstantSource(property="modulus", tests=("tension", "compression"), orientation_deg=0.0)
+    settings = CalibrationSettings(ply=PlySettings(e1_mpa=both))
+    table = pd.concat([properties, pressed], ignore_index=True)
+    card = calibrate_ply(table, sheet + [make_ply(n, "compression", 0.0) for n in names("C0")],
+                         settings)  # fmt: skip
+    assert card.constants["e1_mpa"].value == pytest.approx(np.mean(E1))
+    assert card.constants["e1_mpa"].specimens == tuple(names("T0"))
+    (said,) = [check for check in card.checks if "e1_mpa: left out" in check]
+    assert "crosshead strain" in said
+    assert "C0-1" in said
+
+
 def test_measured_nu21_is_compared_with_reciprocity(
     properties: pd.DataFrame, sheet: list[Any]
 ) -> None:

@@ -46,7 +46,7 @@ def test_a_sound_study_has_no_faults(archive):
     refuse_faults([])
 
 
-LEVELS = [float(level) for level in range(1, 201)]
+LEVELS = [level / 10 for level in range(1, 201)]
 FACTORS = [
     {"name": name, "label": "", "unit": "", "levels": LEVELS}
     for name in ("spacing_mm", "thickness_mm", "angle_deg")

@@ -13,12 +13,20 @@ FIVE = "case,spacing_mm,thickness_mm,angle_deg,stiffness_n_per_mm\n32,15,1.8,45,
 @pytest.mark.parametrize(
     ("words", "named"),
     [
-        (["--spacing", "4"], "'spacing_mm': plates 5 mm wide overlap"),
-        (["--spoke-c10", "-1"], "'spoke_c10_mpa': must be positive"),
-        (["--band-c10", "0"], "'shear_band_c10_mpa': must be positive"),
+        (["--spacing", "4"], "'--spacing': plates 5 mm wide overlap"),
+        (["--spoke-c10", "-1"], "--spoke-c10: must be above 0 and at most 1000 MPa, got -1"),
+        (["--band-c10", "0"], "--band-c10: must be above 0 and at most 1000 MPa, got 0"),
+        (["--angle", "300"], "--angle: must be between -90 and 90 degrees, got 300"),
+        (["--thickness", "-1.8"], "--thickness: must be above 0 and at most 20 mm, got -1.8"),
+        (["--load", "5e6"], "--load: must be between 1 and 100000 N, got 5e+06"),
+        (["--load", "5 kN"], "--load: must be a number between 1 and 100000 N, got '5 kN'"),
+        (["--spoke-c10", "rubber_1"], "--spoke-c10: the card has no such rubber"),
+        (["--ply", "cfrp"], "--ply names a ply of a material card, but the published ply is used"),
+        (["--card", "gone.json"], "--card: the file gone.json does not exist"),
     ],
 )
-def test_a_design_without_meaning_is_one_line(tmp_path, capsys, words, named):
+def test_a_design_without_meaning_is_one_line(tmp_path, capsys, monkeypatch, words, named):
+    monkeypatch.chdir(tmp_path)
     assert main(["fe-picture", str(tmp_path / "x.png"), *words]) == 2
     assert named in capsys.readouterr().err
     assert not list(tmp_path.iterdir())

@@ -2,6 +2,7 @@ import argparse
 import json
 from pathlib import Path
 
+import matplotlib as mpl
 import pytest
 import yaml
 from matplotlib.figure import Figure
@@ -36,6 +37,23 @@ def design(tmp_path):
     path = tmp_path / "design.csv"
     path.write_text("case_id,spacing_mm,thickness_mm,angle_deg\nplate_001,15,1.8,45\n")
     return path
+
+
+def test_the_deck_takes_the_only_ply_of_the_card_and_says_which(tmp_path, card, design, capsys):
+    out = tmp_path / "spoke.inp"
+    words = ["deck", design, "plate_001", "-o", out, "--card", card, "--spoke-c10", 2.5]
+    arguments = parse(deck, *words)
+    assert arguments.run(arguments) == 0
+    said = capsys.readouterr().out
+    assert f"materials: ply cfrp of {card} (0 of 9 constants measured)" in said
+
+
+def test_a_value_of_the_design_table_out_of_range_is_refused(tmp_path, card, design):
+    design.write_text("case_id,spacing_mm,thickness_mm,angle_deg\nplate_001,15,1.8,450\n")
+    words = ["deck", design, "plate_001", "-o", tmp_path / "x.inp", "--card", card]
+    arguments = parse(deck, *words, "--spoke-c10", 2.5)
+    with pytest.raises(InputError, match="column 'angle_deg': must be between -90 and 90 degrees"):
+        arguments.run(arguments)
 
 
 def test_deck_of_a_case(tmp_path, card, design, capsys):
@@ -76,6 +94,7 @@ def test_abaqus_deck_needs_the_bands_rubber(tmp_path, card, design):
 
 
 def test_deck_refuses_a_configuration_that_is_none(tmp_path, card, design):
+    (tmp_path / "none.yaml").write_text("studies: [")
     words = ["deck", design, "plate_001", "-o", tmp_path / "x.inp", "--card", card]
     arguments = parse(deck, *words, "--ply", "cfrp", "--config", tmp_path / "none.yaml")
     with pytest.raises(InputError, match="is not a YAML file"):
@@ -121,7 +140,7 @@ def test_calibration_reads_its_targets(tables):
 def test_calibration_refuses_more_than_five_cases_and_unknown_ones(tables):
     with pytest.raises(InputError, match="at most five"):
         fe_calibrate.build_problem(
-            parse(fe_calibrate, "fe-calibrate", *tables, "--cases", *range(6))
+            parse(fe_calibrate, "fe-calibrate", *tables, "--cases", *range(1, 7))
         )
     with pytest.raises(InputError, match="does not have these rows"):
         fe_calibrate.build_problem(parse(fe_calibrate, "fe-calibrate", *tables, "--cases", 33))
@@ -142,3 +161,41 @@ def test_the_picture_of_a_spoke_is_of_the_design_that_was_asked_for(tmp_path, mo
     assert (drawn[0].plates, drawn[0].angle_deg, drawn[0].c10_mpa) == (11, 30.0, 2.0)
     assert drawn[0].thickness_mm == 1.8
     assert "<svg" in out.read_text()
+
+
+def test_the_picture_takes_the_card_of_the_last_run_and_its_rubbers(
+    tmp_path, monkeypatch, card, capsys
+):
+    drawn = []
+
+    def draw(model):
+        drawn.append(model.design)
+        return Figure()
+
+    monkeypatch.setattr("nptcs.fe.output.spoke_picture.spoke_figure", draw)
+    monkeypatch.chdir(tmp_path)
+    content = json.loads(card.read_text())
+    content["plies"]["cfrp"]["constants"]["e1_mpa"] |= {"value": 111000.0, "origin": "measured"}
+    content["rubbers"]["soft"] = {
+        "name": "soft",
+        "synthetic": True,
+        "constants": {
+            "c10_mpa": {"value": 0.7, "unit": "MPa", "origin": "measured", "rule": "fit"}
+        },
+        "strain_range": [0.0, 0.15],
+    }
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results/material_card.json").write_text(json.dumps(content))
+
+    with mpl.rc_context({"svg.fonttype": "none"}):
+        arguments = parse(fe_picture, "fe-picture", "a.svg", "--spoke", "--spoke-c10", "soft")
+        assert arguments.run(arguments) == 0
+    assert (drawn[0].ply["e1_mpa"], drawn[0].c10_mpa) == (111000.0, 0.7)
+    said = "ply cfrp of results/material_card.json (1 of 9 constants measured)"
+    assert said in capsys.readouterr().out
+    assert said in Path("a.svg").read_text()
+
+    arguments = parse(fe_picture, "fe-picture", "b.svg", "--spoke", "--card", "published")
+    assert arguments.run(arguments) == 0
+    assert drawn[1].ply == PUBLISHED_PLY
+    assert "materials: table 2 of the paper\n" in capsys.readouterr().out

@@ -1,8 +1,9 @@
 """Follow a how-to page: write its files, apply its edits, run its commands, compare the output.
 
 A fenced block with a file name after the language is that file's content; ``diff FILE`` edits a
-file; ``sh`` runs commands, of which a comment ``# exit code N`` states the exit code; ``text``
-without a file name quotes lines that the last commands printed.
+file; ``sh`` runs commands, of which a comment ``# exit code N`` states the exit code, and words
+after the language keep them from being run; ``text`` without a file name quotes lines that the last
+commands printed.
 """
 
 from __future__ import annotations
@@ -21,6 +22,8 @@ PROGRAMS = {
     "snakemake": [sys.executable, "-m", "snakemake"],
     "python": [sys.executable],
     "cat": ["cat"],
+    "cp": ["cp"],
+    "mkdir": ["mkdir"],
 }
 
 
@@ -30,6 +33,8 @@ def follow(page: Path, tree: Path) -> None:
     blocks = BLOCK.findall(page.read_text(encoding="utf-8"))
     assert blocks, f"{page} has no fenced blocks"
     for language, file, content in blocks:
+        if language == "sh" and file:
+            continue  # words after the language say what the block needs that is not here
         if language == "sh":
             printed = run_commands(content, tree)
         elif language == "diff":
@@ -70,7 +75,8 @@ def run_commands(lines: str, tree: Path) -> str:
     printed = ""
     for line in lines.replace("\\\n", " ").splitlines():
         code = EXIT_CODE.search(line)
-        program, *arguments = shlex.split(line, comments=True)
+        program, *words = shlex.split(line, comments=True)
+        arguments = [name for word in words for name in expand(word, tree)]
         done = subprocess.run(
             [*PROGRAMS[program], *arguments],
             cwd=tree,
@@ -83,3 +89,11 @@ def run_commands(lines: str, tree: Path) -> str:
         expected = int(code.group(1)) if code else 0
         assert done.returncode == expected, f"{line}: exit code {done.returncode}\n{printed}"
     return printed
+
+
+def expand(word: str, tree: Path) -> list[str]:
+    """Return the files that a word with wildcards stands for, as a shell does, or the word."""
+    if not set("*[") & set(word) or "=" in word:
+        return [word]
+    found = sorted(str(file.relative_to(tree)) for file in tree.glob(word))
+    return found or [word]

@@ -1,4 +1,4 @@
-"""Each how-to page works when it is followed to the letter, in a copy of the project."""
+"""The tutorial and each how-to page work when followed to the letter, in a copy of the project."""
 
 import importlib.util
 import shutil
@@ -7,7 +7,13 @@ from pathlib import Path
 import pytest
 
 ROOT = Path(__file__).parents[3]
-HOW_TO = ROOT / "docs" / "how-to"
+DOCS = ROOT / "docs"
+SAYS_SO = "is run by `tests/unit/docs/test_how_to.py`"
+PAGES = [
+    page
+    for page in sorted(DOCS.rglob("*.md"))
+    if SAYS_SO in " ".join(page.read_text("utf-8").split())
+]
 
 
 def load_pages():
@@ -30,6 +36,10 @@ def tree(tmp_path):
     return tmp_path
 
 
-@pytest.mark.parametrize("page", sorted(HOW_TO.glob("add-*.md")), ids=lambda page: page.stem)
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
 def test_the_page_can_be_followed(page, tree):
     pages.follow(page, tree)
+
+
+def test_pages_that_say_so_are_followed():
+    assert {"tutorial", "add-a-factor", "add-a-result-table"} <= {page.stem for page in PAGES}

@@ -8,19 +8,23 @@ import grimp
 ROOT = Path(__file__).parents[3]
 ROW = re.compile(r"^\| (`[^|]*`) \|[^|]*\|([^|]*)\|$", re.MULTILINE)
 EVERYWHERE = {
+    "arguments",
     "arrays",
     "bending",
     "console",
     "errors",
     "files",
+    "language",
     "laminate",
     "likelihood",
     "loading",
     "mechanical_tests",
     "provenance",
+    "ranges",
     "seal",
     "spoke_features",
     "terms",
+    "text_table",
     "threads",
     "yaml_files",
 }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import os
 import shutil
 import zipfile
 
@@ -14,6 +15,7 @@ from nptcs.config.ingest import FileLimits, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
 from nptcs.ingest.account import account_for_files
+from nptcs.ingest.file_names import proposed_test
 from nptcs.ingest.inspect import inspect_file
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.ingest.reading.raw_file import read_raw
@@ -274,3 +276,32 @@ def test_nothing_behind_a_link_out_of_the_folder_is_looked_at(lab, profiles, tmp
     table, proposal = proposed(folder, profiles)
     assert table["force_file"].tolist() == ["T1.csv"]
     assert proposal.left == {}
+
+
+@pytest.mark.parametrize("kind", ["pipe", "device"])
+def test_a_pipe_or_a_device_is_refused_and_not_waited_for(profiles, tmp_path, kind):
+    path = tmp_path / "a.csv"
+    if kind == "pipe":
+        os.mkfifo(path)
+    else:
+        path.symlink_to("/dev/zero")
+    with pytest.raises(InputError, match="not a file"):
+        read_raw(path, profiles)
+
+
+@pytest.mark.parametrize(
+    ("name", "test"),
+    [
+        ("Zug_90grad_1.csv", "tension"), ("Druck_0grad_1.csv", "compression"),
+        ("Biegung_1.csv", "flexure"), ("CLC/P_2.csv", "compression"), ("3PB-4.csv", "flexure"),
+        ("Gummi Druck 2.csv", "rubber_compression"), ("Ausdruck_1.csv", ""),
+    ],
+)  # fmt: skip
+def test_short_words_of_a_name_propose_the_test(name, test):
+    assert proposed_test(name, []) == test
+
+
+def test_the_lock_of_an_open_document_is_no_data(lab, profiles, tmp_path):
+    lab.write(tmp_path / "a.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": 100 * STRAIN})
+    shutil.copy(tmp_path / "a.csv", tmp_path / "~$a.csv")
+    assert [row["force_file"] for row in propose_sheet(tmp_path, profiles).rows] == ["a.csv"]

@@ -1,10 +1,13 @@
 """The command ``nptcs lca`` and the table behind it."""
 
+import json
+
 import numpy as np
 import pandas as pd
 import pytest
 
 from nptcs.cli import main
+from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.design_table import solve_table
 
@@ -39,6 +42,36 @@ def test_a_table_in_and_the_same_rows_out(tmp_path, capsys):
     assert "columns copied to the output but not used: name" in said.err
 
 
+def test_a_person_reads_a_table_with_units_and_reasons(tmp_path, capsys):
+    table = write(tmp_path / "in.csv", "a,5,30.2,13.26,5000", "b,5,,13.26,5000")
+    assert main(["lca", table]) == 1
+    lines = capsys.readouterr().out.splitlines()
+    assert lines[0].split()[:3] == ["row", "name", "tension"]
+    assert "(N/mm)" in lines[1]
+    assert lines[3].split() == ["1", "a", "30.2", "20.741", "241.06", "4.5691", "0.47984", "ok"]
+    assert lines[-2] == "row 2: tension_n_per_mm must be a finite number above zero, got nothing"
+    assert lines[-1] == "1 ok, 1 bad_input"
+
+
+def test_a_program_reads_json_with_all_digits(tmp_path, capsys):
+    table = write(tmp_path / "in.csv", "a,5,30.2,13.26,5000", "b,5,,13.26,5000")
+    assert main(["lca", table, "--json"]) == 1
+    rows = json.loads(capsys.readouterr().out)
+    solved = solve_table(pd.read_csv(table), TyreGeometry())
+    assert rows[0]["displacement_mm"] == pytest.approx(solved["displacement_mm"][0], rel=1e-14)
+    assert rows[1]["displacement_mm"] is None
+    assert rows[1]["status"] == "bad_input"
+
+
+def test_a_long_table_is_cut_on_the_screen(tmp_path, capsys):
+    rows = [f"d{number},5,30.2,13.26,{3000 + 10 * number}" for number in range(60)]
+    assert main(["lca", write(tmp_path / "in.csv", *rows)]) == 0
+    printed = capsys.readouterr().out
+    assert "… and 10 further rows; -o OUT.csv writes all" in printed
+    assert "d49" in printed
+    assert "d50" not in printed
+
+
 def test_all_rows_right_is_exit_code_zero(tmp_path):
     table = write(tmp_path / "in.csv", "a,5,30.2,13.26,5000")
     assert main(["lca", table, "-o", str(tmp_path / "out.csv")]) == 0
@@ -55,8 +88,11 @@ def test_drawing(tmp_path, suffix):
 @pytest.mark.parametrize(
     ("arguments", "text"),
     [
-        ([], "nothing to write"),
-        (["--plot", "ring.gif"], "unknown kind of figure"),
+        (["--plot", "ring.gif"], "the name must end in .png, .svg or .pdf, got 'ring.gif'"),
+        (["-o", "gone/out.csv"], "the folder gone does not exist"),
+        (["-o", "out.xlsx"], "the name must end in .csv"),
+        (["--row", "0"], "--row: must be at least 1, got 0"),
+        (["--section", "round"], "invalid choice: 'round'"),
         (["--plot", "ring.svg", "--row", "3"], "the table has 1 rows"),
     ],
 )

@@ -8,7 +8,7 @@ import pytest
 
 from nptcs.provenance import imported_modules
 
-DATA = ["nptcs.report.data", "nptcs.report.tables.sheets", "nptcs.report.workbook"]
+DATA = ["nptcs.report.data", "nptcs.report.tables.sheets", "nptcs.report.workbook.build"]
 
 
 @pytest.mark.parametrize("module", DATA)

@@ -1,6 +1,7 @@
 """A row of the catalogue is all that the report and the workbook need of a new result table."""
 
 import io
+from datetime import UTC, datetime
 
 import openpyxl
 import pandas as pd
@@ -13,7 +14,8 @@ from nptcs.report.data import read_results
 from nptcs.report.html import render_report
 from nptcs.report.sections import plan
 from nptcs.report.tables.sheets import sheets_of
-from nptcs.report.workbook import build_workbook
+from nptcs.report.workbook.build import build_workbook
+from nptcs.runs.identity import identify
 from nptcs.surface.stored import dump
 from nptcs.tables.catalogue import TABLES, result_files
 from nptcs.tables.io import write_table
@@ -83,7 +85,10 @@ def written(results, tmp_path):
     for name, curve in results.curves.items():
         curve.to_csv(tmp_path / f"{name}.csv", index=False)
         files.setdefault("curves", []).append(tmp_path / f"{name}.csv")
-    return {**files, "card": tmp_path / "card.json", "inputs": []}
+    identity = identify({}, {}, "c0de", {}, {}, datetime(2026, 11, 26, tzinfo=UTC))
+    write_model(tmp_path / "identity.json", identity)
+    known = {"card": tmp_path / "card.json", "identity": tmp_path / "identity.json"}
+    return {**files, **known, "models": [], "inputs": []}
 
 
 @pytest.fixture

@@ -6,12 +6,15 @@ from types import SimpleNamespace
 from typing import get_args
 
 import pytest
-from jinja2 import Environment, PackageLoader, StrictUndefined, UndefinedError
+from jinja2 import PackageLoader, UndefinedError
 
 from nptcs.report.blocks import (
     BlockMacro,
     Facts,
+    Finding,
+    Findings,
     Folded,
+    Interactive,
     Listing,
     PageBlock,
     ParagraphKind,
@@ -20,6 +23,8 @@ from nptcs.report.blocks import (
     Text,
     macro_of,
 )
+from nptcs.report.html import page_environment
+from nptcs.tables.result_table import ReportSection
 
 TEMPLATES = resources.files("nptcs.report") / "templates"
 ENTRY = SimpleNamespace(file="a.csv", rule="r", source="s")
@@ -30,18 +35,20 @@ BLOCKS = [
     Listing("words of the block", ()),
     Facts("words of the block", ()),
     Folded("words of the block", ""),
+    Interactive("<p>words of the block</p>"),
+    Findings((Finding("q", "a", "words of the block", "a.csv", ReportSection.CASES),)),
 ]
 
 
 def written(block, macro_name=macro_of):
     """Write one block as the page does."""
+    environment = page_environment()
     loader = PackageLoader("nptcs.report")
-    environment = Environment(loader=loader, autoescape=True, undefined=StrictUndefined)
-    template = environment.get_template("report.html.j2")
-    source = loader.get_source(environment, template.name)[0]
-    macros = source[source.index("{% macro badge") : source.index("<header>")]
+    source = loader.get_source(environment, "report.html.j2")[0]
+    macros = source[source.index("{% macro badge") : source.index("{% macro links")]
+    environment.globals["macro_of"] = macro_name
     page = environment.from_string(macros + "{{ block(view) }}")
-    return page.render(view=block, macro_of=macro_name)
+    return page.render(view=block)
 
 
 def test_each_kind_of_block_is_tried_here_and_has_a_macro_of_its_own():

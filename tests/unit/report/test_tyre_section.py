@@ -176,9 +176,9 @@ def test_the_fiducial_case_alone_is_compared_with_the_paper(solved):
 
 
 def test_figures_show_their_data(solved):
-    figure = load_displacement(solved.table(TyreCurves), "plate")
-    labels = [text.get_text() for text in figure.axes[0].get_legend().get_texts()]
-    assert labels == ["plate_032, 265 N/mm at the end", "plate_001, 300 N/mm at the end"]
+    figure = load_displacement(solved.table(TyreCurves), solved.table(Cases).iloc[:0], "plate")
+    labels = [text.get_text() for text in figure.legends[0].get_texts()]
+    assert labels == ["plate_001: 300 N/mm", "plate_032: 265 N/mm"]
     stress = solved.table(PlateStress)
     faces = plate_faces(stress[stress["case_id"] == "plate_032"], "plate_032")
     drawn = np.concatenate([line.get_ydata() for line in faces.axes[0].get_lines()])

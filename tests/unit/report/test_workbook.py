@@ -2,16 +2,23 @@
 
 import io
 import math
+from dataclasses import replace
+from datetime import UTC, datetime
 
 import numpy as np
 import openpyxl
 import pandas as pd
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 from nptcs.report.tables.dictionary import dictionary_table
 from nptcs.report.tables.entries import design_entry, result_entry
 from nptcs.report.tables.sheets import Sheet, sheets_of
-from nptcs.report.workbook import build_workbook
+from nptcs.report.workbook.build import build_workbook
+from nptcs.report.workbook.chart_data import charts_of
+from nptcs.report.workbook.number_formats import format_of_column, format_of_number, shown_number
+from nptcs.runs.identity import identify
 from nptcs.tables.catalogue import TABLES
 
 
@@ -25,16 +32,29 @@ def workbook(content):
     return openpyxl.load_workbook(io.BytesIO(content))
 
 
-def test_the_first_sheet_says_what_each_sheet_is(workbook):
-    about = workbook.worksheets[0]
-    assert about.title == "About"
-    listed = {row[0].value for row in about.iter_rows() if row[5].value}
-    assert set(workbook.sheetnames) - {"About", "columns"} <= listed
-    assert "No problems" in about["A3"].value
+def test_the_first_sheet_answers_and_says_what_each_sheet_is(workbook):
+    summary = workbook.worksheets[0]
+    assert summary.title == "Summary"
+    links = {row[0].value: row[0].hyperlink for row in summary.iter_rows() if row[0].hyperlink}
+    assert set(workbook.sheetnames) - {"Summary"} <= set(links)
+    assert links["cases"].location == "'cases'!A1"
+    assert "No problems" in summary["A3"].value
+    answers = {row[0].value: row[1].value for row in summary.iter_rows()}
+    assert answers["Origin of the data"].startswith("3 of 3 specimens are SYNTHETIC")
+    assert "How stiff is the tyre?" in answers
+
+
+def test_raw_points_are_a_file_beside_the_workbook(workbook):
+    assert "lca_neutral_line" not in workbook.sheetnames
+    row = next(row for row in workbook["Summary"].iter_rows() if row[0].value == "lca_neutral_line")
+    assert row[0].hyperlink.target == "tables/lca_neutral_line.csv"
+    assert "the CSV file tables/lca_neutral_line.csv beside this one" in row[1].value
 
 
 def test_every_number_is_native_and_whole(workbook, results):
     for name, sheet in sheets_of(results).items():
+        if not sheet.in_workbook:
+            continue
         rows = list(workbook[name[:31]].iter_rows(min_row=2, values_only=True))
         assert len(rows) == len(sheet.table)
         for written, record in zip(rows, sheet.table.itertuples(index=False), strict=True):
@@ -76,11 +96,11 @@ def test_problems_are_coloured(faulty):
     assert fills
     assert len(set(colours)) == 2
     assert colours[0] != colours[1] == colours[2]
-    assert "2 problems" in workbook["About"]["A3"].value
+    assert "2 problems" in workbook["Summary"]["A3"].value
 
 
 def test_synthetic_sheets_are_marked(workbook):
-    about = {row[0].value: row[3].value for row in workbook["About"].iter_rows()}
+    about = {row[0].value: row[3].value for row in workbook["Summary"].iter_rows()}
     assert about["ply_constants"] == "yes"
     assert about["surface_plate"] == "no"
     header = {name: workbook[name]["A1"].fill.start_color.rgb for name in about if name in workbook}
@@ -108,3 +128,93 @@ def test_a_study_named_as_a_table_does_not_get_its_meanings():
         [Sheet(result_entry("impact_surface.csv", TABLES["STUDY_surface.csv"], "impact"), table)]
     )
     assert surface["meaning"].astype(bool).tolist() == [False, True]
+
+
+def test_a_column_has_the_format_of_its_unit(workbook):
+    cases = {cell.value: cell.column for cell in workbook["cases"][1]}
+
+    def shown(name):
+        return workbook["cases"].cell(2, cases[name]).number_format
+
+    assert shown("vertical stiffness [N/mm]") == "#,##0.00"
+    assert shown("load [N]") == "#,##0"
+    assert shown("thickness [mm]") == "#,##0.0"
+    surface = workbook["surface_plate"]
+    named = {cell.value: cell.column for cell in surface[1]}
+    column = named["coefficient, natural [N/mm per unit of the term]"]
+    assert surface.cell(2, column).number_format == "0.0000000000E+00"
+
+
+def test_a_heading_says_rule_and_range(workbook):
+    cells = {cell.value: cell.comment.text for cell in workbook["cases"][1]}
+    text = cells["vertical stiffness [N/mm]"]
+    assert "Allowed: > 0, may be empty" in text
+    assert "In this run: 123.77 to 604.23" in text or "In this run: " in text
+    assert "Rule: solve, cases" in text
+    assert "vertical_stiffness_n_per_mm of results/tables/cases.csv" in text
+
+
+def test_every_sheet_is_set_for_print(workbook):
+    for sheet in workbook:
+        assert sheet.page_setup.orientation == "landscape", sheet.title
+        assert sheet.print_area, sheet.title
+    assert workbook["cases"].print_title_rows == "$1:$1"
+
+
+def test_it_names_its_run(results, content):
+    made = datetime(2026, 11, 26, 4, 3, tzinfo=UTC)
+    identity = identify({"a.csv": "1"}, {}, "c0de", {}, {}, made)
+    dated = build_workbook(replace(results, identity=identity))
+    workbook = openpyxl.load_workbook(io.BytesIO(dated))
+    properties = workbook.properties
+    assert properties.title == "A title <b>&"
+    assert properties.creator == "Laboratory of tyres"
+    assert properties.created == properties.modified == made.replace(tzinfo=None)
+    assert identity.identity in properties.keywords
+    assert f"Run {identity.short}, tables complete 2026-11-26 04:03 UTC" in [
+        row[0].value for row in workbook["Summary"].iter_rows()
+    ]
+    assert content != dated
+
+
+def test_charts_draw_cells_of_their_sheet(workbook):
+    charts = workbook["charts"]._charts
+    assert len(charts) >= 3
+    data = workbook["chart_data"]
+    for chart in charts:
+        for series in chart.series:
+            cells = data[series.yVal.numRef.f.split("!")[1].replace("$", "")]
+            assert all(isinstance(cell.value, int | float) for (cell,) in cells)
+            name = data[series.tx.strRef.f.split("!")[1].replace("$", "")]
+            assert isinstance(name.value, str)
+
+
+def test_a_chart_of_synthetic_specimens_says_so(results):
+    charts = {chart.title: chart for chart in charts_of(results)}
+    assert charts["Specimens cfrp_tension_0: stress against strain"].synthetic
+    lines = charts["Specimens cfrp_tension_0: stress against strain"].lines
+    assert [line.name for line in lines] == ["T0-1"]  # T0-2 is left out by the sheet
+    assert len(lines[0].x) == 120
+    assert lines[0].y[-1] == results.curves["T0-1"]["stress_mpa"].iloc[-1]
+
+
+@pytest.mark.parametrize(
+    ("unit", "values", "shown"),
+    [
+        ("MPa", [127742.1, 8812.7], "#,##0"),
+        ("1", [0.00123456, 0.00234567], "#,##0.0000000"),
+        ("%", [0.0, 0.0], "#,##0"),
+        ("kg", [0.92708217, 0.91], "#,##0.0000"),
+        ("", [1e-9, 1.0], "0.0000E+00"),
+        ("N", [float("nan"), 5000.0], "#,##0"),
+        ("unit of the row", [1.5], None),
+    ],
+)
+def test_formats_follow_unit_and_size(unit, values, shown):
+    assert format_of_column(unit, pd.Series(values)) == shown
+
+
+@given(st.floats(-1e300, 1e300))
+def test_a_number_keeps_two_significant_digits_in_sight(value):
+    text = shown_number(value, format_of_number(value)).replace(",", "")
+    assert float(text) == pytest.approx(value, rel=0.01)

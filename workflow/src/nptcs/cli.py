@@ -9,15 +9,23 @@ import sys
 from collections.abc import Sequence
 
 from nptcs import __version__, commands
+from nptcs.arguments import HelpFormatter, Parser
 from nptcs.errors import InputError, explained
 from nptcs.threads import one_thread_per_process
+
+EPILOG = """examples, in the order in which a study goes:
+  nptcs new-sheet raw_data/mine    propose a specimen sheet for a folder of exports
+  nptcs check                      find faults and print the plan, without running anything
+  nptcs run                        run the study and write results/report.html
+  nptcs design --target K=300±5@5000 --minimise plate_mass
+  nptcs COMMAND --help             describes a command, with an example"""
 
 
 def main(arguments: Sequence[str] | None = None) -> int:
     """Run a command; bad input is one clear line and exit code 2."""
     one_thread_per_process()
-    chosen = build_parser().parse_args(arguments)
     try:
+        chosen = build_parser().parse_args(arguments)
         code: int = chosen.run(chosen)
     except InputError as error:
         print(f"nptcs: {error}", file=sys.stderr)
@@ -33,10 +41,12 @@ def main(arguments: Sequence[str] | None = None) -> int:
 
 def build_parser() -> argparse.ArgumentParser:
     """Collect the subcommands of all modules in `nptcs.commands`."""
-    parser = argparse.ArgumentParser(
+    parser = Parser(
         prog="nptcs",
-        description="Laboratory data and solvers for non-pneumatic tyres with composite spokes. "
-        "The whole pipeline runs with: snakemake -j2",
+        description="From raw test files to response surfaces and designs of non-pneumatic tyres "
+        "with composite spokes.",
+        epilog=EPILOG,
+        formatter_class=HelpFormatter,
     )
     parser.add_argument("--version", action="version", version=f"nptcs {__version__}")
     subparsers = parser.add_subparsers(required=True, metavar="COMMAND", title="commands")

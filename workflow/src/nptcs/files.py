@@ -189,6 +189,11 @@ def read_stored(path: str | Path, kind: str) -> str:
         raise InputError(f"this file is not a sound {kind}: {error}", REWRITE, path) from None
 
 
+def files_below(folder: str | Path) -> list[Path]:
+    """List the files of a folder and of the folders in it, sorted; none if it does not exist."""
+    return sorted(path for path in Path(folder).rglob("*") if path.is_file())
+
+
 def sha256_of_file(path: str | Path) -> str:
     """SHA-256 of a file's content, as 64 hexadecimal digits."""
     with Path(path).open("rb") as stream:

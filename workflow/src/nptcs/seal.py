@@ -24,6 +24,7 @@ FORMATS: Mapping[str, int] = {
     "MaterialCard": 1,
     "PlyCard": 1,
     "RubberCard": 1,
+    "RunIdentity": 1,
     "SpokeSurrogate": 1,
     "StartFacts": 1,
     "Surfaces": 1,

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from io import BytesIO
+
 import h5py
 import numpy as np
 import pytest
@@ -128,3 +130,13 @@ def test_what_ncorr_saves_is_the_mean_over_its_region(lab, tmp_path, version):
     assert lab.modulus(done, 0.0005, 0.0018) == pytest.approx(120_000, rel=1e-6)
     assert done.record.strain_source == "dic"
     assert done.curve["strain_transverse"].dropna().iloc[-1] == pytest.approx(-0.3 * STRAIN[9])
+
+
+def test_a_matrix_takes_the_names_that_lie_next_to_it(read):
+    buffer = BytesIO()
+    time = np.arange(20.0)
+    names = np.array(["Time [s]", "Force [N]", "Strain [%]"], dtype=object)
+    savemat(buffer, {"data": np.c_[time, 100 * time, 0.05 * time], "names": names})
+    raw = read(buffer.getvalue(), "a.mat")
+    assert raw.values["strain"] == pytest.approx(5e-4 * time)
+    assert raw.values["force"] == pytest.approx(100 * time)

@@ -22,7 +22,8 @@ class Role(StrEnum):
     CODE = "code"
 
 
-RESULTS = ("report.html", "workbook.xlsx", "material_card.json", "configuration.yaml")
+RESULTS = ("report.html", "workbook.xlsx", "material_card.json", "configuration.yaml",
+           "identity.json")  # fmt: skip
 """Results besides the tables; without any of them the study is not finished."""
 VERDICT = "verdict.txt"
 """Written only by a run in which every specimen and case gave a result."""
@@ -76,7 +77,7 @@ def inputs_of(root: Path, config: Config) -> list[Path]:
     """List the files that a study reads: laboratory data, profiles, published tables, modules."""
     sheet = root / config.lab_data.specimen_sheet
     formats = root / config.lab_data.formats
-    named = config.published_inputs()
+    named = [*config.published_inputs(), *config.page_inputs()]
     for study in config.studies:
         for name, options in config.solver_options(study).items():
             named += _of_solver(name, options)

@@ -9,8 +9,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-OF_THE_RUN = ("wall_time_s", "fit_cpu_s", "leave_one_out_cpu_s", "key", "solver_version")
-"""Columns that belong to the run and to the code, and not to the study."""
+from nptcs.tables.run_columns import OF_THE_RUN
 
 
 @dataclass(frozen=True)

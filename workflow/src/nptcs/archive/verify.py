@@ -8,10 +8,11 @@ import zipfile
 from collections.abc import Iterator
 from pathlib import Path, PurePosixPath
 
-from nptcs.archive.crate import CONFIGURATION, MANIFEST, METADATA
+from nptcs.archive.crate import CONFIGURATION, ENVIRONMENT, MANIFEST, METADATA
 from nptcs.config.root import Config, read_config
 from nptcs.errors import InputError
 from nptcs.files import read_model
+from nptcs.runs.identity import RunIdentity
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.io import read_table
 from nptcs.tables.material_card import MaterialCard
@@ -42,11 +43,24 @@ def unpack(archive: Path, folder: Path) -> None:
 
 def faults_of(folder: Path) -> list[str]:
     """Return the faults of an unpacked archive, one line each; empty where it is sound."""
-    faults = list(_broken_files(folder))
-    if not faults:
-        faults += _metadata_faults(folder)
-        faults += _unsound_results(folder)
-    return faults
+    return packed_faults(folder) or list(_unsound_results(folder))
+
+
+def packed_faults(folder: Path) -> list[str]:
+    """Return what is not as it was packed, whichever version of the package has packed it."""
+    return list(_broken_files(folder)) or list(_metadata_faults(folder))
+
+
+def run_identity(folder: Path) -> RunIdentity | None:
+    """Return the identity of an archived run; none if its version did not write one."""
+    path = folder / "results" / "identity.json"
+    return read_model(path, RunIdentity) if path.is_file() else None
+
+
+def packed_software(folder: Path) -> dict[str, str]:
+    """Return the versions that an unpacked archive names."""
+    facts = json.loads((folder / ENVIRONMENT).read_text(encoding="utf-8"))
+    return {"Python": str(facts["python"]), **facts["packages"]}
 
 
 def count_files(folder: Path) -> int:

@@ -12,7 +12,7 @@ from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
 from nptcs.config.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import COMPOSITE_TESTS
-from nptcs.reduce.counted import counted
+from nptcs.reduce.counted import TRAVEL_NEXT_TO_SENSORS, counted, of_sensors, why_not
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.reduce.tension import ANOTHER_RANGE
 from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
@@ -113,12 +113,16 @@ def sample(table: pd.DataFrame, source: ConstantSource, constant: str, material:
 
 
 def rows_of(table: pd.DataFrame, source: ConstantSource) -> pd.DataFrame:
-    """Rows of the property table that a source names; the angle's sign does not count."""
-    return table[
+    """Rows of the property table that a source names; the angle's sign does not count.
+
+    A value from crosshead travel is emptied where another test of the source has a sensor.
+    """
+    rows = table[
         table["test"].isin(source.tests)
         & (table["orientation_deg"].abs() == abs(source.orientation_deg))
         & (table["property"] == source.property)
     ]
+    return of_sensors(rows, ["property"])
 
 
 def measured_quantity(
@@ -169,6 +173,10 @@ def _crosshead(
         found = with_crosshead_strain(rows[rows["specimen"].isin(samples[name].index)])
         if found:
             words.append(f"warning: {name} rests on {CROSSHEAD}: {', '.join(found)}")
+        out = rows.loc[rows["flags"].str.startswith(TRAVEL_NEXT_TO_SENSORS), "specimen"]
+        if len(out):
+            reason = why_not(TRAVEL_NEXT_TO_SENSORS)
+            words.append(f"{name}: left out for {reason}: {', '.join(out)}")
     return words
 
 

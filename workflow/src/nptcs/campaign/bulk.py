@@ -34,7 +34,6 @@ from nptcs.campaign.runner import (
     without_main_file,
 )
 from nptcs.campaign.schedule import cases_side_by_side
-from nptcs.config.root import Campaign
 from nptcs.config.study import Study
 from nptcs.config.tyre import TyreGeometry
 from nptcs.errors import InputError
@@ -51,9 +50,9 @@ LAST = ("wall_time_s", "solver_version", "key")
 """Columns at both ends of the table of results, as in ``cases.csv``."""
 
 
-def in_bulk(solver: Solver, study: Study, campaign: Campaign) -> bool:
+def in_bulk(solver: Solver, cases: int, bulk_from: int) -> bool:
     """Tell whether a solver solves the cases of a study as a table."""
-    return solver.solve_table is not None and campaign.in_tables(study)
+    return solver.solve_table is not None and cases >= bulk_from
 
 
 @dataclass(frozen=True)

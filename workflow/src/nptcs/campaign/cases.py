@@ -1,14 +1,17 @@
-"""Records of solved cases as one table."""
+"""Records of solved cases as one table, and tables of cases as records."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 import pandas as pd
 
 from nptcs.campaign.bulk_file import read_bulk
 from nptcs.campaign.record import CaseRecord, read_records
+from nptcs.solvers.contract import SolverResult
+from nptcs.solvers.tables import CURVE, curve_of
 from nptcs.tables.cases import RESPONSES, realised_column
+from nptcs.tables.status import has_result
 
 BULK = ".npz"
 """Ending of a file with the results of a whole table of cases."""
@@ -66,12 +69,71 @@ def read_cases(paths: Sequence[str]) -> pd.DataFrame:
         For a file that was damaged or edited.
     """
     records = read_records([path for path in paths if not path.endswith(BULK)])
-    tables = [read_bulk(path) for path in paths if path.endswith(BULK)]
+    tables = [_without_curves(read_bulk(path)) for path in paths if path.endswith(BULK)]
     if records or not tables:
         tables = [cases_table(records), *tables]
     joined = pd.concat(tables, ignore_index=True)
     # factors of all studies come before the load and the responses, as in a table of records
     return joined[_in_order(tables)]
+
+
+def _without_curves(table: pd.DataFrame) -> pd.DataFrame:
+    return table[[name for name in table if not str(name).startswith(CURVE)]]
+
+
+def read_tyres(paths: Sequence[str]) -> list[CaseRecord]:
+    """Read the solved tyres with a load–displacement curve, of records and of tables.
+
+    Parameters
+    ----------
+    paths : sequence of str
+        Batch files.
+
+    Returns
+    -------
+    list of CaseRecord
+        All records, and of tables the solved rows that have a curve. A table keeps neither
+        neutral lines nor the stress of plates.
+
+    Raises
+    ------
+    InputError
+        For a file that was damaged or edited.
+    """
+    records = read_records([path for path in paths if not path.endswith(BULK)])
+    tables = [read_bulk(path) for path in paths if path.endswith(BULK)]
+    return [*records, *(record for table in tables for record in _tyres(table))]
+
+
+def _tyres(table: pd.DataFrame) -> Iterator[CaseRecord]:
+    names = [str(name) for name in table]
+    load, end = names.index("load_n"), names.index("wall_time_s")
+    results = [name for name in names[load + 1 : end] if not name.startswith(CURVE)]
+    realised = [name for name in results if name.startswith(realised_column(""))]
+    extra = [name for name in results if name not in (*RESPONSES, *realised)]
+    for row in table[has_result(table["status"])].to_dict("records"):
+        curve = curve_of(row)
+        if curve is None:
+            continue
+        given = {name: row[name] for name in names if pd.notna(row[name])}
+        yield CaseRecord(
+            **{name: row[name] for name in ("study", "case_id", "solver", "solver_version", "key")},
+            values={name: given[name] for name in names[5:load] if name in given},
+            load_n=row["load_n"],
+            wall_time_s=row["wall_time_s"],
+            result=SolverResult(
+                status=row["status"],
+                message=row["message"],
+                **{name: given[name] for name in RESPONSES if name in given},
+                extra={name: given[name] for name in extra if name in given},
+                realised={
+                    name.removeprefix(realised_column("")): given[name]
+                    for name in realised
+                    if name in given
+                },
+                curve=curve,
+            ),
+        )
 
 
 def _in_order(tables: Sequence[pd.DataFrame]) -> list[str]:

@@ -63,7 +63,8 @@ def _faults(study: Study, config: Config) -> Iterator[InputError]:
         yield InputError(
             f"study {study.name} has {cases:,} cases by {len(study.solvers)} solvers; a run solves "
             f"at most {config.campaign.most_cases:,} of a study unless told otherwise",
-            "use fewer levels, or raise the key campaign.most_cases",
+            "use fewer levels, start the run with 'nptcs run --yes', or raise the key "
+            "campaign.most_cases",
             column=f"studies.{study.name}.factors",
         )
         return

@@ -82,7 +82,7 @@ def known_cases(
         ply = next(iter(plies.values())).values() if solver.needs_ply else None
         given = options[solver.name]
         design = build_design(study, c10, config.tyre)
-        if in_bulk(solver, study, config.campaign):
+        if in_bulk(solver, len(design), config.campaign.bulk_from):
             given_table = (study, solver.name, given, config.tyre, design, ply)
             known[solver.name] = known_in_bulk(*given_table, store.folder)
             continue
@@ -116,7 +116,7 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
             at_a_time = max(1, cores // checked.cores_per_case())
             stated = Costs(checked.case_s, checked.case_memory_mb, RECORD_MB, measured=False)
             cost = costs.get(solver.name, stated)
-            if in_bulk(solver, study, config.campaign):
+            if in_bulk(solver, study.number_of_cases(), config.campaign.bulk_from):
                 seconds = solver.table_case_s or checked.case_s
                 cost = Costs(seconds, checked.case_memory_mb, BULK_RECORD_MB, measured=False)
             words, needed_mb = _words(study.number_of_cases(), known[solver.name], cost, at_a_time)

@@ -9,21 +9,32 @@ import subprocess
 import sys
 from pathlib import Path
 
+from nptcs.arguments import add_command, existing_folder, output_file
+
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "archive",
-        help="pack a finished study into one file that can be checked and run again",
-        description="Packs inputs, configuration, tables, card, report, code and a description of "
+        "pack a finished study into one file that can be checked and run again",
+        "Packs inputs, configuration, tables, card, report, code and a description of "
         "the environment as an RO-Crate (a zip file) with a checksum for each file. 'nptcs "
         "verify' checks it.",
+        "nptcs archive study.zip",
     )
     parser.add_argument(
-        "archive", nargs="?", default="study.zip", help="file to write; default: %(default)s"
+        "archive",
+        nargs="?",
+        type=output_file(".zip"),
+        default="study.zip",
+        help="file to write; default: %(default)s",
     )
     parser.add_argument(
-        "--project", default=".", help="the project folder; default: the current one"
+        "--project",
+        type=existing_folder,
+        default=".",
+        help="the project folder; default: the current one",
     )
     parser.set_defaults(run=run)
 
@@ -34,7 +45,8 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.archive.crate import write_crate
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
-    from nptcs.files import sha256_of_file
+    from nptcs.files import read_model, sha256_of_file
+    from nptcs.runs.identity import RunIdentity
     from nptcs.yaml_files import read_yaml
 
     root, target = Path(arguments.project), Path(arguments.archive)
@@ -49,6 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
     count = write_crate(target, contents_of(root, config), config, commit_of(root))
     print(f"{target}: {count} files, {target.stat().st_size / 1e6:.1f} MB")
     print(f"SHA-256 {sha256_of_file(target)}")
+    print(f"run {read_model(root / 'results' / 'identity.json', RunIdentity).identity}")
     return 0
 
 

@@ -6,25 +6,36 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from nptcs.arguments import add_command, existing_file, existing_folder, whole
+
 
 def register(subparsers: Any) -> None:
     """Declare the arguments."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "augment",
-        help="propose further cases where a surface is least certain",
-        description="Prints cases for the key `further_cases` of the study, each where the "
+        "propose further cases where a surface is least certain",
+        "Prints cases for the key `further_cases` of the study, each where the "
         "prediction interval is widest once the cases before it are added. The study must have "
         "been run.",
+        "nptcs augment plate --solver fe_tyre_paper --cases 3",
     )
     parser.add_argument("study", help="name of the study")
     parser.add_argument("--solver", required=True, help="solver whose surface is used")
     parser.add_argument("--surface", default="polynomial", help="its name; default: %(default)s")
-    parser.add_argument("--cases", type=int, default=5, help="how many; default: %(default)s")
-    parser.add_argument("--config", default="config/config.yaml", help="default: %(default)s")
+    parser.add_argument(
+        "--cases", type=whole(1, 100), default=5, help="how many; default: %(default)s"
+    )
+    parser.add_argument(
+        "--config",
+        type=existing_file,
+        default="config/config.yaml",
+        help="with the tyre, for --whole-plates; default: %(default)s",
+    )
     parser.add_argument(
         "--models",
-        type=Path,
-        default=Path("results/6_surface/models"),
+        type=existing_folder,
+        default="results/6_surface/models",
         help="folder of the fitted surfaces; default: %(default)s",
     )
     parser.add_argument(
@@ -49,7 +60,16 @@ def run(arguments: argparse.Namespace) -> int:
         raise InputError(
             "this study has no fitted surfaces", file=file, remedy="run snakemake first"
         )
-    fitted = read_models(file).get(arguments.solver, {})
+    models = read_models(file)
+    if arguments.solver not in models:
+        raise InputError(
+            "the study has no surface of this solver",
+            f"name one of: {', '.join(models) or 'none was fitted'}",
+            file,
+            column="--solver",
+            value=arguments.solver,
+        )
+    fitted = models[arguments.solver]
     if arguments.surface not in fitted:
         raise InputError(
             f"solver {arguments.solver} has no such surface",

@@ -6,14 +6,26 @@ import argparse
 import sys
 from pathlib import Path
 
+from nptcs.arguments import add_command, existing_file
+
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "check", help="check a configuration and its specimen sheet without running anything"
+    parser = add_command(
+        subparsers,
+        "check",
+        "find faults of configuration and specimen sheet, and print the plan of a run",
+        "Reads configuration, specimen sheet and raw files, names every fault with its remedy, and "
+        "prints how many cases each solver has to solve, how many are known, and about how long "
+        "that takes. Nothing is run. Exit code 1: faults in the sheet; 2: faults in the studies.",
+        "nptcs check config/config.yaml",
     )
     parser.add_argument(
-        "config", nargs="?", default="config/config.yaml", help="default: %(default)s"
+        "config",
+        nargs="?",
+        type=existing_file,
+        default="config/config.yaml",
+        help="configuration file; default: %(default)s",
     )
     parser.add_argument(
         "--results",
@@ -33,18 +45,17 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.ingest.folder import is_there
     from nptcs.ingest.reading.profiles import load_profiles
     from nptcs.ingest.repeats import repeats_in_sheet
+    from nptcs.report.page_files import page_faults
     from nptcs.solvers.registry import needs_ply
     from nptcs.tables.specimens import read_sheet
     from nptcs.yaml_files import read_yaml
 
     path = Path(arguments.config)
-    if not path.is_file():
-        raise InputError("this file does not exist", file=path, remedy="name a configuration file")
     values = read_yaml(path) or {}
     if not isinstance(values, dict):
         raise InputError("is not a configuration", "write 'key: value' lines", path)
     config = read_config(values, str(path))
-    faults = study_faults(config)
+    faults = [*study_faults(config), *page_faults(config)]
     if not faults:
         print(*plan_lines(config, arguments.results), sep="\n")
     specimens, errors = read_sheet(config.lab_data.specimen_sheet)

@@ -7,6 +7,8 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
+from nptcs.arguments import add_card, add_command, existing_file, factor, output_file
+
 if TYPE_CHECKING:
     from nptcs.config.tyre import TyreGeometry
     from nptcs.solvers.contract import CaseInputs
@@ -16,35 +18,56 @@ SOLVERS = ("abaqus", "calculix")
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "deck",
-        help="write the Abaqus or CalculiX deck of a case",
-        description="Write a complete, commented input deck of a case of a design table. Abaqus: "
+        "write the Abaqus or CalculiX deck of a case",
+        "Write a complete, commented input deck of a case of a design table. Abaqus: "
         "the paper's whole tyre, loaded on a rigid plane. CalculiX: one axial period of a spoke "
         "with meshed plies, pulled by 4 mm and then pressed by 20 mm. docs/methods/decks.md "
         "describes both.",
+        "nptcs deck results/4_design/plate.csv plate_032 -o spoke.inp --spoke-c10 1",
+        "nptcs deck results/4_design/rubber.csv rubber_001 -o tyre.inp --solver abaqus "
+        "--config config/config.yaml",
     )
-    parser.add_argument("design", metavar="DESIGN.csv", help="design table with a column case_id")
+    parser.add_argument(
+        "design",
+        type=existing_file,
+        metavar="DESIGN.csv",
+        help="design table with a column case_id, such as those in results/4_design",
+    )
     parser.add_argument("case", metavar="CASE", help="its case_id")
-    parser.add_argument("-o", "--output", metavar="OUT.inp", required=True)
+    parser.add_argument(
+        "-o",
+        "--output",
+        type=output_file(".inp"),
+        metavar="OUT.inp",
+        required=True,
+        help="deck to write",
+    )
     parser.add_argument("--solver", choices=SOLVERS, default="calculix", help="default: calculix")
-    parser.add_argument("--card", metavar="CARD.json", required=True, help="material card")
-    parser.add_argument("--ply", required=True, help="name of a ply of the card")
+    add_card(parser)
     parser.add_argument(
-        "--config", metavar="CONFIG.yaml", help="take tyre and solver options from here"
+        "--config",
+        type=existing_file,
+        metavar="CONFIG.yaml",
+        help="take tyre and solver options from here",
     )
     parser.add_argument(
-        "--load", type=float, default=5000.0, help="load on the tyre (N; Abaqus only; 5000)"
+        "--load",
+        type=factor("load_n"),
+        default=5000.0,
+        help="load on the tyre (N; Abaqus only; 5000)",
     )
-    for name, what in (
-        ("spoke-c10", "spokes' C10 (MPa)"),
-        ("band-c10", "C10 of shear band and tread (MPa; Abaqus only)"),
-        ("spacing", "plates' spacing (mm)"),
-        ("thickness", "plates' thickness (mm)"),
-        ("angle", "plates' fibre angle (degrees)"),
+    for name, column, what in (
+        ("spoke-c10", "spoke_c10_mpa", "spokes' C10 (MPa)"),
+        ("band-c10", "shear_band_c10_mpa", "C10 of shear band and tread (MPa; Abaqus only)"),
+        ("spacing", "spacing_mm", "plates' spacing (mm)"),
+        ("thickness", "thickness_mm", "plates' thickness (mm)"),
+        ("angle", "angle_deg", "plates' fibre angle (degrees)"),
     ):
         parser.add_argument(
-            f"--{name}", type=float, help=f"{what}, where the table has no such column"
+            f"--{name}", type=factor(column), help=f"{what}, where the table has no such column"
         )
     parser.set_defaults(run=run)
 
@@ -52,10 +75,13 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def run(arguments: argparse.Namespace) -> int:
     """Write the deck."""
     from nptcs.files import write_text
+    from nptcs.tables.card_choice import choose_materials
 
     write = {"abaqus": _abaqus, "calculix": _calculix}[arguments.solver]
-    inputs = _inputs(arguments)
+    materials = choose_materials(arguments.card, arguments.ply)
+    inputs = _inputs(arguments, materials.ply)
     write_text(arguments.output, write(inputs))
+    print(f"materials: {materials.source}")
     command = {"abaqus": "abaqus job={0} input={0} interactive", "calculix": "ccx {0}"}
     name = Path(arguments.output).stem
     print(f"{arguments.output}: run it with {command[arguments.solver].format(name)}")
@@ -81,7 +107,7 @@ def _calculix(inputs: CaseInputs) -> str:
     return spoke_deck(true_thickness(design), [4.0, -20.0])
 
 
-def _inputs(arguments: argparse.Namespace) -> CaseInputs:
+def _inputs(arguments: argparse.Namespace, ply: Mapping[str, float]) -> CaseInputs:
     """Collect what the solver is given for the case."""
     from nptcs.solvers.contract import CaseInputs
     from nptcs.solvers.registry import MODULES, load, read_options
@@ -94,7 +120,7 @@ def _inputs(arguments: argparse.Namespace) -> CaseInputs:
         load_n=arguments.load,
         tyre=tyre,
         options=read_options(solver, options),
-        ply=_ply(Path(arguments.card), arguments.ply),
+        ply=ply,
     )
 
 
@@ -147,22 +173,26 @@ def _values(arguments: argparse.Namespace) -> dict[str, float]:
         "angle_deg": arguments.angle,
     }
     row = found.iloc[0]
-    values = {name: value for name, value in given.items() if value is not None}
-    return values | {name: float(row[name]) for name in given if name in row.index}
+    in_table = {name: _value(row[name], name, arguments) for name in given if name in row.index}
+    return {name: value for name, value in given.items() if value is not None} | in_table
 
 
-def _ply(path: Path, name: str) -> dict[str, float]:
-    """Constants of a ply of a material card."""
+def _value(cell: object, name: str, arguments: argparse.Namespace) -> float:
+    """Read one value of the case from the design table."""
     from nptcs.errors import InputError
-    from nptcs.files import read_model
-    from nptcs.tables.material_card import MaterialCard
+    from nptcs.ranges import RANGES
 
-    card = read_model(path, MaterialCard, by_hand=True)
-    if name not in card.plies:
+    try:
+        value = float(str(cell))
+    except ValueError:
+        value = float("nan")
+    if fault := RANGES[name].fault(value):
         raise InputError(
-            "the card does not have this ply",
-            f"choose one of {', '.join(card.plies)}",
-            path,
-            value=name,
+            fault,
+            "correct the design table",
+            arguments.design,
+            column=name,
+            specimen=arguments.case,
+            value=cell,
         )
-    return card.plies[name].values()
+    return value

@@ -8,18 +8,23 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from nptcs.arguments import add_command, existing_file, existing_folder, number, whole
+from nptcs.ranges import Range
+
 if TYPE_CHECKING:
     from nptcs.config.decisions import Decision
     from nptcs.config.root import Config
+    from nptcs.decisions.decide import Outcome
     from nptcs.decisions.tables import Answer
 
-EXAMPLE = """examples:
-  nptcs design k300                                   a decision of the configuration
-  nptcs design --target K=300±5@5000 --at-least K=250@3000 --minimise plate_mass
-  nptcs design --target K=280+-8 --minimise plate_mass --minimise plate_largest_mises --json
-
-K is the secant stiffness in N/mm, at the load after @ or at the study's; other responses are those
-of tyre_responses.csv. ± may be written +-. *2 at the end of a goal is its weight."""
+EXAMPLES = (
+    "nptcs design k300",
+    "nptcs design --target K=300±5@5000 --at-least K=250@3000 --minimise plate_mass",
+    "nptcs design --target K=280+-8 --minimise plate_mass --minimise plate_largest_mises --json",
+)
+GOAL_WORDS = """K is the secant stiffness in N/mm, at the load after @ or at the study's; other
+responses are those of tyre_responses.csv. ± may be written +-. *2 at the end of a goal is its
+weight."""
 GOALS = {
     "target": "response and half width that must hold, such as K=300±5@5000",
     "at-least": "bound that must hold, such as K=250@3000",
@@ -38,19 +43,26 @@ TABLES = {
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "design",
-        help="find the design that meets goals with a stated probability",
-        description="Looks for designs among those that the study's surfaces can predict, with a "
+        "find the design that meets goals with a stated probability",
+        "Looks for designs among those that the study's surfaces can predict, with a "
         "whole number of plates. All targets and bounds must hold together with the probability, "
-        "over the uncertainty of materials, tolerances and surface. The study must have been run.",
-        epilog=EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        "over the uncertainty of materials, tolerances and surface. The study must have been run. "
+        "Exit code 1: no design meets the goals, or the solver does not confirm it.",
+        *EXAMPLES,
     )
+    parser.epilog = f"{parser.epilog}\n\n{GOAL_WORDS}"
     parser.add_argument("decision", nargs="?", help="name of a decision of the configuration")
     for name, words in GOALS.items():
         parser.add_argument(f"--{name}", action="append", default=[], metavar="GOAL", help=words)
-    parser.add_argument("--with-probability", type=float, help="default: 0.9")
+    parser.add_argument(
+        "--with-probability",
+        type=number(Range(0, 1, open_low=True, open_high=True)),
+        metavar="P",
+        help="with which all targets and bounds must hold together; default: 0.9",
+    )
     parser.add_argument("--study", help="default: the only study whose cases vary the plates")
     parser.add_argument("--solver", help="default: the only one of the study that solves designs")
     parser.add_argument("--surface", help="for the stiffness; default: that of `uncertainty`")
@@ -60,13 +72,23 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--step", action="append", default=[], metavar="FACTOR=STEP", help="values that are made"
     )
-    parser.add_argument("--top", type=int, help="designs to list; default: 5")
+    parser.add_argument("--top", type=whole(1, 50), help="designs to list; default: 5")
     parser.add_argument("--confirm", action="store_true", help="solve the chosen design")
-    parser.add_argument("--cores", type=int, default=1, help="for --confirm; default: %(default)s")
-    parser.add_argument("--json", action="store_true", help="print JSON for programs")
-    parser.add_argument("--config", default="config/config.yaml", help="default: %(default)s")
     parser.add_argument(
-        "--results", type=Path, default=Path("results"), help="of the run; default: %(default)s"
+        "--cores", type=whole(1), default=1, help="for --confirm; default: %(default)s"
+    )
+    parser.add_argument("--json", action="store_true", help="print JSON for programs")
+    parser.add_argument(
+        "--config",
+        type=existing_file,
+        default="config/config.yaml",
+        help="configuration of the study; default: %(default)s",
+    )
+    parser.add_argument(
+        "--results",
+        type=existing_folder,
+        default="results",
+        help="folder of the finished run; default: %(default)s",
     )
     parser.set_defaults(run=run)
 
@@ -79,8 +101,6 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.yaml_files import read_yaml
 
     path = Path(arguments.config)
-    if not path.is_file():
-        raise InputError("this file does not exist", "name a configuration file", path)
     values = read_yaml(path) or {}
     if not isinstance(values, dict):
         raise InputError("is not a configuration", "write 'key: value' lines", path)
@@ -161,7 +181,7 @@ def decision_of(arguments: argparse.Namespace, config: Config) -> Decision:
 
 def as_text(done: Answer) -> str:
     """Write an answer for a reader."""
-    from nptcs.decisions.tables import goals_text, words_of
+    from nptcs.decisions.tables import goals_text
 
     outcome = done.outcome
     if outcome is None:
@@ -177,28 +197,40 @@ def as_text(done: Answer) -> str:
         lines += [outcome.why, "", "nearest design:"]
     elif outcome.why:
         lines += [outcome.why, ""]
-    responses = list(outcome.problem.fitted)
-    head = ["", "probability", "desirability", *map(str, responses), "design"]
+    lines.append(_designs_table(outcome))
+    lines += ["", "± is one standard deviation: materials, tolerances and surface; * is the choice"]
+    lines += [f"not assessed: {', '.join(outcome.not_assessed)}"] if outcome.not_assessed else []
+    return "\n".join([*lines, *_round_lines(done), f"fit and search: {done.cpu_s:.1f} s of CPU"])
+
+
+def _designs_table(outcome: Outcome) -> str:
+    """Write the designs as a table: factors, plates, responses, probability."""
+    from nptcs.decisions.tables import plates_of
+    from nptcs.report.tables.headings import heading
+    from nptcs.report.text import number_text
+    from nptcs.text_table import text_table
+
+    found, fitted = outcome.found, outcome.problem.fitted
+    heads = [heading(name) for name in outcome.space.factors]
+    titles = [f"{head.name}\n({head.unit})" for head in heads]
+    titles += ["plates"] if outcome.space.plates else []
+    titles += [f"{response}\n({model.unit})" for response, model in fitted.items()]
     rows = []
     for place, point in enumerate(found.designs.x):
         samples = outcome.samples[place]
         chosen = found.feasible and place == outcome.choice
         rows.append(
             [
-                "*" if chosen else "",
+                f"{place + 1} *" if chosen else f"{place + 1}  ",
+                *(number_text(float(value), 4) for value in point),
+                *([str(plates_of(outcome, point))] if outcome.space.plates else []),
+                *(f"{samples[r].mean():.5g} ± {samples[r].std():.2g}" for r in fitted),
                 f"{outcome.sampled[place]:.3f}",
                 f"{found.desirability[place]:.3f}",
-                *(f"{samples[r].mean():.5g} ± {samples[r].std():.2g}" for r in responses),
-                words_of(outcome, point),
             ]
         )
-    widths = [max(len(row[column]) for row in [head, *rows]) for column in range(len(head))]
-    for row in [head, *rows]:
-        cells = zip(row, widths, strict=True)
-        lines.append("  ".join(cell.ljust(width) for cell, width in cells).rstrip())
-    lines += ["", "± is one standard deviation: materials, tolerances and surface; * is the choice"]
-    lines += [f"not assessed: {', '.join(outcome.not_assessed)}"] if outcome.not_assessed else []
-    return "\n".join([*lines, *_round_lines(done), f"fit and search: {done.cpu_s:.1f} s of CPU"])
+    titles = ["rank", *titles, "probability", "desirability"]
+    return text_table(titles, rows, [True] * len(titles))
 
 
 def as_json(done: Answer) -> str:
@@ -219,7 +251,7 @@ def as_json(done: Answer) -> str:
 
 def _round_lines(done: Answer) -> list[str]:
     lines = []
-    for number, one in enumerate(done.rounds, start=1):
+    for place, one in enumerate(done.rounds, start=1):
         for name, compared in one.compared.items():
             if compared.result == "not solved":
                 text = f"not solved: {one.record.result.message}"
@@ -228,7 +260,7 @@ def _round_lines(done: Answer) -> list[str]:
                     f"solved {compared.solved:.6g}, predicted {compared.predicted:.6g} "
                     f"({compared.low:.6g} to {compared.high:.6g}): {compared.result}"
                 )
-            lines.append(f"round {number}, {one.record.wall_time_s:.1f} s: {name} {text}")
+            lines.append(f"round {place}, {one.record.wall_time_s:.1f} s: {name} {text}")
     return lines
 
 

@@ -3,17 +3,25 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
+
+from nptcs.arguments import add_command, output_folder, whole
 
 
 def register(subparsers: Any) -> None:
     """Declare the arguments."""
-    parser = subparsers.add_parser(
-        "example", help="write the synthetic example data", description=__doc__
+    parser = add_command(
+        subparsers,
+        "example",
+        "write the synthetic example data",
+        "Writes raw files, a specimen sheet and a README of synthetic tests, the same for the same "
+        "seed. Files of these names that the folder has already are replaced.",
+        "nptcs example my_example --seed 7",
     )
-    parser.add_argument("folder", type=Path, help="folder to write to")
-    parser.add_argument("--seed", type=int, default=None, help="default: that of raw_data/example")
+    parser.add_argument("folder", type=output_folder, help="folder to write to")
+    parser.add_argument(
+        "--seed", type=whole(0), default=None, help="default: that of raw_data/example"
+    )
     parser.set_defaults(run=run)
 
 

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import TYPE_CHECKING, get_args
 
+from nptcs.arguments import add_command, existing_file, factor, output_folder, whole
 from nptcs.config.fe import AxialFreedom, RingKind
 
 if TYPE_CHECKING:
@@ -28,37 +28,46 @@ COLUMNS = {
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "fe-calibrate",
-        help="fit the finite element spoke's section to published stiffness",
-        description="Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
+        "fit the finite element spoke's section to published stiffness",
+        "Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
         "and 5) and to at most five named cases of table 5. Prints what each round gives against "
         "its targets, and ring and section as JSON for the options of fe_tyre and fe_spoke.",
+        "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
+        "raw_data/published/table5_plate_doe.csv",
     )
     parser.add_argument(
-        "table10", metavar="TABLE10.csv", help="the paper's table 10: stiffness of single spokes"
+        "table10",
+        type=existing_file,
+        metavar="TABLE10.csv",
+        help="the paper's table 10: stiffness of single spokes",
     )
     parser.add_argument(
         "table5",
+        type=existing_file,
         metavar="TABLE5.csv",
         help="the paper's table 5: stiffness of tyres by plate design",
     )
     parser.add_argument(
-        "--cases", type=int, nargs="+", default=CASES, help="cases of table 5, at most five"
+        "--cases", type=whole(1), nargs="+", default=CASES, help="cases of table 5, at most five"
     )
     parser.add_argument(
-        "--rounds", type=int, default=2, help="Gauss–Newton steps (default: %(default)s)"
+        "--rounds", type=whole(1, 50), default=2, help="Gauss–Newton steps (default: %(default)s)"
     )
-    parser.add_argument("--workers", type=int, default=2, help="processes (default: %(default)s)")
+    parser.add_argument(
+        "--workers", type=whole(1), default=2, help="processes (default: %(default)s)"
+    )
     parser.add_argument(
         "--band-c10",
-        type=float,
+        type=factor("shear_band_c10_mpa"),
         default=5.0,
         help="C10 of the band in table 5, which does not state it (MPa; default: %(default)s)",
     )
     parser.add_argument(
         "--spoke-c10",
-        type=float,
+        type=factor("spoke_c10_mpa"),
         default=1.04,
         help="C10 of the spokes in table 5, which does not state it (MPa; default: %(default)s)",
     )
@@ -75,7 +84,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="freedom of band and tread along the axis (default: free_edges)",
     )
     parser.add_argument(
-        "--spoke-cache", type=Path, help="folder in which runs share the tables of equal spokes"
+        "--spoke-cache",
+        type=output_folder,
+        help="folder in which runs share the tables of equal spokes",
     )
     parser.set_defaults(run=run)
 

@@ -3,59 +3,114 @@
 from __future__ import annotations
 
 import argparse
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
+
+from nptcs.arguments import FIGURES, add_card, add_command, factor, output_file
+from nptcs.ranges import RANGES
 
 if TYPE_CHECKING:
     from nptcs.config.tyre import TyreGeometry
     from nptcs.fe.spoke.equilibrium import SpokeModel
     from nptcs.fe.spoke.period import SpokeDesign
     from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
+    from nptcs.tables.card_choice import ChosenMaterials
+
+OPTIONS = {
+    "spacing_mm": "--spacing",
+    "thickness_mm": "--thickness",
+    "angle_deg": "--angle",
+    "spoke_c10_mpa": "--spoke-c10",
+    "shear_band_c10_mpa": "--band-c10",
+    "load_n": "--load",
+}
+"""Options of a design, by the columns that they stand for."""
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "fe-picture",
-        help="draw a finite element tyre under load, or its spoke",
-        description="Solve one tyre with fe_tyre and the published ply constants, and draw it "
-        "with all its spokes; or its single spoke, pulled by 4 mm and pressed by 20 mm, with the "
-        "stress in rubber and fibres. The defaults are the published fiducial design.",
+        "draw a finite element tyre under load, or its spoke",
+        "Solve one tyre with fe_tyre, and draw it with all its spokes; or its single spoke, pulled "
+        "by 4 mm and pressed by 20 mm, with the stress in rubber and fibres. The defaults are the "
+        "published fiducial design; the ply is that of your card. A tyre takes about a minute.",
+        "nptcs fe-picture tyre.png --thickness 2.4 --angle 30",
+        "nptcs fe-picture spoke.svg --spoke --spoke-c10 rubber_75A",
     )
-    parser.add_argument("output", metavar="FIGURE", help=".png, .svg or .pdf")
+    parser.add_argument(
+        "output", type=output_file(*FIGURES), metavar="FIGURE", help=".png, .svg or .pdf"
+    )
     parser.add_argument("--spoke", action="store_true", help="draw the single spoke")
     add_design(parser)
     parser.set_defaults(run=run)
 
 
 def add_design(parser: argparse.ArgumentParser) -> None:
-    """Declare the options of a design."""
-    for name, value, unit in (
-        ("spacing", 15.0, "mm"),
-        ("thickness", 1.8, "mm"),
-        ("angle", 45.0, "degrees"),
-        ("spoke-c10", 1.0, "MPa"),
-        ("band-c10", 5.0, "MPa"),
-        ("load", 5000.0, "N"),
+    """Declare the options of a design and its materials."""
+    for column, value, words in (
+        ("spacing_mm", 15.0, "plate spacing S in mm"),
+        ("thickness_mm", 1.8, "plate thickness T in mm"),
+        ("angle_deg", 45.0, "fibre angle A in degrees"),
+        ("load_n", 5000.0, "load on the tyre in N"),
     ):
         parser.add_argument(
-            f"--{name}", type=float, default=value, help=f"{unit} (default: %(default)s)"
+            OPTIONS[column],
+            type=factor(column),
+            default=value,
+            metavar="NUMBER",
+            help=f"{words}, {RANGES[column]}; default: %(default)s",
         )
+    for column, value, words in (
+        ("spoke_c10_mpa", 1.0, "spokes"),
+        ("shear_band_c10_mpa", 5.0, "shear band"),
+    ):
+        parser.add_argument(
+            OPTIONS[column],
+            type=c10_or_rubber,
+            default=value,
+            metavar="C10",
+            help=f"C10 of the {words} in MPa, or the name of a rubber of the card; default: "
+            "%(default)s",
+        )
+    add_card(parser)
+
+
+def c10_or_rubber(text: str) -> float | str:
+    """Read C10 in MPa, or the name of a rubber."""
+    try:
+        float(text)
+    except ValueError:
+        return text
+    return factor("spoke_c10_mpa")(text)
 
 
 @dataclass(frozen=True)
 class SolvedTyre:
-    """A loaded tyre and the model of its spokes."""
+    """A loaded tyre, the model of its spokes, and where its materials are from."""
 
     dimensions: TyreGeometry
     tyre: TyreModel
     state: TyreState
     spoke: SpokeModel
+    materials: str
 
 
-def design_of(arguments: argparse.Namespace) -> SpokeDesign:
+def materials_of(arguments: argparse.Namespace) -> ChosenMaterials:
+    """Read the card, put in the C10 of rubbers that are named, and say which card it is."""
+    from nptcs.tables.card_choice import choose_materials
+
+    materials = choose_materials(arguments.card, arguments.ply)
+    arguments.spoke_c10 = materials.rubber(arguments.spoke_c10, "--spoke-c10")
+    arguments.band_c10 = materials.rubber(arguments.band_c10, "--band-c10")
+    print(f"materials: {materials.source}", flush=True)
+    return materials
+
+
+def design_of(arguments: argparse.Namespace, ply: Mapping[str, float]) -> SpokeDesign:
     """Return the spoke that the options describe.
 
     Raises
@@ -65,10 +120,10 @@ def design_of(arguments: argparse.Namespace) -> SpokeDesign:
     """
     from nptcs.config.fe import FeModel
     from nptcs.config.tyre import TyreGeometry
+    from nptcs.errors import InputError
     from nptcs.fe.case import spoke_design
     from nptcs.solvers.contract import CaseInputs
     from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values
-    from nptcs.tables.material_card import PUBLISHED_PLY
 
     given = {
         "spacing_mm": arguments.spacing,
@@ -79,7 +134,20 @@ def design_of(arguments: argparse.Namespace) -> SpokeDesign:
     }
     model, tyre = FeModel(), TyreGeometry()
     inputs = CaseInputs("of the command line", given, arguments.load, tyre, model)
-    return spoke_design(model, tyre, PUBLISHED_PLY, checked_values(inputs, TYRE_FACTORS))
+    try:
+        values = checked_values(inputs, TYRE_FACTORS)
+    except InputError as error:
+        error.specimen, error.column = None, OPTIONS[str(error.column)]
+        raise
+    return spoke_design(model, tyre, ply, values)
+
+
+def design_words(arguments: argparse.Namespace) -> str:
+    """Write the design of the options for a reader."""
+    return (
+        f"S {arguments.spacing:g} mm, T {arguments.thickness:g} mm, A {arguments.angle:g}°, "
+        f"C10 of spokes {arguments.spoke_c10:.4g} MPa, of band {arguments.band_c10:.4g} MPa"
+    )
 
 
 @contextmanager
@@ -107,13 +175,14 @@ def solved(arguments: argparse.Namespace) -> SolvedTyre:
     from nptcs.fe.case import energy_table, loaded_tyre, tyre_model
     from nptcs.fe.spoke.equilibrium import SpokeModel
 
-    model, dimensions, design = FeModel(), TyreGeometry(), design_of(arguments)
+    materials = materials_of(arguments)
+    model, dimensions, design = FeModel(), TyreGeometry(), design_of(arguments, materials.ply)
     tyre = tyre_model(model, dimensions, energy_table(model, design), arguments.band_c10)
     state = loaded_tyre(tyre, model, arguments.load)
     print(
         f"{arguments.load:g} N at {state.rise_mm:.3f} mm: {arguments.load / state.rise_mm:.2f} N/mm"
     )
-    return SolvedTyre(dimensions, tyre, state, SpokeModel(design))
+    return SolvedTyre(dimensions, tyre, state, SpokeModel(design), materials.source)
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -125,10 +194,14 @@ def run(arguments: argparse.Namespace) -> int:
 
     with solvable():
         if arguments.spoke:
-            figure = spoke_figure(SpokeModel(design_of(arguments)))
+            materials = materials_of(arguments)
+            source = materials.source
+            figure = spoke_figure(SpokeModel(design_of(arguments, materials.ply)))
         else:
             case = solved(arguments)
+            source = case.materials
             figure = tyre_figure(case.tyre, case.state, case.spoke)
+    figure.suptitle(f"{design_words(arguments)}; {source}", fontsize=9)
     with atomic_path(arguments.output) as temporary:
         figure.savefig(temporary, dpi=150)
     return 0

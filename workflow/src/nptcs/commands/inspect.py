@@ -6,19 +6,33 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from nptcs.arguments import add_command, existing_file, existing_folder, output_file
+
 
 def register(subparsers: Any) -> None:
     """Declare the arguments."""
-    parser = subparsers.add_parser(
-        "inspect", help="show encoding, columns and units of a raw file", description=__doc__
+    parser = add_command(
+        subparsers,
+        "inspect",
+        "show encoding, columns and units of a raw file",
+        "Shows how a raw file is read: its encoding, separators, columns, units and number of "
+        "rows, the profile that fits, and whether everything that is needed was found.",
+        "nptcs inspect raw_data/example/C0-1.TRA",
+        "nptcs inspect mine.csv --write-profile config/formats/mine.yaml",
     )
-    parser.add_argument("file", type=Path, help="raw file of a test machine or camera")
+    parser.add_argument("file", type=existing_file, help="raw file of a test machine or camera")
     parser.add_argument("--format", default="", help="name of a profile; default: detect")
     parser.add_argument(
-        "--formats", type=Path, default=Path("config/formats"), help="folder of profiles"
+        "--formats",
+        type=existing_folder,
+        default="config/formats",
+        help="folder of profiles; default: %(default)s",
     )
     parser.add_argument(
-        "--write-profile", type=Path, metavar="YAML", help="write a profile to start from"
+        "--write-profile",
+        type=output_file(".yaml", ".yml"),
+        metavar="YAML",
+        help="write a profile to start from",
     )
     parser.add_argument(
         "--config",
@@ -39,10 +53,10 @@ def run(arguments: argparse.Namespace) -> int:
 
     profiles = load_profiles(arguments.formats)
     declared = choose(arguments.format, profiles, "") if arguments.format else None
-    inspection = inspect_file(arguments.file, profiles, declared, limits_in(arguments.config))
+    inspection = inspect_file(Path(arguments.file), profiles, declared, limits_in(arguments.config))
     print(describe(inspection))
     if arguments.write_profile is not None:
-        target = arguments.write_profile
+        target = Path(arguments.write_profile)
         if target.exists():
             raise InputError("this file exists already", "choose another name", target)
         write_text(target, draft_profile(inspection, target.stem))

@@ -6,15 +6,27 @@ import argparse
 from pathlib import Path
 from typing import Any
 
+from nptcs.arguments import add_command, existing_folder
+
 
 def register(subparsers: Any) -> None:
     """Declare the arguments."""
-    parser = subparsers.add_parser(
-        "new-sheet", help="propose a specimen sheet for a folder of exports", description=__doc__
+    parser = add_command(
+        subparsers,
+        "new-sheet",
+        "propose a specimen sheet for a folder of exports",
+        "Writes specimens.csv into a folder of raw files, one row per specimen, with what file "
+        "names and headers say; says which cells are left to fill in. --fill fills the cells of "
+        "a whole series at once.",
+        "nptcs new-sheet raw_data/mine",
+        "nptcs new-sheet raw_data/mine --fill 'C0: width_mm=15 thickness_mm=1.8'",
     )
-    parser.add_argument("folder", type=Path, help="folder with the raw files")
+    parser.add_argument("folder", type=existing_folder, help="folder with the raw files")
     parser.add_argument(
-        "--formats", type=Path, default=Path("config/formats"), help="folder of profiles"
+        "--formats",
+        type=existing_folder,
+        default="config/formats",
+        help="folder of profiles; default: %(default)s",
     )
     parser.add_argument(
         "--config",
@@ -42,8 +54,6 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.ingest.reading.profiles import load_profiles
 
     folder = arguments.folder
-    if not folder.is_dir():
-        raise InputError("is not a folder", "give the folder with the raw files", folder)
     sheet, fills = folder / "specimens.csv", [parse_fill(text) for text in arguments.fill]
     if sheet.exists() and fills:
         write_text(sheet, fill_text(sheet.read_text(encoding="utf-8"), fills))

@@ -5,18 +5,25 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
+from nptcs.arguments import add_command, existing_folder
+
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "retry",
-        help="let the next run solve failed cases again",
-        description="Cases that were killed, ran out of memory or time, or did not get a licence "
+        "let the next run solve failed cases again",
+        "Cases that were killed, ran out of memory or time, or did not get a licence "
         "are tried again by every run. This command adds those on which a solver gave up.",
+        "nptcs retry plate rubber",
     )
     parser.add_argument("studies", nargs="*", metavar="STUDY", help="default: all studies")
     parser.add_argument(
-        "--results", default="results", help="folder of the results; default: %(default)s"
+        "--results",
+        type=existing_folder,
+        default="results",
+        help="folder of the results; default: %(default)s",
     )
     parser.set_defaults(run=run)
 

@@ -1,35 +1,53 @@
-"""``nptcs schema``: the configuration's schema and the reference pages, from the models."""
+"""``nptcs schema``: the configuration's schema and the reference pages, from models and parsers."""
 
 from __future__ import annotations
 
 import argparse
 import json
+from functools import partial
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeAlias
+
+from nptcs.arguments import add_command, existing_folder
+
+Commands: TypeAlias = "argparse._SubParsersAction[argparse.ArgumentParser]"
 
 SCHEMA = Path("workflow/schemas/config.schema.json")
 REFERENCE = Path("docs/configuration.md")
 TABLES_PAGE = Path("docs/tables.md")
+COMMANDS_PAGE = Path("docs/commands.md")
 
 
-def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+def register(subparsers: Commands) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
-        "schema", help="rewrite the configuration schema and the reference pages in docs/"
+    parser = add_command(
+        subparsers,
+        "schema",
+        "rewrite the configuration schema and the reference pages in docs/",
+        "Writes the JSON schema with which editors complete and check the configuration, and the "
+        "reference pages of configuration and result tables and commands, from the code. For "
+        "those who change these models.",
+        "nptcs schema",
     )
-    parser.add_argument("--root", default=".", help="the project folder (default: the current one)")
-    parser.set_defaults(run=run)
+    parser.add_argument(
+        "--root",
+        type=existing_folder,
+        default=".",
+        help="the project folder; default: the current one",
+    )
+    parser.set_defaults(run=partial(run, subparsers))
 
 
-def run(arguments: argparse.Namespace) -> int:
-    """Write all three files."""
+def run(subparsers: Commands, arguments: argparse.Namespace) -> int:
+    """Write all four files; `subparsers` holds the commands that there are."""
     from nptcs.files import write_text
 
     root = Path(arguments.root)
     write_text(root / SCHEMA, schema_text())
     write_text(root / REFERENCE, reference_text())
     write_text(root / TABLES_PAGE, tables_text())
-    print(f"wrote {SCHEMA}, {REFERENCE} and {TABLES_PAGE} in {root}")
+    write_text(root / COMMANDS_PAGE, commands_text(subparsers))
+    print(f"wrote {SCHEMA}, {REFERENCE}, {TABLES_PAGE} and {COMMANDS_PAGE} in {root}")
     return 0
 
 
@@ -86,6 +104,86 @@ def tables_text() -> str:
             lines.append(f"| `{name}` | {column.dtype} | {empty} | {meaning} |")
         lines.append("")
     return "\n".join(lines)
+
+
+def commands_text(subparsers: Commands) -> str:
+    """Return the page that describes each command, with its arguments and its examples."""
+    summaries = {action.dest: action.help for action in subparsers._choices_actions}
+    lines = [
+        "# Commands",
+        "",
+        "Written by `nptcs schema` from the parsers of the commands; do not edit. `nptcs COMMAND "
+        "--help` prints the same on a terminal.",
+        "",
+        "| command | |",
+        "|---|---|",
+    ]
+    lines += [f"| [`{name}`](#nptcs-{name}) | {text} |" for name, text in summaries.items()]
+    for name, parser in subparsers.choices.items():
+        lines += ["", *_command(name, parser, summaries.get(name) or "")]
+    return "\n".join(lines) + "\n"
+
+
+def _command(name: str, parser: argparse.ArgumentParser, summary: str) -> list[str]:
+    """Describe a command: what it is for, how it is called, its arguments, its examples."""
+    actions = [a for a in parser._actions if not isinstance(a, argparse._HelpAction)]
+    nested = [a for a in actions if isinstance(a, argparse._SubParsersAction)]
+    text = " ".join((parser.description or f"{summary[:1].upper()}{summary[1:]}.").split())
+    lines = [f"## `nptcs {name}`", "", text.replace("``", "`"), ""]
+    if nested:
+        for group in nested:
+            words = {action.dest: action.help or "" for action in group._choices_actions}
+            for part, inner in group.choices.items():
+                lines += [*_command(f"{name} {part}", inner, words.get(part, "")), ""]
+        return lines[:-1]
+    options = ["[options]"] if any(action.option_strings for action in actions) else []
+    call = ["nptcs", name, *map(_positional, filter(_is_positional, actions)), *options]
+    lines += ["```text", " ".join(call), "```", ""]
+    if actions:
+        lines += ["| argument | meaning |", "|---|---|", *map(_argument, actions), ""]
+    if parser.epilog:
+        lines += ["```text", parser.epilog.strip("\n"), "```", ""]
+    return lines[:-1]
+
+
+def _is_positional(action: argparse.Action) -> bool:
+    return not action.option_strings
+
+
+def _positional(action: argparse.Action) -> str:
+    """Write a positional argument as it is called: ``FILE``, ``[FILE]`` or ``FILE [FILE ...]``."""
+    word = _value(action)
+    match action.nargs:
+        case "?":
+            return f"[{word}]"
+        case "*":
+            return f"[{word} ...]"
+        case "+":
+            return f"{word} [{word} ...]"
+        case _:
+            return word
+
+
+def _value(action: argparse.Action) -> str:
+    """Return the word that stands for the value of an argument; empty for a switch."""
+    if action.nargs == 0:
+        return ""
+    if action.choices is not None:
+        return "|".join(map(str, action.choices))
+    if isinstance(action.metavar, tuple):
+        return " ".join(action.metavar)
+    return action.metavar or action.dest.upper().replace("_", "-")
+
+
+def _argument(action: argparse.Action) -> str:
+    """Write the row of an argument."""
+    value = _value(action)
+    names = [f"`{f'{option} {value}'.strip()}`" for option in action.option_strings]
+    default = action.default
+    words = " ".join(default) if isinstance(default, list) else default
+    meaning = (action.help or "") % {**vars(action), "default": words, "prog": "nptcs"}
+    cells = [cell.replace("|", "\\|") for cell in (", ".join(names) or f"`{value}`", meaning)]
+    return f"| {cells[0]} | {cells[1]} |"
 
 
 def _section(title: str, schema: dict[str, Any]) -> list[str]:

@@ -6,6 +6,8 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from nptcs.arguments import add_command, existing_file, existing_folder, output_file, whole
+
 if TYPE_CHECKING:
     from nptcs.ring.stored_surrogate import StoredSurrogate
 
@@ -14,43 +16,69 @@ FILE = "results/5_solve/surrogate.json"
 
 def register(subparsers: Any) -> None:
     """Declare the two actions."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "surrogate",
-        help="predict spokes' energy tables for the fast ring",
-        description="Fits a predictor of spokes' energy tables to those of a study, or solves a "
+        "predict spokes' energy tables for the fast ring",
+        "Fits a predictor of spokes' energy tables to those of a study, or solves a "
         "table of designs on predicted spokes in milliseconds each. Designs that are chosen in the "
         "end should be solved with computed tables.",
+        "nptcs surrogate fit joint",
+        "nptcs surrogate solve designs.csv -o solved.csv",
     )
     actions = parser.add_subparsers(required=True, metavar="ACTION", title="actions")
-    fit = actions.add_parser(
+    fit = add_command(
+        actions,
         "fit",
-        help="fit the predictor to the spokes of a study and test it on spokes left out",
-        description="Takes the spokes of the study's design from the folder of tables (and "
+        "fit the predictor to the spokes of a study and test it on spokes left out",
+        "Takes the spokes of the study's design from the folder of tables (and "
         "computes those that are missing), prints the errors of the tyre's displacement on spokes "
         "that were left out, and names the spoke whose table would help most.",
+        "nptcs surrogate fit joint",
     )
     fit.add_argument("study", help="study that the solver ring runs, e.g. joint")
     fit.add_argument(
         "--config",
         nargs="+",
+        type=existing_file,
         default=["config/config.yaml", "config/joint.yaml"],
         metavar="FILE",
         help="configuration files, the later on top; default: %(default)s",
     )
-    fit.add_argument("--results", default="results", help="default: %(default)s")
-    fit.add_argument("-o", "--output", default=FILE, help="default: %(default)s")
+    fit.add_argument(
+        "--results",
+        type=existing_folder,
+        default=Path("results"),
+        help="of the run; default: %(default)s",
+    )
+    fit.add_argument(
+        "-o", "--output", type=output_file(".json"), default=FILE, help="default: %(default)s"
+    )
     fit.set_defaults(run=run_fit)
-    solve = actions.add_parser(
+    solve = add_command(
+        actions,
         "solve",
-        help="solve a table of designs on predicted spokes",
-        description="A row has plate_count, thickness_mm, angle_deg, spoke_c10_mpa, "
+        "solve a table of designs on predicted spokes",
+        "A row has plate_count, thickness_mm, angle_deg, spoke_c10_mpa, "
         "shear_band_c10_mpa and load_n; tread_c10_mpa, friction and dimensions of the tyre may "
         "follow. A row outside the box of the spokes is refused in its status and message.",
+        "nptcs surrogate solve designs.csv -o solved.csv -j 2",
     )
-    solve.add_argument("table", metavar="TABLE.csv", help="designs, one per row")
-    solve.add_argument("-o", "--output", metavar="OUT.csv", required=True, help="with the results")
+    solve.add_argument(
+        "table", type=existing_file, metavar="TABLE.csv", help="designs, one per row"
+    )
+    solve.add_argument(
+        "-o",
+        "--output",
+        type=output_file(".csv"),
+        metavar="OUT.csv",
+        required=True,
+        help="with the results",
+    )
     solve.add_argument("--surrogate", default=FILE, help="default: %(default)s")
-    solve.add_argument("-j", "--workers", type=int, default=1, help="default: %(default)s")
+    solve.add_argument(
+        "-j", "--workers", type=whole(1), default=1, help="processes; default: %(default)s"
+    )
     solve.set_defaults(run=run_solve)
 
 

@@ -9,15 +9,21 @@ import sys
 import tempfile
 from pathlib import Path
 
+from nptcs.arguments import add_command, number, whole
+from nptcs.ranges import Range
+
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "verify",
-        help="check an archive of 'nptcs archive', and run it again on request",
-        description="Every file must be as it was packed, none missing and none added; the "
+        "check an archive of 'nptcs archive', and run it again on request",
+        "Every file must be as it was packed, none missing and none added; the "
         "configuration, the card and all tables must be sound. The checksums find damage and "
         "careless edits; against forgery compare the SHA-256 that 'nptcs archive' printed.",
+        "nptcs verify study.zip",
+        "nptcs verify study.zip --rerun study_again",
     )
     parser.add_argument("archive", help="the zip file, or the folder that it was unpacked to")
     parser.add_argument(
@@ -26,10 +32,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="unpack to this new folder, run the study there with the archived code, and compare "
         "its tables with the archived ones",
     )
-    parser.add_argument("--jobs", type=int, default=2, help="cores of the run; default: 2")
+    parser.add_argument("--jobs", type=whole(1), default=2, help="cores of the run; default: 2")
     parser.add_argument(
         "--within",
-        type=float,
+        type=number(Range(0, 1)),
         default=1e-6,
         help="relative difference up to which numbers of the new run count as the same: another "
         "processor rounds differently; default: %(default)s",
@@ -39,7 +45,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print what was checked; 1 for any fault or difference."""
-    from nptcs.archive.verify import count_files, faults_of, unpack
+    from nptcs.archive.verify import count_files, faults_of, run_identity, unpack
     from nptcs.errors import InputError
     from nptcs.files import sha256_of_file
 
@@ -61,6 +67,8 @@ def run(arguments: argparse.Namespace) -> int:
         if faults:
             return 1
         print(f"{given}: {count_files(folder)} files, all as packed; tables and card are sound")
+        if (identity := run_identity(folder)) is not None:
+            print(f"run {identity.identity}, {identity.made_text}")
     if arguments.rerun:
         return rerun(given, Path(arguments.rerun), arguments.jobs, arguments.within)
     return 0

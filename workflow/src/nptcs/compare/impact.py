@@ -2,13 +2,17 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
+
 import numpy as np
 import pandas as pd
 
 from nptcs.tables.impact import Impact
 
 
-def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFrame:
+def with_published(
+    impact: pd.DataFrame, published: pd.DataFrame, refused: Collection[str] = ()
+) -> pd.DataFrame:
     """Join the published values of table 9.
 
     Parameters
@@ -18,6 +22,8 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
         failed_cases``.
     published : DataFrame
         ``study, factor, gradient, range, impact`` as printed; may be empty.
+    refused : collection of str
+        Studies that are not under the conditions of table 9 (`nptcs.compare.conditions`).
 
     Returns
     -------
@@ -25,7 +31,7 @@ def with_published(impact: pd.DataFrame, published: pd.DataFrame) -> pd.DataFram
         As `Impact`. A published value is given only where the range of the levels is the same;
         only these factors are ranked, over all studies, for each solver and rule.
     """
-    table_9 = published.rename(
+    table_9 = published[~published["study"].isin(list(refused))].rename(
         columns={"gradient": "published_gradient", "impact": "published_impact"}
     )
     table = impact.merge(table_9, how="left", on=["study", "factor"], suffixes=("", "_published"))

@@ -8,6 +8,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
+from nptcs.compare.conditions import PAPER_PLATES
 from nptcs.tables.spoke_stiffness import DIRECTIONS, SPOKE_VALUES, SpokeCurves, SpokeLines
 
 
@@ -61,7 +62,7 @@ def _line(record: CaseRecord, published: pd.DataFrame | None) -> dict[str, objec
         **{name: record.values[name] for name in SPOKE_VALUES},
         "status": record.result.status.value,
     }
-    table_10 = _published_row(published, record.values["spoke_c10_mpa"])
+    table_10 = _published_row(published, record.values)
     reported = record.result.extra if record.result.status.solved else {}
     for direction in DIRECTIONS:
         stiffness = f"{direction}_stiffness_n_per_mm"
@@ -75,9 +76,11 @@ def _line(record: CaseRecord, published: pd.DataFrame | None) -> dict[str, objec
     return row
 
 
-def _published_row(published: pd.DataFrame | None, c10_mpa: float) -> dict[str, float]:
-    """Return table 10's column for this rubber; nothing where it has none."""
-    if published is None:
+def _published_row(published: pd.DataFrame | None, values: Mapping[str, float]) -> dict[str, float]:
+    """Return table 10's column for this spoke; nothing for other rubbers or other plates."""
+    plates = all(np.isclose(values[name], value) for name, value in PAPER_PLATES.items())
+    if published is None or not plates:
         return {}
-    rows = published[np.isclose(published["spoke_c10_mpa"], c10_mpa)].to_dict("records")
+    same = np.isclose(published["spoke_c10_mpa"], values["spoke_c10_mpa"])
+    rows = published[same].to_dict("records")
     return {str(name): float(value) for name, value in rows[0].items()} if rows else {}

@@ -6,6 +6,7 @@ import pandas as pd
 import pandera.pandas as pa
 
 from nptcs.compare.coefficients import by_powers
+from nptcs.compare.conditions import surface_faults
 from nptcs.config.study import Study
 from nptcs.files import write_text
 from nptcs.surface.sensitivity.response_tables import response_surfaces
@@ -28,7 +29,8 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
     done : StudySurfaces
         What `nptcs.surface.study.fit_study` has fitted.
     published : DataFrame
-        `nptcs.tables.published_inputs.PublishedCoefficients`; may be empty.
+        `nptcs.tables.published_inputs.PublishedCoefficients`; may be empty. They are left out
+        where the study is not under their conditions (`nptcs.compare.conditions`).
 
     Returns
     -------
@@ -36,9 +38,10 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
         ``table``, ``quality``, ``comparison``, ``by_factor``, ``responses`` and ``problems``.
     """
     factors = [factor.name for factor in study.factors]
+    powers = {} if surface_faults(study) else by_powers(published, factors)
     comparison, by_factor = comparison_tables(done)
     return {
-        "table": (surface_table(done.polynomials, by_powers(published, factors)), SurfaceTable),
+        "table": (surface_table(done.polynomials, powers), SurfaceTable),
         "quality": (quality_table(done), SurfaceQuality),
         "comparison": (comparison, SurfaceComparison),
         "by_factor": (by_factor, SurfaceByFactor),

@@ -46,7 +46,7 @@ class ExtensometerRemoval(Strict):
         20.0, gt=1, description="A jump is this many times the usual step between readings"
     )
     smallest_jump: float = Field(
-        0.001, gt=0, description="Smallest strain jump that counts, composite tests"
+        0.0004, gt=0, description="Smallest strain jump that counts, composite tests"
     )
     smallest_jump_rubber: float = Field(
         0.05, gt=0, description="Smallest strain jump that counts, rubber tests"

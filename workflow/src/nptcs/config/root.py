@@ -12,6 +12,7 @@ from nptcs.config.calibration import CalibrationSettings
 from nptcs.config.decisions import Decision
 from nptcs.config.explain import describe
 from nptcs.config.ingest import IngestSettings
+from nptcs.config.laboratory import Laboratory
 from nptcs.config.reduction import ReductionSettings
 from nptcs.config.responses import TyreResponseSettings
 from nptcs.config.sensitivity import Sensitivity
@@ -20,6 +21,7 @@ from nptcs.config.surface import GaussianProcessModel, name_of
 from nptcs.config.tyre import TyreGeometry
 from nptcs.config.uncertainty import Uncertainty
 from nptcs.errors import InputError
+from nptcs.files import files_below
 
 
 class LabData(Strict):
@@ -40,14 +42,14 @@ class Campaign(Strict):
     most_cases: int = Field(
         2000,
         ge=1,
-        description="Cases of a study above which a run is refused; raise it to ask for more",
+        description="Cases of a study above which a run is refused; raise it to ask for more, or "
+        "start the run with `nptcs run --yes`",
     )
     bulk_from: int = Field(
         1000,
         ge=1,
         description="Cases of a study from which solvers that can solve a table of cases do so: "
-        "minutes instead of hours, one file of columns, but no curves and no neutral lines; a "
-        "study that asks for `responses`, which are read from curves, has a record of each case",
+        "minutes instead of hours, one file of columns, but no neutral lines and no plate stress",
     )
     batches: int = Field(
         1,
@@ -74,10 +76,6 @@ class Campaign(Strict):
         "one case (one, or the solver's `cpus`) they give the number of cases solved at a time",
     )
 
-    def in_tables(self, study: Study) -> bool:
-        """Tell whether solvers that can solve a table of cases do so for a study."""
-        return not study.responses and study.number_of_cases() >= self.bulk_from
-
 
 class LcaValidation(Strict):
     """Published values against which the load-bearing model is checked."""
@@ -99,10 +97,14 @@ class LcaValidation(Strict):
 
 
 class ReportSettings(Strict):
-    """What the head of the report says."""
+    """The report's title, and templates that a laboratory has instead of the package's."""
 
     title: str = Field("Load-bearing study of a non-pneumatic tyre with composite spokes")
-    laboratory: str = Field("", description="Name of the laboratory, shown under the title")
+    templates: str | None = Field(
+        None,
+        description="Folder with page templates of your own; each replaces the package's template "
+        "of the same name",
+    )
 
 
 class Config(Strict):
@@ -130,6 +132,7 @@ class Config(Strict):
     tyre_responses: TyreResponseSettings = TyreResponseSettings()
     lca_validation: LcaValidation = LcaValidation()
     report: ReportSettings = ReportSettings()
+    laboratory: Laboratory = Laboratory()
 
     @model_validator(mode="before")
     @classmethod
@@ -166,6 +169,12 @@ class Config(Strict):
         for study in self.studies:
             named += [study.published_coefficients, study.published_spoke_stiffness]
         return [name for name in named if name]
+
+    def page_inputs(self) -> list[str]:
+        """Name the laboratory's own files for the report: its logo and its templates."""
+        folder, logo = self.report.templates, self.laboratory.logo
+        templates = files_below(folder) if folder else []
+        return [*filter(None, [logo]), *map(str, templates)]
 
     @property
     def decisions(self) -> tuple[Decision, ...]:

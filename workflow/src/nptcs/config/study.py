@@ -12,6 +12,7 @@ from nptcs.config.decisions import Decision
 from nptcs.config.design import Design, DOptimal, FullFactorial, SplitPlot, number_of_cases
 from nptcs.config.response import ResponseChoice
 from nptcs.config.surface import SurfaceModel, name_of, needs_ply, own_terms
+from nptcs.ranges import RANGES
 from nptcs.terms import parse
 
 
@@ -192,6 +193,23 @@ class Study(Strict):
                     f"study {self.name}: further_cases, case {number}: give {sorted(names)}, got "
                     f"{sorted(case)}"
                 )
+        return self
+
+    @model_validator(mode="after")
+    def _values_are_possible(self) -> Self:
+        levels = {factor.name: factor.levels for factor in self.factors}
+        given: list[tuple[str, str, Level]] = [
+            *(("factors", name, level) for name, of in levels.items() for level in of),
+            *(("fixed", name, level) for name, level in self.fixed.items()),
+            *(("reference", name, value) for name, value in self.reference.items()),
+            *(("further_cases", k, v) for case in self.further_cases for k, v in case.items()),
+            ("load_n", "load_n", self.load_n),
+        ]
+        for key, name, value in given:
+            if name not in RANGES or isinstance(value, MeasuredRubber):
+                continue
+            if fault := RANGES[name].fault(value):
+                raise ValueError(f"study {self.name}: {key}: {name} {fault}")
         return self
 
     @model_validator(mode="after")

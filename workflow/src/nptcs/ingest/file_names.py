@@ -8,7 +8,7 @@ from collections import Counter
 from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 
-from nptcs.ingest.conditioning.declared_test import loadings_named
+from nptcs.ingest.conditioning.declared_test import loadings_in_name, loadings_named
 from nptcs.tables.specimens import TestType
 
 ROLE_WORDS = frozenset(
@@ -209,9 +209,10 @@ def _series(name: str) -> str:
 
 def proposed_test(path: str, texts: Iterable[str]) -> str:
     """Propose a test from the words of a path and of the file's head; empty if none tells."""
+    texts = list(texts)
     words = [path.replace("_", " "), *texts]
     known = {test.value for test in TestType}
-    named = loadings_named(words)
+    named = loadings_named(texts) | loadings_in_name(path)
     rubber = any(_RUBBER.search(text) for text in words)
     if len(named) == 1 and not rubber:
         loading = next(iter(named))

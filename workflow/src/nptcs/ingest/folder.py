@@ -11,17 +11,21 @@ from nptcs.errors import InputError
 NOTES = ("readme", "readme.md", "readme.txt")
 """Names, in any case, of files that are notes to the reader, not test data."""
 
+HIDDEN = (".", "~$")
+"""Beginnings of names of files that are nobody's data."""
+
 
 def raw_files(folder: Path) -> dict[str, Path]:
     """All files below a folder, by relative name in natural order.
 
-    Hidden files are left out, and links that lead out of the folder.
+    Hidden files are left out, those by which an office program locks a document (``~$a.xlsx``),
+    and links that lead out of the folder.
     """
     found = {
         path.relative_to(folder).as_posix(): path
         for path in folder.rglob("*")
         if path.is_file()
-        and not any(part.startswith(".") for part in path.relative_to(folder).parts)
+        and not any(part.startswith(HIDDEN) for part in path.relative_to(folder).parts)
         and _stays_inside(path, folder)
     }
     return dict(sorted(found.items(), key=lambda item: natural_key(item[0])))

@@ -17,6 +17,7 @@ from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.column_names import LOADS, STRAINS
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
+from nptcs.ingest.sketch import ChangedCopies, data_sketch
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.specimens import Specimen
 
@@ -71,10 +72,13 @@ def repeats(
     """
     first: dict[str, str] = {}
     found: dict[str, str] = {}
+    copies = ChangedCopies()
     for record in records:
         if not record.understood or not record.data_sha256:
             continue
         earlier = first.setdefault(record.data_sha256, record.specimen)
+        if earlier == record.specimen:
+            earlier = copies.earlier(record.specimen, record.data_sketch) or earlier
         piece = (pieces or {}).get(record.specimen, "")
         same_piece = piece and piece == (pieces or {}).get(earlier, "")
         if earlier != record.specimen and not same_piece:
@@ -151,10 +155,16 @@ def repeats_in_sheet(
     records = []
     for specimen in may_repeat(included, folder):
         try:
-            digest = data_digest(read_tables(specimen, folder, profiles, limits))
+            tables = read_tables(specimen, folder, profiles, limits)
         except InputError:
             continue
-        records.append(IngestRecord(specimen=specimen.specimen, status="ok", data_sha256=digest))
+        record = IngestRecord(
+            specimen=specimen.specimen,
+            status="ok",
+            data_sha256=data_digest(tables),
+            data_sketch=data_sketch(tables),
+        )
+        records.append(record)
     return [
         InputError(
             f"the same data as specimen {first}",

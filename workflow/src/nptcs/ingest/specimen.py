@@ -12,7 +12,9 @@ import pandas as pd
 
 from nptcs.config.ingest import IngestSettings
 from nptcs.errors import InputError
+from nptcs.ingest.conditioning.across import settle_transverse
 from nptcs.ingest.conditioning.declared_test import require_declared_test
+from nptcs.ingest.conditioning.excursions import empty_excursions, empty_in_table
 from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
@@ -28,10 +30,12 @@ from nptcs.ingest.conditioning.steps import (
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import NO_STRAIN, resolve_strains
+from nptcs.ingest.conditioning.tare import flag_tare
 from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
+from nptcs.ingest.sketch import data_sketch
 from nptcs.tables.curves import CURVE_COLUMNS, FileRecord, Geometry, IngestRecord
 from nptcs.tables.specimens import Specimen
 
@@ -78,7 +82,7 @@ def ingest_specimen(
     """
     tables = read_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
-    digest = data_digest(tables)
+    digest, sketch = data_digest(tables), data_sketch(tables)
     factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
     signals.flags += factors
@@ -86,6 +90,7 @@ def ingest_specimen(
         require_declared_test(signals, specimen, table, name)
     mark_dead(signals, settings.missing_values)
     empty_spikes(signals, settings.missing_values)
+    empty_excursions(signals, settings.missing_values)
     _flag_time(signals)
     _require_force(signals, specimen, load)
     check_machine_area(signals, specimen, load, settings.plausible)
@@ -104,6 +109,8 @@ def ingest_specimen(
     drop_empty_rows(signals, settings.missing_values)
     _require_rows(signals, specimen, strain, source)
     orient(signals, specimen, strain.path, settings.signs, source)
+    settle_transverse(signals, specimen, strain.columns)
+    flag_tare(signals)
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)
@@ -114,7 +121,7 @@ def ingest_specimen(
         check_physics(signals, specimen, tables, settings.plausible)
     for table in tables:
         check_labels(signals, specimen, table, settings.plausible)
-    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest))
+    return Ingested(_curve(signals), _record(specimen, tables, signals, source, digest, sketch))
 
 
 def _with_gauge_length(
@@ -132,7 +139,9 @@ def _with_gauge_length(
 def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSettings) -> Signals:
     if len(tables) == 1:
         return Signals(dict(tables[0].values))
-    return pair(
+    # before pairing, which adds the row of the largest force and interpolates
+    words = [flag for table in tables for flag in empty_in_table(table, settings.missing_values)]
+    paired = pair(
         tables[0],
         tables[1],
         specimen.time_offset_s,
@@ -140,6 +149,8 @@ def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSetti
         specimen.specimen,
         settings.end_of_test.force_drop,
     )
+    paired.flags += words
+    return paired
 
 
 def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:
@@ -191,7 +202,12 @@ def _curve(signals: Signals) -> pd.DataFrame:
 
 
 def _record(
-    specimen: Specimen, tables: tuple[RawFile, ...], signals: Signals, source: str, digest: str
+    specimen: Specimen,
+    tables: tuple[RawFile, ...],
+    signals: Signals,
+    source: str,
+    digest: str,
+    sketch: tuple[int, ...],
 ) -> IngestRecord:
     roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
         ("force", "strain") if len(tables) > 1 else ("force and strain",)
@@ -228,6 +244,7 @@ def _record(
             thickness_stations=len(specimen.thickness_mm),
         ),
         data_sha256=digest,
+        data_sketch=sketch,
         strain_source=source,
         failure_seen=signals.failure_seen,
         steps=tuple(signals.steps),

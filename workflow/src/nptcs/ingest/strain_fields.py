@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 
 import numpy as np
@@ -28,7 +28,8 @@ def read_strain_fields(
 ) -> RawFile:
     """Read every file of a folder as one frame and take the mean of its strains.
 
-    The number of a frame is the last number in its file's name. The mean is taken over the points
+    The number of a frame is the last number in its file's name that differs between the files.
+    The mean is taken over the points
     inside the profile's ``window``; a point without a strain does not count.
 
     Returns
@@ -48,7 +49,7 @@ def read_strain_fields(
         read_raw(path, profiles, declared=declared, role="strain", limits=limits) for path in paths
     ]
     first = frames[0]
-    numbers = [_number_of(path) for path in paths]
+    numbers = _numbers_of(paths, folder)
     if len(set(numbers)) < len(numbers):
         raise InputError("two files have one frame number", "remove one of them", folder)
     names = [name for name in MEANS if all(name in frame.values for frame in frames)]
@@ -76,17 +77,25 @@ def read_strain_fields(
         decimal=first.decimal,
         header_line=first.header_line,
         first_line=first.first_line,
+        assumed=first.assumed,
         notes=(note, *first.notes),
     )
 
 
-def _number_of(path: Path) -> int:
-    """Return the number of a frame: VIC's ``name-0012_0.csv`` counts its cameras behind it."""
-    stem = re.sub(r"(?<=\d)_\d$", "", path.stem)
-    numbers = re.findall(r"\d+", stem)
-    if not numbers:
-        raise InputError("no frame number in the name", "name the files by frame", path)
-    return int(numbers[-1])
+def _numbers_of(paths: Sequence[Path], folder: Path) -> list[int]:
+    """Return the number of each frame: the last of the numbers in the names that is not constant.
+
+    VIC's ``name-0012_0.csv`` counts its cameras behind the frame. Names with unlike many numbers
+    are told apart by their last one.
+    """
+    found = [[int(number) for number in re.findall(r"\d+", path.stem)] for path in paths]
+    if any(not numbers for numbers in found):
+        raise InputError("no frame number in the names", "name the files by frame", folder)
+    if len({len(numbers) for numbers in found}) > 1:
+        return [numbers[-1] for numbers in found]
+    places = list(zip(*found, strict=True))
+    varying = [place for place in places if len(set(place)) == len(paths)]
+    return list(varying[-1] if varying else places[-1])
 
 
 def _inside(frame: RawFile, folder: Path) -> Mask:

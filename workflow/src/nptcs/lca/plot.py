@@ -9,7 +9,6 @@ from matplotlib.figure import Figure
 from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.state import LcaState
 
-FORMATS = (".svg", ".png", ".pdf")
 COLOURS = {"contact": "#d55e00", "compression": "#0072b2", "tension": "#009e73"}
 """One colour per region, distinguishable for colour-blind readers too."""
 

@@ -68,7 +68,7 @@ def loadings(force: Array, strain: Array) -> list[Loading]:
 
 def _reversals(course: Array) -> list[tuple[int, int]]:
     """Pairs (peak, trough) of a zigzag, each trough followed by a rise that counts."""
-    floor = max(SMALLEST_REVERSAL * float(np.ptp(course)), 6.0 * _noise(course))
+    floor = max(SMALLEST_REVERSAL * float(np.ptp(course)), 6.0 * noise_of(course))
     found: list[tuple[int, int]] = []
     low = peak = trough = 0
     falling = False
@@ -87,8 +87,14 @@ def _reversals(course: Array) -> list[tuple[int, int]]:
     return found
 
 
-def _noise(course: Array) -> float:
-    """Return the standard deviation of the readings' noise, from their second differences."""
+def noise_of(course: Array) -> float:
+    """Return the standard deviation of the readings' noise, from their second differences.
+
+    Parameters
+    ----------
+    course : ndarray, shape (n,)
+        Finite readings in the order of time; fewer than five tell nothing (0).
+    """
     if len(course) < 5:
         return 0.0
     # the median of |second difference| of a normal noise s is 0.6745 √6 s

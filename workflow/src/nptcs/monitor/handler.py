@@ -14,7 +14,7 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from nptcs.monitor.run import Run
-from nptcs.monitor.words import SAID, closing_lines, error_message, status_line
+from nptcs.monitor.words import SAID, closing_lines, error_message, page_lines, status_line
 
 REFRESH_S = 0.5
 CLEAR = "\r\x1b[K"
@@ -35,6 +35,7 @@ class RunHandler(LogHandlerBase):
         self.run = Run()
         self.began = time.monotonic()
         self.line_shown = False
+        self.idle = False
         self.ended = threading.Event()
         self.plain: logging.Handler | None = None
         if settings.dryrun or settings.verbose or settings.printshellcmds:
@@ -94,6 +95,7 @@ class RunHandler(LogHandlerBase):
             if text:
                 self._say(text)
         elif record.levelno == logging.INFO and SAID.match(text):
+            self.idle = text.startswith("Nothing to be done")
             self._say(text)
 
     def _say(self, text: str) -> None:
@@ -126,6 +128,8 @@ class RunHandler(LogHandlerBase):
             self.run.look()
             lines = closing_lines(self.run, time.monotonic() - self.began, _newest_log())
             self._say("\n".join(lines))
+        elif not already and self.idle:
+            self._say("\n".join(page_lines()))
         super().close()
 
 

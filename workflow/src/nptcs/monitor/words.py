@@ -7,9 +7,13 @@ from collections.abc import Sequence
 from pathlib import Path
 
 from nptcs.campaign.progress import Progress
+from nptcs.errors import InputError
+from nptcs.files import read_model
 from nptcs.monitor.run import Run
+from nptcs.runs.identity import RunIdentity
 
 PAGES = ("results/report.html", "results/workbook.xlsx")
+IDENTITY = "results/identity.json"
 CHATTER = re.compile(
     r"^(RuleException|CalledProcessError|Error in rule|Error in group|Exiting because|"
     r"At least one job did not complete|Trying to restart|WorkflowError:\s*At least one job|"
@@ -63,17 +67,40 @@ def campaign_words(progress: Progress) -> str:
     return words
 
 
-def closing_lines(run: Run, seconds: float, log: str, pages: Sequence[str] = PAGES) -> list[str]:
+def closing_lines(
+    run: Run,
+    seconds: float,
+    log: str,
+    pages: Sequence[str] = PAGES,
+    identity: str = IDENTITY,
+) -> list[str]:
     """Say at the end what was done, what failed, and where the report is."""
     jobs = f"{run.done} of {run.total} jobs in {duration(seconds)}"
     lines = [jobs if run.failed or run.done < run.total else f"Done: {jobs}"]
     lines += [f"  {campaign_words(one)}" for one in run.campaigns()]
     for job in run.failed:
         lines.append(f"FAILED {job}: {first_line(job.log)}")
-    lines += [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
+    lines += page_lines(pages)
+    lines += identity_lines(identity)
     if log:
         lines.append(f"log of the run: {log}")
     return lines
+
+
+def identity_lines(file: str) -> list[str]:
+    """Name the run by its identity, once all its tables are there."""
+    if not Path(file).is_file():
+        return []
+    try:
+        found = read_model(file, RunIdentity)
+    except InputError:
+        return []  # being written anew, or edited: the next reader of results says so
+    return [f"run {found.short}: tables complete {found.made_text}"]
+
+
+def page_lines(pages: Sequence[str] = PAGES) -> list[str]:
+    """Name the report and the workbook, if they exist."""
+    return [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
 
 
 def first_line(log: str) -> str:

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import numpy as np
-import pandas as pd
 
 from nptcs.config.reduction import AstmD6641
 from nptcs.reduce.branch import Branch
 from nptcs.reduce.evidence import Evidence
+from nptcs.reduce.faces import mean_of_faces
 from nptcs.reduce.rows import Property, finite_pair, missing, strain_range, value_at_peak
 from nptcs.reduce.tension import modulus, poisson_ratio, strength, ultimate_strain
 
@@ -45,13 +45,6 @@ def reduce_compression(branch: Branch, rules: AstmD6641, evidence: Evidence) -> 
         strength(branch.to_peak, rules.title, evidence),
         *bending,
     ]
-
-
-def mean_of_faces(branch: pd.DataFrame) -> pd.DataFrame:
-    """Branch with strain_axial as the mean of both faces where the back face was measured."""
-    if branch["strain_axial_back"].isna().all():
-        return branch
-    return branch.assign(strain_axial=(branch["strain_axial"] + branch["strain_axial_back"]) / 2)
 
 
 def bending_rows(branch: Branch, rules: AstmD6641, evidence: Evidence) -> list[Property]:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import pandas as pd
@@ -42,7 +42,7 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
     """
     pairs = zip(properties["specimen"], properties["property"], strict=True)
     rows = properties[[sheet[specimen].gives(name) for specimen, name in pairs]]
-    rows = _of_sensors(_recorded(rows))
+    rows = of_sensors(_recorded(rows), GROUP)
     if not any(sheet[name].piece for name in rows["specimen"].unique()):
         return rows
     pieces = rows["specimen"].map(lambda name: sheet[name].tested_piece).rename("of_piece")
@@ -62,18 +62,25 @@ def _recorded(rows: pd.DataFrame) -> pd.DataFrame:
     return rows.assign(value=rows["value"].mask(open_), flags=rows["flags"].mask(open_, flags))
 
 
-def _of_sensors(rows: pd.DataFrame) -> pd.DataFrame:
+def of_sensors(rows: pd.DataFrame, group: Sequence[str]) -> pd.DataFrame:
     """Empty what crosshead travel gives in groups in which another specimen has a sensor.
 
     Travel holds the compliance of machine and grips, so that a modulus from it can be a third of
     the material's. Where no specimen of a group has a sensor all of its values stay, flagged.
+
+    Parameters
+    ----------
+    rows : DataFrame
+        Columns of `nptcs.tables.properties.PropertiesTable`.
+    group : sequence of str
+        Columns whose equal values make a group: a mean over several tests has a wider one.
     """
     of_strain = rows["value"].notna() & ~rows["property"].isin(WITHOUT_STRAIN)
     travel = of_strain & rows["flags"].str.contains(CROSSHEAD, regex=False)
     if not travel.any():
         return rows
     sensor = of_strain & ~travel
-    mixed = travel & sensor.groupby([rows[key] for key in GROUP], dropna=False).transform("any")
+    mixed = travel & sensor.groupby([rows[key] for key in group], dropna=False).transform("any")
     flags = TRAVEL_NEXT_TO_SENSORS + "; " + rows.loc[mixed, "flags"]
     return rows.assign(value=rows["value"].mask(mixed), flags=rows["flags"].mask(mixed, flags))
 

@@ -10,7 +10,7 @@ from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.config.reduction import StatisticsSettings
-from nptcs.reduce.counted import counted
+from nptcs.reduce.counted import counted, of_sensors
 from nptcs.reduce.sample import NAN, b_basis_factor, positive_basis
 from nptcs.tables.specimens import Specimen
 
@@ -43,7 +43,8 @@ def pooled_rows(
     included = included[included["value"].notna() & wanted]
     rows: list[dict[str, object]] = []
     for tests in settings.pool_tests:
-        chosen = included[included["test"].isin(tests)]
+        chosen = of_sensors(included[included["test"].isin(tests)], KEY)
+        chosen = chosen[chosen["value"].notna()]
         for key, group in chosen.groupby(KEY, dropna=False, sort=False):
             parts = [part for _, part in group.groupby("test", sort=False)]
             if len(parts) > 1 and all(len(part) > 1 for part in parts):

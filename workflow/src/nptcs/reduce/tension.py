@@ -10,6 +10,8 @@ from nptcs.config.reduction import ChordRules, TensionRules
 from nptcs.reduce.branch import Branch
 from nptcs.reduce.chord import chord_slope, fit_line
 from nptcs.reduce.evidence import Evidence
+from nptcs.reduce.faces import branch_of_faces
+from nptcs.reduce.leaps import leap_within
 from nptcs.reduce.rows import (
     NAN,
     Property,
@@ -23,7 +25,8 @@ from nptcs.reduce.rows import (
 
 STIFFENING = 1.5
 """Ratio of slopes within a chord that no laminate shows, but slack or a toe does."""
-
+TOE_LEFT = 1.1
+"""The same beyond what carbon fibres do, which stiffen by some 20 % per percent of strain."""
 
 ANOTHER_RANGE = "chord over another range"
 
@@ -44,13 +47,17 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
     evidence : Evidence
         Whether the specimen failed.
     """
-    ultimate = ultimate_strain(branch.to_peak, rules.title, evidence)
+    branch, faces = branch_of_faces(branch)
+    ultimate = ultimate_strain(branch.to_peak, rules.title, evidence).flagged(faces)
     low, high, nominal = chord_limits(ultimate.value, rules)
-    remarks = []
+    remarks = [*faces]
     if ultimate.value != ultimate.value and (short := _short_run(branch, rules, high)):
         last = branch.rows["strain_axial"].max()
         remarks.append(f"strain ends at {last:.4g}: {ANOTHER_RANGE} than {nominal}")
         (low, high), nominal = short, strain_range(*short)
+    elif late := _late_start(branch, rules, low, high):
+        remarks.append(f"strain begins at {late[0]:.4g}: {ANOTHER_RANGE} than {nominal}")
+        (low, high), nominal = late, strain_range(*late)
     slopes = [
         modulus(branch.rows, rules, low, high, nominal),
         poisson_ratio(branch.rows, rules, low, high, nominal),
@@ -71,6 +78,20 @@ def _short_run(branch: Branch, rules: TensionRules, high: float) -> tuple[float,
         return None
     covered = last >= short[1] - rules.end_tolerance * (short[1] - short[0])
     return short if covered else None
+
+
+def _late_start(
+    branch: Branch, rules: TensionRules, low: float, high: float
+) -> tuple[float, float] | None:
+    """Range of equal width from where the strain begins, above the low end: after a preload.
+
+    None if the strain begins early enough, or only beyond the range, or ends before it.
+    """
+    strain = branch.rows["strain_axial"].dropna()
+    begin, end = float(strain.min()), float(strain.max())
+    if not low + rules.end_tolerance * (high - low) < begin < high:
+        return None
+    return (begin, begin + high - low) if end >= begin + high - low else None
 
 
 def _may_be_low(branch: Branch, rules: TensionRules) -> bool:
@@ -106,10 +127,18 @@ def modulus(
     strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
     chord = chord_slope(strain, stress, low, high, rules.chord_method, rules.end_tolerance)
     rule = chord_rule(rules.title, rules.chord_method)
+    if leap := leap_within(strain, stress, low, high):
+        return missing("modulus", "MPa", rule, leap)
     if (ratio := stiffening(strain, stress, low, high)) > STIFFENING:
         reason = f"the curve stiffens {ratio:.3g} times within the range: slack or toe is left"
         return missing("modulus", "MPa", rule, reason)
-    return from_chord("modulus", chord, "MPa", rule, nominal)
+    found = from_chord("modulus", chord, "MPa", rule, nominal)
+    if ratio > TOE_LEFT:
+        words = (
+            f"the curve stiffens by {100 * (ratio - 1):.2g} % within the range: a toe may be left"
+        )
+        return found.flagged([words])
+    return found
 
 
 def stiffening(strain: Array, stress: Array, low: float, high: float) -> float:
@@ -134,6 +163,8 @@ def poisson_ratio(
     axial, transverse = finite_pair(branch, "strain_axial", "strain_transverse")
     if not len(axial):
         return missing("poisson_ratio", "1", rule, "no transverse strain")
+    if leap := leap_within(axial, -transverse, low, high, of_both=True):
+        return missing("poisson_ratio", "1", rule, leap)
     chord = chord_slope(axial, -transverse, low, high, rules.chord_method, rules.end_tolerance)
     return from_chord("poisson_ratio", chord, "1", rule, nominal)
 

@@ -1,10 +1,11 @@
-"""What the page template is handed: tables of finished text, figures as data URIs, paragraphs."""
+"""What the page template is handed: tables of finished text, figures as SVG, paragraphs."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 from typing import Literal, assert_never
 
+from nptcs.report.sketches import Sketch
 from nptcs.report.tables.entries import Entry
 from nptcs.tables.result_table import Heading, ReportSection
 
@@ -14,10 +15,11 @@ LONG = 60
 
 @dataclass(frozen=True)
 class Cell:
-    """One cell: its text, the full number behind it for sorting, and its CSS class."""
+    """One cell: its text, the full number behind it for sorting, the name in the file on hover."""
 
     text: str
     number: str = ""
+    name_in_file: str = ""
 
     @property
     def css(self) -> str:
@@ -40,6 +42,8 @@ class TableView:
         shown with their CSS classes, and whether it rests on synthetic data.
     all_rows : int
         Rows of the whole table; a long one is not shown whole.
+    columns : tuple of str
+        Names of the columns in the file.
     """
 
     entry: Entry
@@ -49,16 +53,31 @@ class TableView:
     rows: tuple[tuple[str, tuple[Cell, ...]], ...]
     synthetic: bool = False
     all_rows: int = 0
+    columns: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
 class Plot:
-    """One figure of the page, as a data URI, with words for those who cannot see it."""
+    """One figure of the page.
 
-    uri: str
+    Parameters
+    ----------
+    svg : str
+        The figure, with words for those who cannot see it.
+    alt : str
+        These words.
+    name : str
+        Name of its file, without ending.
+    data : str
+        The numbers that it shows: CSV, deflated, in base64; empty where it carries none.
+    synthetic : bool
+        Whether it shows synthetic data.
+    """
+
+    svg: str
     alt: str
-    width_px: int
-    height_px: int
+    name: str
+    data: str = ""
     synthetic: bool = False
 
 
@@ -126,8 +145,54 @@ class Folded:
     text: str
 
 
-PageBlock = TableView | Plots | Text | Listing | Facts | Folded
-BlockMacro = Literal["table", "plots", "text", "listing", "facts", "folded"]
+@dataclass(frozen=True)
+class Finding:
+    """One answer of the first screen.
+
+    Parameters
+    ----------
+    question, answer, words
+        What is asked, the result in a few words, and one or two sentences on it.
+    source : str
+        Tables that hold the numbers.
+    section : ReportSection
+        Where more of it is.
+    sketch : Sketch, optional
+        A small figure.
+    assessed : bool
+        False where the run has no answer.
+    synthetic : bool
+        Whether it rests on synthetic data.
+    """
+
+    question: str
+    answer: str
+    words: str
+    source: str
+    section: ReportSection
+    sketch: Sketch | None = None
+    assessed: bool = True
+    synthetic: bool = False
+
+
+@dataclass(frozen=True)
+class Findings:
+    """The answers of the first screen."""
+
+    findings: tuple[Finding, ...]
+
+
+@dataclass(frozen=True)
+class Interactive:
+    """A part of the page that computes: finished HTML with its data, styles and scripts."""
+
+    markup: str
+
+
+PageBlock = TableView | Plots | Text | Listing | Facts | Folded | Findings | Interactive
+BlockMacro = Literal[
+    "table", "plots", "text", "listing", "facts", "folded", "findings", "interactive"
+]
 
 
 def macro_of(block: PageBlock) -> BlockMacro:
@@ -145,6 +210,10 @@ def macro_of(block: PageBlock) -> BlockMacro:
             return "facts"
         case Folded():
             return "folded"
+        case Interactive():
+            return "interactive"
+        case Findings():
+            return "findings"
         case _:
             assert_never(block)
 

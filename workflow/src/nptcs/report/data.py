@@ -2,23 +2,25 @@
 
 from __future__ import annotations
 
-import platform
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
-from importlib.metadata import version
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
 import pandas as pd
 import pandera.pandas as pa
 
-from nptcs import __version__
 from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import read_model, sha256_of_file
+from nptcs.lca.section import SectionKind
 from nptcs.report.verdict import verdict
+from nptcs.runs.identity import RunIdentity
+from nptcs.runs.software import software_versions
+from nptcs.solvers.lca import LcaOptions
 from nptcs.surface.fit import Surface
-from nptcs.surface.stored import read_surfaces
+from nptcs.surface.registry import SurfaceRegistry
+from nptcs.surface.stored import read_registry, read_surfaces
 from nptcs.tables.cases import Cases, Design
 from nptcs.tables.catalogue import file_of, result_files
 from nptcs.tables.curves import IngestRecord, read_curves
@@ -26,16 +28,6 @@ from nptcs.tables.io import read_table
 from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
 from nptcs.tables.problems import Problems
 from nptcs.tables.specimens import Specimen
-
-SOFTWARE = (
-    "snakemake",
-    "numpy",
-    "scipy",
-    "pandas",
-    "scikit-learn",
-    "matplotlib",
-    "openpyxl",
-)
 
 
 @dataclass(frozen=True)
@@ -46,6 +38,26 @@ class SolverFacts:
     needs_ply: bool
     loads_tyre: bool
     choices: Sequence[Mapping[str, str]] = ()
+    whole_plates: bool = False
+
+
+@dataclass(frozen=True)
+class LcaRing:
+    """The load-bearing model as the run's first study with it uses it.
+
+    Parameters
+    ----------
+    section : {"sandwich", "printed"}
+        Section of the shear band.
+    file : str
+        The table of spoke stiffness.
+    rows : sequence of mapping
+        Its rows.
+    """
+
+    section: SectionKind
+    file: str
+    rows: Sequence[Mapping[Any, Any]]
 
 
 @dataclass(frozen=True)
@@ -53,7 +65,8 @@ class Results:
     """Everything that a run has made.
 
     ``tables`` holds the tables of ``results/tables`` by file name; `table` returns one by its
-    contract.
+    contract. ``surfaces`` are the polynomials of the stiffness by study and solver, ``models`` the
+    surfaces of every kind and response by study.
     """
 
     config: Config
@@ -67,6 +80,9 @@ class Results:
     designs: Mapping[str, pd.DataFrame]
     surfaces: Mapping[str, Mapping[str, Surface]]
     tables: Mapping[str, pd.DataFrame]
+    models: Mapping[str, SurfaceRegistry] = field(default_factory=dict)
+    lca_ring: LcaRing | None = None
+    identity: RunIdentity | None = None
 
     def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
         """Return the result table that keeps a contract; for a table of one study, the study's."""
@@ -144,9 +160,9 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         ``config``, ``specimens`` (rows of the sheet), ``solvers`` (`SolverFacts` by name), as
         plain values.
     files : mapping
-        A path for ``card``; lists of paths under ``tables`` (all of ``results/tables``),
-        ``curves``, ``records``, ``designs``, ``surfaces`` (both named by their study) and
-        ``inputs``.
+        A path for ``card`` and one for ``identity``; lists of paths under ``tables`` (all of
+        ``results/tables``), ``curves``, ``records``, ``designs``, ``surfaces``, ``models`` (these
+        three named by their study) and ``inputs``.
 
     Returns
     -------
@@ -168,11 +184,7 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
         config=config,
         sheet=tuple(Specimen.model_validate(row) for row in job["specimens"]),
         solvers={name: SolverFacts(**facts) for name, facts in job["solvers"].items()},
-        software={
-            "nptcs": __version__,
-            "Python": platform.python_version(),
-            **{name: version(name) for name in SOFTWARE},
-        },
+        software=software_versions(),
         inputs={str(file): sha256_of_file(file) for file in files["inputs"]},
         card=read_model(files["card"], MaterialCard),
         curves=read_curves(files["curves"]),
@@ -183,4 +195,23 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
             name: read_table(paths[name], row.contract)
             for name, row, _ in result_files(with_surface)
         },
+        models={Path(file).stem: read_registry(file) for file in files["models"]},
+        lca_ring=_lca_ring(config),
+        identity=read_model(files["identity"], RunIdentity),
     )
+
+
+def _lca_ring(config: Config) -> LcaRing | None:
+    """Read the spokes of the load-bearing model; None where no study uses it with two stiffnesses.
+
+    A model with a curve for each spoke is not evaluated on the page.
+    """
+    study = next((study for study in config.studies if "lca" in study.solvers), None)
+    if study is None:
+        return None
+    options = LcaOptions.model_validate(config.options_of(study.name, "lca"))
+    file = options.tables().get("spoke_stiffness")
+    if file is None or options.contact_spokes != "paper":
+        return None
+    rows = pd.read_csv(file).to_dict("records")
+    return LcaRing(options.section, file, rows)

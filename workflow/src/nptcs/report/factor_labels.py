@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 from nptcs.config.study import Study
+from nptcs.language import tr
 
 
 @dataclass(frozen=True)
@@ -20,4 +21,7 @@ class FactorLabel:
 
 def factor_labels(study: Study) -> dict[str, FactorLabel]:
     """Return how a study's factors are written, by the names of their columns."""
-    return {factor.name: FactorLabel(factor.label, factor.unit) for factor in study.factors}
+    return {
+        factor.name: FactorLabel(tr(factor.label), "°" if factor.unit == "deg" else factor.unit)
+        for factor in study.factors
+    }

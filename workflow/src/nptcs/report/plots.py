@@ -1,4 +1,4 @@
-"""Figures as data URIs, so that the page needs no other file; figures drawn before are kept.
+"""Figures as SVG in the page, with their numbers as CSV; figures drawn before are kept.
 
 Drawing takes most of the time of a report. A figure is kept under a name made of everything that
 it is drawn from: the plotting function with its code, its arguments and the version of matplotlib.
@@ -6,9 +6,11 @@ it is drawn from: the plotting function with its code, its arguments and the ver
 
 from __future__ import annotations
 
+import base64
 import hashlib
 import pickle
 import re
+import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
@@ -16,17 +18,21 @@ from pathlib import Path
 from typing import ParamSpec
 
 import matplotlib as mpl
+import pandas as pd
+from markupsafe import escape
 from matplotlib.figure import Figure
 
 from nptcs.errors import InputError
 from nptcs.files import read_sealed, write_sealed
+from nptcs.language import catalogue_digest, current_language
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
-from nptcs.report.figures.style import PANEL, to_svg
+from nptcs.report.figures.style import data_of, to_svg
+from nptcs.report.svg import compact
 
 KIND = "Figure"
-PIXELS_PER_POINT = 96 / 72
-SIZE = re.compile(r'<svg [^>]*?width="([\d.]+)pt" height="([\d.]+)pt"')
+DIGITS = 6
+"""Significant digits of the numbers that a figure carries."""
 
 P = ParamSpec("P")
 
@@ -44,17 +50,18 @@ class KeptFigures:
         self.folder = folder
         self.used: set[str] = set()
 
-    def read(self, key: str) -> str | None:
-        """Return the SVG text kept under a key; None if there is none that is whole."""
+    def read(self, key: str) -> tuple[str, str] | None:
+        """Return the SVG and the CSV text kept under a key; None if there is none that is whole."""
         self.used.add(f"{key}.json")
         try:
-            return str(read_sealed(self.folder / f"{key}.json", KIND)["svg"])
+            kept = read_sealed(self.folder / f"{key}.json", KIND)
+            return str(kept["svg"]), str(kept["csv"])
         except (OSError, InputError, KeyError):
             return None
 
-    def write(self, key: str, svg: str) -> None:
+    def write(self, key: str, svg: str, csv: str) -> None:
         """Keep a figure."""
-        write_sealed(self.folder / f"{key}.json", {"svg": svg}, KIND)
+        write_sealed(self.folder / f"{key}.json", {"svg": svg, "csv": csv}, KIND)
 
     def drop_unused(self) -> None:
         """Remove the figures that were not asked for."""
@@ -81,12 +88,12 @@ def kept_figures(folder: str | Path) -> Iterator[None]:
 def plot(
     alt: str, synthetic: bool, draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs
 ) -> Plot:
-    """Draw a figure, or take it from those that are kept, and turn it into a data URI.
+    """Draw a figure, or take it from those that are kept, and write it for the page.
 
     Parameters
     ----------
     alt : str
-        The figure in words, for those who cannot see it.
+        The figure in words, for those who cannot see it; its file is named after it.
     synthetic : bool
         Whether it shows synthetic data.
     draw : callable
@@ -96,15 +103,16 @@ def plot(
     """
     kept = _KEPT.get()
     key = None if kept is None else figure_key(draw, *args, **kwargs)
-    svg = None if kept is None or key is None else kept.read(key)
-    if svg is None:
-        svg = to_svg(draw(*args, **kwargs))
+    found = None if kept is None or key is None else kept.read(key)
+    if found is None:
+        figure = draw(*args, **kwargs)
+        data = data_of(figure)
+        found = compact(to_svg(figure)), "" if data is None else csv_of(data)
         if kept is not None and key is not None:
-            kept.write(key, svg)
-    size = SIZE.search(svg)
-    points = size.groups() if size else (72 * side for side in PANEL)
-    width, height = (round(float(side) * PIXELS_PER_POINT) for side in points)
-    return Plot(data_uri(svg), alt, width, height, synthetic)
+            kept.write(key, *found)
+    svg, csv = found
+    words = f"{alt} (synthetic data)" if synthetic else alt
+    return Plot(labelled(svg, words), alt, file_name(alt), packed(csv), synthetic)
 
 
 def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> str | None:
@@ -113,16 +121,36 @@ def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> 
         content = pickle.dumps((args, sorted(kwargs.items())), protocol=5)
     except (pickle.PicklingError, TypeError, AttributeError):
         return None
-    code = code_hash(draw.__module__, "nptcs.report.figures.style", words=True)
-    name = f"{draw.__module__}.{draw.__qualname__} {code} {mpl.__version__} ".encode()
+    code = code_hash(draw.__module__, __name__, words=True)
+    words = f"{current_language()} {catalogue_digest(current_language())}"
+    name = f"{draw.__module__}.{draw.__qualname__} {code} {mpl.__version__} {words} ".encode()
     return hashlib.sha256(name + content).hexdigest()
 
 
-def data_uri(svg: str) -> str:
-    """Write SVG text as a data URI for an attribute between single quotes.
+def csv_of(data: pd.DataFrame) -> str:
+    """Write the numbers of a figure as CSV text, to `DIGITS` significant digits."""
+    return data.to_csv(index=False, float_format=f"%.{DIGITS}g", lineterminator="\n")
 
-    Percent encoding of the few characters that need it takes a quarter less room than base64.
+
+def packed(csv: str) -> str:
+    """Deflate CSV text and write it in base64, for an attribute of the page; empty for none."""
+    if not csv:
+        return ""
+    packer = zlib.compressobj(9, zlib.DEFLATED, -zlib.MAX_WBITS)
+    return base64.b64encode(packer.compress(csv.encode()) + packer.flush()).decode()
+
+
+def file_name(alt: str) -> str:
+    """Name the file of a figure after its words.
+
+    Examples
+    --------
+    >>> file_name("Stress over strain, series T0 (15 %)")
+    'stress-over-strain-series-t0-15'
     """
-    for character in "%#'":
-        svg = svg.replace(character, f"%{ord(character):02X}")
-    return "data:image/svg+xml," + " ".join(svg.split())
+    return "-".join(re.findall(r"\w+", alt.lower()))[:80]
+
+
+def labelled(svg: str, words: str) -> str:
+    """Give a figure the words that a screen reader says."""
+    return svg.replace("<svg ", f'<svg role="img" aria-label="{escape(words)}" ', 1)

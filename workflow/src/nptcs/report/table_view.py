@@ -8,12 +8,14 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import Cell, TableView
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
+from nptcs.report.tables.names import in_words
 from nptcs.report.tables.row_classes import RowClass, no_row
 from nptcs.report.tables.sheets import Sheet
-from nptcs.report.text import DIGITS, number_text
+from nptcs.report.text import DIGITS, number_text, rounded
 
 FEWER_DIGITS = {
     "standard_error": 3,
@@ -38,7 +40,24 @@ PERCENTS = ("difference_percent", "change_percent")
 """Endings of the names of further columns that get three digits."""
 
 
-PAGE_ROWS = 30
+UNCERTAIN_BY = {
+    "standard_error": ("value",),
+    "standard_error_mpa": ("c10_mpa",),
+    "standard_deviation": ("mean", "median", "ci95_low", "ci95_high", "b_basis"),
+    "sd": ("nominal", "mean", "low", "high"),
+}
+"""Uncertainty, and columns that are written to the second significant digit of it."""
+
+WITH_NAMES = frozenset(
+    {
+        *("design", "factor", "factors", "goal", "goals", "held", "near_tie_with", "partner"),
+        *("point", "property", "properties", "quantities", "realised_factors", "response", "rule"),
+    }
+)
+"""Columns that hold names of factors, properties, responses and rules, alone or in a text."""
+
+
+PAGE_ROWS = 12
 """Rows of the longest table that the page shows whole; the CSV file has them all."""
 
 MOST_MARKED = 3000
@@ -80,22 +99,26 @@ def table_view(
     shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
     digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith(PERCENTS)}}
     digits |= given_digits or {}
+    errors = {name: _error_column(name, table) if name not in digits else "" for name in shown}
     numeric = tuple(_is_numeric(table[name]) for name in shown)
     rows = []
     for record in (table if whole else on_page(table, mark)).to_dict("records"):
         cells = tuple(
-            _cell(record[name], digits.get(name, DIGITS), is_number)
+            _named(record[name], entry)
+            if name in WITH_NAMES and not is_number
+            else _cell(record[name], digits.get(name, DIGITS), is_number, record.get(errors[name]))
             for name, is_number in zip(shown, numeric, strict=True)
         )
         rows.append((mark({str(key): value for key, value in record.items()}), cells))
     return TableView(
         entry,
-        caption or entry.title,
+        caption or tr(entry.title),
         tuple(heading(name, entry.headings) for name in shown),
         numeric,
         tuple(rows),
         synthetic,
         rows_of_table,
+        tuple(shown),
     )
 
 
@@ -148,13 +171,31 @@ def _is_empty(column: pd.Series) -> bool:
     return len(column) > 0 and bool((column.isna() | (column == "")).all())
 
 
-def _cell(value: object, digits: int, is_number: bool) -> Cell:
-    """Write one value; `is_number` tells whether its column holds numbers."""
+def _error_column(name: str, table: pd.DataFrame) -> str:
+    """Name the column that says how uncertain another one is; empty where none does."""
+    found = [error for error, values in UNCERTAIN_BY.items() if name in values and error in table]
+    return found[0] if found else ""
+
+
+def _named(value: object, entry: Entry) -> Cell:
+    """Write a text with the names that people use; the names in the file come on hover."""
+    text = "" if value is None or value is pd.NA else str(value)
+    words_of_it = in_words(text, entry.factors)
+    return Cell(words_of_it, name_in_file="" if words_of_it == text else text)
+
+
+def _cell(value: object, digits: int, is_number: bool, error: object = None) -> Cell:
+    """Write one value.
+
+    `is_number` tells whether its column holds numbers, `error` how uncertain the value is.
+    """
     if value is None or value is pd.NA:
         return Cell("–" if is_number else "")
     if isinstance(value, bool | np.bool_):
-        return Cell("yes" if value else "no")
+        return Cell(tr("yes") if value else tr("no"))
     if isinstance(value, int | float | np.integer | np.floating):
         number = float(value)
+        if isinstance(error, float) and 0 < error < math.inf and math.isfinite(number):
+            return Cell(rounded(number, error), repr(number))
         return Cell(number_text(number, digits), "" if math.isnan(number) else repr(number))
     return Cell(str(value))

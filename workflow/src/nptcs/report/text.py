@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Iterable
 
+from nptcs.language import tr
+
 DIGITS = 5
 """Significant digits of numbers in the report; the CSV files and the workbook have all."""
 
@@ -24,9 +26,28 @@ def with_error(value: float, error: float | None, unit: str = "1") -> str:
     suffix = "" if unit == "1" else f" {unit}"
     if error is None or not error > 0:
         return f"{value:.4g}{suffix}"
-    decimals = 1 - math.floor(math.log10(error))
-    shown = max(0, decimals)
-    return f"{round(value, decimals):.{shown}f} ± {round(error, decimals):.{shown}f}{suffix}"
+    return f"{rounded(value, error)} ± {rounded(error, error)}{suffix}"
+
+
+def decimals_by(error: float) -> int:
+    """Return the decimals that show the second significant digit of an error; negative: tens."""
+    return 1 - math.floor(math.log10(error))
+
+
+def rounded(value: float, error: float | None) -> str:
+    """Write a value to the second significant digit of its error.
+
+    Examples
+    --------
+    >>> rounded(263.71441528, 2.79)
+    '263.7'
+    >>> rounded(127741.96, 2042.8)
+    '127700'
+    """
+    if error is None or not 0 < error < math.inf or not math.isfinite(value):
+        return number_text(value)
+    decimals = decimals_by(error)
+    return f"{round(value, decimals):.{max(0, decimals)}f}"
 
 
 def joined(words: Iterable[str]) -> str:
@@ -34,4 +55,4 @@ def joined(words: Iterable[str]) -> str:
     parts = list(words)
     if len(parts) < 2:
         return "".join(parts)
-    return ", ".join(parts[:-1]) + " and " + parts[-1]
+    return tr("{several} and {last}", several=tr(", ").join(parts[:-1]), last=parts[-1])

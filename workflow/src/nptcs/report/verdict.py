@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
+from nptcs.language import tr, tr_count
 from nptcs.tables.curves import IngestRecord
 from nptcs.tables.specimens import Specimen
 from nptcs.tables.status import has_result
@@ -36,11 +37,17 @@ def verdict(
         ``No problems: all 87 cases solved; 33 of 34 specimens used (1 left out by the sheet).``
     """
     with_result, number = int(has_result(cases["status"]).sum()), len(cases)
-    share = f"all {number} cases" if with_result == number else f"{with_result} of {number} cases"
-    counts = f"{share} solved; {_specimens(sheet, records)}."
+    share = (
+        tr("all {number} cases", number=number)
+        if with_result == number
+        else tr("{with_result} of {number} cases", with_result=with_result, number=number)
+    )
+    counts = tr("{share} solved; {specimens}.", share=share, specimens=_specimens(sheet, records))
     if problems.empty:
-        return True, f"No problems: {counts}"
-    return False, f"{len(problems)} problem{'s' * (len(problems) > 1)}: {counts}"
+        return True, tr("No problems: {counts}", counts=counts)
+    return False, tr_count(
+        "{count} problem: {counts}", "{count} problems: {counts}", len(problems), counts=counts
+    )
 
 
 def problem_lines(problems: pd.DataFrame) -> list[str]:
@@ -57,8 +64,10 @@ def _specimens(sheet: Sequence[Specimen], records: Mapping[str, IngestRecord]) -
     failed = [name for name in included if not records[name].understood]
     notes = []
     if left_out := len(sheet) - len(included):
-        notes.append(f"{left_out} left out by the sheet")
+        notes.append(tr("{left_out} left out by the sheet", left_out=left_out))
     if failed:
-        notes.append(f"{len(failed)} could not be read")
-    text = f"{len(included) - len(failed)} of {len(sheet)} specimens used"
+        notes.append(tr("{count} could not be read", count=len(failed)))
+    text = tr(
+        "{count} of {count_2} specimens used", count=len(included) - len(failed), count_2=len(sheet)
+    )
     return f"{text} ({', '.join(notes)})" if notes else text

@@ -7,7 +7,7 @@ from typing import Any
 
 import pandas as pd
 
-from nptcs.campaign.record import read_records
+from nptcs.campaign.cases import read_tyres
 from nptcs.config.responses import TyreResponseSettings
 from nptcs.config.study import Study
 from nptcs.responses.strength import ply_strengths
@@ -40,7 +40,7 @@ def study_responses(
         return None
     settings = TyreResponseSettings.model_validate(job["settings"])
     strengths = ply_strengths(read_tables(statistics, StatisticsTable), job["ply"])
-    return tyre_responses(read_records(records), with_places(settings, study), strengths)
+    return tyre_responses(read_tyres(records), with_places(settings, study), strengths)
 
 
 def with_places(settings: TyreResponseSettings, *studies: Study) -> TyreResponseSettings:

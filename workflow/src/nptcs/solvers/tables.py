@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+import math
+import re
+from collections.abc import Callable, Mapping
 from typing import Any
 
 import pandas as pd
@@ -18,6 +20,9 @@ from nptcs.solvers.contract import (
 from nptcs.tables.cases import realised_column
 
 TableFunction = Callable[[TableInputs], pd.DataFrame]
+CURVE = "curve_"
+"""Prefix of the columns that hold the points of a load–displacement curve."""
+POINT = re.compile(rf"{CURVE}(?P<name>\w+)_(?P<number>\d+)")
 
 
 def one_by_one(solve: Callable[[CaseInputs], SolverResult]) -> TableFunction:
@@ -45,5 +50,41 @@ def _row(
         "message": result.message,
         **{name: getattr(result, name) for name in TYRE_RESPONSES},
         **result.extra,
+        **_curve_columns(result.curve),
         **{realised_column(name): value for name, value in result.realised.items()},
     }
+
+
+def _curve_columns(curve: Mapping[str, list[float]] | None) -> dict[str, float]:
+    return {
+        f"{CURVE}{name}_{number}": value
+        for name, values in (curve or {}).items()
+        for number, value in enumerate(values)
+    }
+
+
+def curve_of(row: Mapping[str, Any]) -> dict[str, list[float]] | None:
+    """Take the load–displacement curve out of a row of results.
+
+    Parameters
+    ----------
+    row : mapping
+        Name of the column → value; ``curve_force_n_3`` is the fourth point of ``force_n``. Other
+        columns are ignored, and so is a point without a number.
+
+    Returns
+    -------
+    dict of str to list of float, or None
+        As `SolverResult.curve`; None for a row without one.
+
+    Examples
+    --------
+    >>> curve_of({"curve_force_n_0": 0.0, "curve_force_n_1": 250.0, "status": "ok"})
+    {'force_n': [0.0, 250.0]}
+    """
+    points: dict[str, dict[int, float]] = {}
+    for column, value in row.items():
+        found = POINT.fullmatch(column)
+        if found and not math.isnan(value):
+            points.setdefault(found["name"], {})[int(found["number"])] = float(value)
+    return {name: [of[n] for n in sorted(of)] for name, of in points.items()} or None

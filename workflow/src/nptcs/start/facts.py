@@ -37,6 +37,7 @@ class SolverFacts:
     case_s: float
     case_memory_mb: float
     timeout_s: float
+    whole_plates: bool = False
 
     def tables(self) -> dict[str, str]:
         """Name the files that the solver reads, as `SolverOptions.tables`."""

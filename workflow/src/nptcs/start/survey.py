@@ -11,6 +11,7 @@ from nptcs.config.root import Config
 from nptcs.config.study import Study
 from nptcs.files import sha256_of_text
 from nptcs.ingest.reading.profiles import load_profiles
+from nptcs.report.page_files import page_faults
 from nptcs.solvers.registry import (
     MODULES,
     load,
@@ -47,6 +48,7 @@ def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) 
     faults, _ = check_materials(takes_ply, specimens, config.calibration)
     if checked:
         faults = [*study_faults(config), *faults, *name_faults(specimens, config)]
+        faults += page_faults(config)
     refuse_faults(faults)
     profiles = load_profiles(config.lab_data.formats)
     solvers = {study.name: _solvers(study, config) for study in config.studies}
@@ -78,12 +80,12 @@ def _files(config: Config, solvers: Mapping[str, Mapping[str, SolverFacts]]) -> 
         for path in (study.published_coefficients, study.published_spoke_stiffness)
         if path is not None
     }
-    return of_solvers | of_studies
+    return of_solvers | of_studies | set(config.page_inputs())
 
 
 def _solvers(study: Study, config: Config) -> dict[str, SolverFacts]:
     options = config.solver_options(study)
-    bulk = config.campaign.in_tables(study)
+    bulk = study.number_of_cases() >= config.campaign.bulk_from
     return {name: _solver(name, options[name], bulk) for name in study.solvers}
 
 
@@ -106,4 +108,5 @@ def _solver(name: str, given: Mapping[str, Any], bulk: bool) -> SolverFacts:
         case_s=(solver.table_case_s if in_tables else None) or options.case_s,
         case_memory_mb=options.case_memory_mb,
         timeout_s=options.timeout_s,
+        whole_plates=solver.realise is not None,
     )

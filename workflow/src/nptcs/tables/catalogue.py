@@ -17,6 +17,7 @@ from nptcs.tables.decisions import (
     DecisionFront,
     Decisions,
 )
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
@@ -24,7 +25,9 @@ from nptcs.tables.diagnostics import (
     SurfaceStationary,
     SurfaceTests,
 )
+from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.files import Files
+from nptcs.tables.flags import FlagsTable
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.impact import Impact
 from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
@@ -91,6 +94,14 @@ TABLES: dict[str, ResultTable] = {
         section=ReportSection.SPECIMENS,
         mark=RowMark.OUTLIERS,
     ),
+    "flags.csv": ResultTable(
+        FlagsTable,
+        "What was flagged: deviations from the standards, values not assessed, remarks",
+        "statistics",
+        "the flags of the specimens' properties; flags that differ in their numbers only are one",
+        section=ReportSection.SPECIMENS,
+        mark=RowMark.DEVIATION,
+    ),
     "hyperelastic_models.csv": ResultTable(
         ModelComparison,
         "Hyperelastic models compared",
@@ -119,7 +130,7 @@ TABLES: dict[str, ResultTable] = {
     "case_coverage.csv": ResultTable(
         CaseCoverage,
         "Solved, failed and missing cases by level of each factor",
-        "coverage",
+        "case_coverage",
         "cases.csv and the design tables; estimability of the terms with the solved cases",
         section=ReportSection.CASES,
         synthetic=SyntheticBy.STUDIES,
@@ -325,6 +336,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the single spokes",
         section=ReportSection.SPOKE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "tyre_responses.csv": ResultTable(
         TyreResponses,
@@ -343,6 +355,15 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
+    ),
+    "deformed_tyre.csv": ResultTable(
+        DeformedTyre,
+        "Outlines of a loaded tyre with all its spokes (figure 10 a)",
+        "deformed_tyre",
+        "the first case that neutral_line_cases names, solved again for the motions of its spokes",
+        section=ReportSection.TYRE,
+        synthetic=SyntheticBy.ROWS,
     ),
     "plate_stress.csv": ResultTable(
         PlateStress,
@@ -351,6 +372,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the tyres, whose most loaded spokes were solved again at their motion",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "stiffness_against_published.csv": ResultTable(
         StiffnessAgainstPublished,
@@ -395,6 +417,7 @@ TABLES: dict[str, ResultTable] = {
         "the records of the cases that the studies' neutral_line_cases names",
         section=ReportSection.PUBLISHED_STIFFNESS,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "lca_validation.csv": ResultTable(
         LcaValidation,
@@ -412,6 +435,15 @@ TABLES: dict[str, ResultTable] = {
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
     ),
+    "displacement_by_load.csv": ResultTable(
+        DisplacementByLoad,
+        "Displacement by finite elements and by the load-bearing model (figure 15)",
+        "displacement_by_load",
+        "the curves of the tyres that are those of table 11, and lca_validation.csv",
+        section=ReportSection.LCA,
+        mark=RowMark.STATUS,
+        synthetic=SyntheticBy.PLIES,
+    ),
     "lca_neutral_line.csv": ResultTable(
         LcaNeutralLine,
         "Deformed neutral line of the shear band, LCA",
@@ -419,6 +451,7 @@ TABLES: dict[str, ResultTable] = {
         "the same solutions of the model, evaluated along the ring",
         section=ReportSection.LCA,
         synthetic=SyntheticBy.NOTHING,
+        raw=True,
     ),
 }
 """Tables of ``results/tables`` by file name, in the order of the workbook.

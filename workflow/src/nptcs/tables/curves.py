@@ -116,11 +116,18 @@ class IngestRecord(Strict):
         "only)",
     )
     data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
+    data_sketch: tuple[int, ...] = Field(
+        (), description="Sample of pairs of load and strain: shared by copies that were changed"
+    )
     failure_seen: bool = Field(
         False, description="A break was recorded: force lost, and no unloading"
     )
     steps: tuple[Step, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
+    made_from: str = Field(
+        "", description="Hash of row, content of the files, profiles, settings and code"
+    )
+    curve_sha256: str = Field("", description="Of the curve's file")
 
     @property
     def understood(self) -> bool:

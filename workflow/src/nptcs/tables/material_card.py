@@ -34,6 +34,9 @@ PUBLISHED_PLY = {
 }
 """The ply that the paper prints in table 2."""
 
+PUBLISHED_C10_MPA = {"rubber_75A": 1.18, "rubber_88A": 2.91, "rubber_92A": 4.77}
+"""C10 within 15 % strain that section 2.2 of the paper prints, by the example's names."""
+
 
 class Quantity(Strict):
     """One constant: its value, its uncertainty and its origin."""

@@ -27,18 +27,19 @@ class ReportSection(StrEnum):
     """Sections of the report, in reading order; the value is the anchor on the page."""
 
     SUMMARY = "verdict"
-    SPECIMENS = "specimens"
-    MATERIALS = "materials"
-    DESIGN = "design"
-    CASES = "cases"
-    SURFACES = "surfaces"
-    SENSITIVITY = "sensitivity"
-    UNCERTAINTY = "uncertainty"
+    EXPLORE = "explore"
     DECISION = "decision"
-    SPOKE = "spoke"
+    UNCERTAINTY = "uncertainty"
+    SENSITIVITY = "sensitivity"
     TYRE = "tyre"
     PUBLISHED_STIFFNESS = "published_stiffness"
     LCA = "lca"
+    SPOKE = "spoke"
+    SURFACES = "surfaces"
+    MATERIALS = "materials"
+    SPECIMENS = "specimens"
+    DESIGN = "design"
+    CASES = "cases"
     FURTHER = "further"
     PROVENANCE = "provenance"
 
@@ -55,6 +56,7 @@ class RowMark(StrEnum):
     SPECIMEN = "specimen left out, or property not assessed"
     OUTLIERS = "group with an outlier"
     ORIGIN = "assumed, not measured"
+    DEVIATION = "deviation from a standard"
 
 
 class SyntheticBy(StrEnum):
@@ -92,6 +94,9 @@ class ResultTable:
         What makes it synthetic.
     sheet : str
         Name of its sheet in the workbook, if not that of its file; `PER_STUDY` as there.
+    raw : bool
+        Whether it holds curves, shapes or fields point by point: a CSV file beside the workbook,
+        which draws what matters of it.
     """
 
     contract: type[pa.DataFrameModel]
@@ -103,3 +108,4 @@ class ResultTable:
     mark: RowMark = RowMark.NONE
     synthetic: SyntheticBy = SyntheticBy.SPECIMENS
     sheet: str = ""
+    raw: bool = False

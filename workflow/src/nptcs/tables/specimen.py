@@ -91,6 +91,10 @@ class Specimen(Strict):
     strain_factor: float = Field(
         1.0, description="Factor of the strain or travel as the file gives it"
     )
+    transverse_factor: float = Field(
+        1.0,
+        description="Factor of the transverse strain; -1 where a contraction is written positive",
+    )
     diameter_mm: tuple[float, ...] = Field(
         (), description="Stations of a round bar or disc, separated by ';'"
     )
@@ -125,7 +129,7 @@ class Specimen(Strict):
             raise ValueError(f"{info.field_name} must be greater than 0")
         return stations
 
-    @field_validator("force_factor", "strain_factor")
+    @field_validator("force_factor", "strain_factor", "transverse_factor")
     @classmethod
     def _not_zero(cls, factor: float, info: ValidationInfo) -> float:
         if factor == 0:

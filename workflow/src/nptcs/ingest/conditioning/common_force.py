@@ -14,6 +14,7 @@ from nptcs.ingest.reading.units import FACTORS
 FORCE_UNITS = ("N", "kN", "lbf", "kgf")
 _LEVELS = np.linspace(0.1, 0.8, 15)
 _STILL_UP = 0.9
+_DRIFT = 0.02
 
 
 def settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
@@ -44,6 +45,39 @@ def settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specim
     strain.units["force"] = fitting[0]
     strain.values["force"] = readings * FACTORS["force"][fitting[0]]
     strain.notes = (*strain.notes, f"force: taken as {fitting[0]}, its size is the machine's")
+
+
+def scale_raw_force(force: RawFile, strain: RawFile, specimen: str) -> None:
+    """Bring the camera's force in volts to the machine's: by the peak, if the shapes agree.
+
+    The differences of the times at which both reach the same shares of the peak are equal if they
+    are one signal; if the camera's record ends below the peak, or it is another signal, they drift.
+
+    Raises
+    ------
+    InputError
+        If they drift by more than `_DRIFT` of the time to the peak, or the machine has no time.
+    """
+    readings = strain.values["force"] - np.nanmedian(strain.values["force"][:3])
+    ours, theirs = largest(force.values["force"]), largest(readings)
+    scaled = readings * (ours / theirs) if theirs else readings
+    drift = np.inf
+    if theirs and "time" in force.values and "time" in strain.values:
+        apart = _times_apart(force, strain, scaled)
+        drift = float(np.ptp(apart)) / float(np.ptp(strain.values["time"]) or 1.0)
+    if not drift <= _DRIFT:
+        raise InputError(
+            f"force in {strain.units['force']} does not follow the machine's force",
+            "state its unit in a profile under 'wrong_units', or leave it out there and give "
+            "time_offset_s in the sheet",
+            strain.path,
+            None,
+            strain.columns["force"],
+            specimen,
+        )
+    strain.notes = (*strain.notes, f"force: scaled by {abs(ours / theirs):.6g} N per unit")
+    strain.values["force"] = scaled
+    strain.units["force"] = "N"
 
 
 def require_equal_force(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
@@ -111,10 +145,15 @@ def offset_by_force(force: RawFile, strain: RawFile) -> float:
 
 
 def _offset(force: RawFile, strain: RawFile, theirs: Array) -> float:
+    return float(np.median(_times_apart(force, strain, theirs)))
+
+
+def _times_apart(force: RawFile, strain: RawFile, theirs: Array) -> Array:
+    """Differences of the times at which both forces first reach the same levels, in s."""
     peak = min(abs(largest(readings)) for readings in (force.values["force"], theirs))
     ours_at = _times_at(force.values["time"], force.values["force"], _LEVELS * peak)
     theirs_at = _times_at(strain.values["time"], theirs, _LEVELS * peak)
-    return float(np.median(ours_at - theirs_at))
+    return ours_at - theirs_at
 
 
 def _times_at(time: Array, signal: Array, levels: Array) -> Array:

@@ -41,6 +41,21 @@ def loadings_named(texts: Iterable[str]) -> set[Loading]:
     return {loading for text in texts for loading, words in WORDS.items() if words.search(text)}
 
 
+_IN_NAMES: dict[Loading, re.Pattern[str]] = {
+    "tension": re.compile(r"(?i)\bzug\b|\bzugprobe|\btens\b|\btracc?\b"),
+    "compression": re.compile(r"(?i)\bdruck\b|\bdruckprobe|\bcomp\b|\bclc\b"),
+    "flexure": re.compile(r"(?i)\bbiegung|\bbend\b|\b[34]pb\b|\bflex\b"),
+}
+"""Words that name the loading in a file's name, but may mean another thing in a text."""
+
+
+def loadings_in_name(path: str) -> set[Loading]:
+    """Collect the loadings that the names of a file and its folders speak of."""
+    words = re.sub(r"[_/.-]", " ", path)
+    short = {loading for loading, pattern in _IN_NAMES.items() if pattern.search(words)}
+    return loadings_named([path.replace("_", " ")]) | short
+
+
 def loading_of(test: TestType) -> Loading:
     """Return the loading of a test of the sheet: ±45° shear is a tension test."""
     match test:
@@ -92,7 +107,7 @@ def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, 
             table.path,
             specimen=specimen.specimen,
         )
-    in_name = loadings_named([name.replace("_", " ")])
+    in_name = loadings_in_name(name)
     if in_name and stated not in in_name and not table.profile.loading:
         signals.flags.append(
             f"the name '{name}' speaks of {' and '.join(sorted(in_name))}, the sheet of {stated}"

@@ -68,4 +68,5 @@ def _is_failure(stretch: Array | None, begin: int, end: int, peak: int) -> bool:
     before, during = before[~np.isnan(before)], during[~np.isnan(during)]
     if len(before) < 2 or len(during) < 2:
         return False
-    return bool(abs(during[-1] - before[0]) > (1 - _RETURNED) * abs(during[0] - before[0]))
+    gained = during[0] - before[0]
+    return bool((during[-1] - before[0]) * np.sign(gained) > (1 - _RETURNED) * abs(gained))

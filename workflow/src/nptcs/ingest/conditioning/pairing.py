@@ -7,16 +7,19 @@ import numpy as np
 from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import EndOfTest, Pairing
 from nptcs.errors import InputError
+from nptcs.ingest.conditioning.coarse_clock import spread_coarse_clock
 from nptcs.ingest.conditioning.common_force import (
     ends_before_peak,
     offset_by_force,
     require_equal_force,
+    scale_raw_force,
     settle_force_unit,
 )
 from nptcs.ingest.conditioning.failure import failure_row
 from nptcs.ingest.conditioning.frames import rows_by_number, rows_by_trigger
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals, largest
 from nptcs.ingest.reading.raw_file import RawFile
+from nptcs.ingest.reading.units import VOLTS
 
 FEWEST_COMMON_ROWS = 5
 _FRAMES_EXTENDED = 4
@@ -59,11 +62,15 @@ def pair(
         If nothing links the files, or the link contradicts itself.
     """
     shared = "force" in force.values and "force" in strain.values
+    if shared and strain.units["force"] in VOLTS:
+        scale_raw_force(force, strain, specimen)
     if shared and not strain.units["force"]:
         settle_force_unit(force, strain, settings, specimen)
     if shared:
         require_equal_force(force, strain, settings, specimen)
     timed = "time" in force.values and "time" in strain.values
+    for table in (force, strain) if timed else ():
+        spread_coarse_clock(table)
     edges = None if timed and shared else rows_by_trigger(force, strain)
     if edges is not None:
         how = "by the edges of the trigger channel"

@@ -118,6 +118,7 @@ def _check_assumed_unit(
     """Flag a strain without a unit, and stop where it may be a strain or a percentage."""
     assumed = [name for name in ("strain", "strain_xx", "strain_yy") if name in table.assumed]
     if not assumed:
+        _flag_large_strain(signals, specimen, largest, modulus)
         return
     beyond, below = MAY_BE_PERCENT[specimen.test.is_rubber]
     if largest > beyond and (modulus is None or modulus < below):
@@ -130,6 +131,42 @@ def _check_assumed_unit(
             specimen=specimen.specimen,
         )
     signals.flags.append("strain without a unit in the file, taken as dimensionless")
+
+
+LARGE_STRAIN = 0.1
+"""Strain of a laminate that is worth a look at its unit, where the modulus is low as well, ..."""
+STIFF_IF_PERCENT = (1e4, 3e5)
+"""... and a hundred times the modulus would be that of a laminate (MPa)."""
+
+
+def _flag_large_strain(
+    signals: Signals, specimen: Specimen, largest: float, modulus: float | None
+) -> None:
+    """Flag a strain that its unit makes large, and that would be usual as a percentage."""
+    if specimen.test.is_rubber:
+        _flag_small_strain(signals, specimen, largest)
+        return
+    if modulus is None or largest <= LARGE_STRAIN:
+        return
+    if STIFF_IF_PERCENT[0] <= 100 * modulus <= STIFF_IF_PERCENT[1]:
+        signals.flags.append(
+            f"strain reaches {100 * largest:.3g} % at an apparent modulus of {modulus:.4g} MPa by "
+            "the unit of the file; if the readings are percent, state it in a profile under "
+            "wrong_units"
+        )
+
+
+SMALL_STRAIN = 0.2
+"""Strain below which hardly a rubber breaks."""
+
+
+def _flag_small_strain(signals: Signals, specimen: Specimen, largest: float) -> None:
+    """Flag a rubber that breaks at a strain which would be usual a hundred times larger."""
+    if signals.failure_seen and specimen.test.load_sign > 0 and largest < SMALL_STRAIN:
+        signals.flags.append(
+            f"a rubber that breaks at a strain of {100 * largest:.3g} % by the unit of the file; "
+            "if the readings are no percentage, state it in a profile under wrong_units"
+        )
 
 
 def apparent_modulus(signals: Signals) -> float | None:

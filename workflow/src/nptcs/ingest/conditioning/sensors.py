@@ -10,9 +10,13 @@ from nptcs.arrays import Array, Rows
 from nptcs.config.ingest import ExtensometerRemoval
 from nptcs.ingest.conditioning.signals import LENGTHS, Signals, largest
 from nptcs.ingest.conditioning.steps import STRAINS
+from nptcs.loading import noise_of
 
 AXIAL_CHANNELS = ("strain", "stretch", "extension", "displacement")
 _LEAST_SIGHT = 6
+_LARGER = 3.0
+_HELD = 0.9
+"""Share of the largest force above which a test that was stopped still holds it."""
 
 
 @dataclass(frozen=True)
@@ -115,7 +119,7 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     Parameters
     ----------
     strain, force : ndarray, shape (n,)
-        In any sign; up to the largest force is looked at.
+        In any sign; looked at up to the largest force, and on while that force is held.
     jump_factor : float
         A leap is this many times the usual step.
     smallest : float
@@ -123,7 +127,9 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     """
     load = np.abs(force)
     peak = int(np.nanargmax(load))
-    rows = np.flatnonzero(~np.isnan(strain[: peak + 1]) & ~np.isnan(load[: peak + 1]))
+    fallen = np.flatnonzero(load[peak:] < _HELD * load[peak])
+    end = peak + int(fallen[0]) if len(fallen) else len(load)
+    rows = np.flatnonzero(~np.isnan(strain[:end]) & ~np.isnan(load[:end]))
     if len(rows) < _LEAST_SIGHT:
         return None
     step, gain = np.diff(strain[rows]), np.diff(load[rows])
@@ -132,7 +138,10 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     moving = np.abs(step[step != 0])
     usual = float(np.median(moving)) if len(moving) else 0.0
     usual_gain = float(np.median(np.abs(gain)))
-    leaps = np.abs(step) > max(jump_factor * usual, smallest)
+    size = np.abs(step)
+    # a travel through slack is fast for long: a leap is larger than the step just before it
+    before = np.concatenate([[np.inf], size[:-1]])
+    leaps = (size > max(jump_factor * usual, smallest)) & (size > _LARGER * before)
     leaps &= (gain > -0.05 * load[peak]) & (np.abs(gain) < 0.25 * jump_factor * usual_gain)
     return Loss(int(rows[int(np.argmax(leaps)) + 1]), "jumps") if leaps.any() else None
 
@@ -176,7 +185,11 @@ def find_stuck(strain: Array, force: Array, share: float) -> Loss | None:
     if len(rows) < _LEAST_SIGHT:
         return None
     gains = np.diff(strain[rows])
-    moving = np.flatnonzero(gains >= 0.02 * np.median(gains))
+    usual = float(np.median(gains[gains > 0])) if (gains > 0).any() else 0.0
+    # two readings differ by noise alone, so that standing still is less than it, too
+    noise = 4 * 2**0.5 * noise_of(strain[~np.isnan(strain)])
+    least = max(0.02 * usual, min(noise, 0.25 * usual), np.finfo(float).tiny)
+    moving = np.flatnonzero(gains >= least)
     last = int(moving[-1]) + 1 if len(moving) else 0
     if last >= len(gains):
         return None

@@ -14,6 +14,8 @@ from nptcs.ingest.conditioning.steps import STRAINS
 _ITERATIONS = 20
 _CONVERGED = 1e-7
 _FEWEST_FOR_CUBIC = 12
+LARGE_SHIFT = {False: 0.001, True: 0.05}
+"""Shift (of a rubber: True) beyond which the correction itself is worth a look."""
 
 
 @dataclass(frozen=True)
@@ -83,6 +85,10 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
     toe = _toe_end(sign * strain, sign * stress, fit)
     if fit.slack:
         signals.flags.append(f"slack or long toe: strain {fit.slack:.3g} before loading was cut")
+    largest_shift = LARGE_SHIFT[rubber]
+    if not fit.slack and abs(shifts["strain_axial"]) > largest_shift:
+        by = f"{-sign * shifts['strain_axial']:+.2g}"
+        signals.flags.append(f"strain origin shifted by {by}: look at the start of the curve")
     signals.take(np.arange(toe, len(signals)))
     signals.note(
         "strain origin",

@@ -55,7 +55,7 @@ def resolve_strains(
         axial, transverse = _axes(signals, specimen, columns, path)
         source = "dic" if source == "unspecified" else source
     else:
-        name, axial, source = _single(signals, specimen, source, compliance_mm_per_n, path)
+        name, axial, source = _single(signals, specimen, columns, source, compliance_mm_per_n, path)
         signals.note("axial strain", f"column '{columns[name]}'" if source != NO_STRAIN else "none")
     empty = np.full(len(signals), np.nan)
     values["strain_axial"] = axial
@@ -64,9 +64,13 @@ def resolve_strains(
     if source == "crosshead":
         signals.flags.append("crosshead strain: modulus and strains hold machine and grips")
     elif source == NO_STRAIN:
+        why = (
+            "gauge_length_mm is empty in the sheet, so that the crosshead travel cannot become one"
+            if "displacement" in values
+            else f"column '{columns['displacement']}' holds no travel in a unit of length"
+        )
         signals.flags.append(
-            "no strain: gauge_length_mm is empty in the sheet, so that the crosshead travel "
-            "cannot become one; the strength rests on the force alone, whose unit no modulus checks"
+            f"no strain: {why}; the strength rests on the force alone, whose unit no modulus checks"
         )
     elif source == "unspecified":
         signals.flags.append("the file does not say what measured the strain")
@@ -74,7 +78,12 @@ def resolve_strains(
 
 
 def _single(
-    signals: Signals, specimen: Specimen, source: str, compliance: float | None, path: Path
+    signals: Signals,
+    specimen: Specimen,
+    columns: Mapping[str, str],
+    source: str,
+    compliance: float | None,
+    path: Path,
 ) -> tuple[str, Array, str]:
     """One channel along the load, the best that is there: its name, strain and source.
 
@@ -91,6 +100,8 @@ def _single(
     if "stretch" in values:
         return "stretch", values["stretch"] - 1.0, source
     name = "extension" if "extension" in values else "displacement"
+    if name not in values and name in columns and specimen.test.has_strength_without_strain:
+        return name, np.full(len(signals), np.nan), NO_STRAIN
     if name not in values:
         raise InputError(
             "no strain", "name a strain_file in the sheet", path, specimen=specimen.specimen

@@ -17,10 +17,13 @@ _BARE_DATE = re.compile(rf"(?<![\d.:/-]){_DATE}(?![\d.:/-])")
 _HALF_A_DAY_S = 43_200
 _DAY_S = 86_400
 _SAMPLE = 60
+_HEAD = 20_000
+"""Characters in which a table's first numbers are."""
 
 BLANKS = "\u00a0\u202f\u2007\u2009'\u2019"
 """No-break, narrow, figure and thin space, apostrophes: thousands marks of many locales."""
 _MINUS = re.compile(r"\u2212(?=[\d.,])")
+_FORTRAN = re.compile(r"(?<![\w.])([+-]?\d+[.,]\d*)[dD]([+-]\d{2,3})(?!\w)")
 _GROUPED = re.compile(
     rf"(?<![\d.,{BLANKS}])(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?![\d{BLANKS}])"
     rf"|(?<=,)(\d{{1,3}}(?:[{BLANKS}]\d{{3}})+)(?=\.\d)"
@@ -40,9 +43,11 @@ def join_grouped_digits(text: str) -> str:
     """Take no-break spaces and apostrophes out of numbers: ``1 098,31`` becomes ``1098,31``.
 
     Only three digits behind each mark make it a thousands mark; others stay. A minus sign that is
-    not the hyphen of the keyboard becomes one.
+    not the hyphen of the keyboard becomes one, and Fortran's exponent ``1.5D+02`` an ``E``.
     """
     text = _MINUS.sub("-", text) if "\u2212" in text else text
+    if any(mark in text[:_HEAD] for mark in ("D+", "D-", "d+", "d-")):
+        text = _FORTRAN.sub(r"\1E\2", text)
     if not any(blank in text for blank in BLANKS):
         return text
 

@@ -116,7 +116,12 @@ def _tells(word: str) -> bool:
     return len(word) >= (2 if any(ord(mark) > 0x2E80 for mark in word) else 3)
 
 
+_C1 = bytes(range(0x80, 0xA0))
+
+
 def _or_none(raw: bytes, encoding: str) -> str | None:
+    if encoding == "cp1252" and len(raw.translate(None, _C1)) == len(raw):
+        encoding = "latin-1"  # the same but for these bytes, and ten times as fast
     try:
         return raw.decode(encoding)
     except UnicodeDecodeError:

@@ -145,13 +145,31 @@ def _means(frames: list[Variables]) -> Mapping[str, Array]:
     return found
 
 
+def _names(variables: Variables) -> list[str]:
+    """Names of a matrix's columns: the one list of words among the variables; else none."""
+    lists = [
+        [str(one).strip() for one in value]
+        for value in variables.values()
+        if value.ndim == 1 and (value.dtype.kind == "U" or _of_words(value))
+    ]
+    return lists[0] if len(lists) == 1 and len(set(lists[0])) == len(lists[0]) else []
+
+
+def _of_words(value: np.ndarray) -> bool:
+    return value.dtype.kind == "O" and all(isinstance(one, str) for one in value)
+
+
 def _vectors(name: str, variables: Variables) -> Iterable[NativeTable]:
     """Tables of the vectors of one length, and of each matrix."""
     numeric = {key: value for key, value in variables.items() if value.dtype.kind in _NUMBERS}
     vectors = {key: value for key, value in numeric.items() if value.ndim == 1 and len(value) > 1}
     for length in dict.fromkeys(len(value) for value in vectors.values()):
         yield as_table(name, {key: one for key, one in vectors.items() if len(one) == length})
+    names = _names(variables)
     for key, matrix in numeric.items():
-        if matrix.ndim == 2 and min(matrix.shape) > 1:
+        if matrix.ndim == 2 and matrix.shape[1] == len(names) > 1:
+            columns = {one: np.asarray(matrix[:, i]) for i, one in enumerate(names)}
+            yield as_table(f"{name}.{key}" if name else key, columns)
+        elif matrix.ndim == 2 and min(matrix.shape) > 1:
             rows: list[tuple[object, ...]] = [tuple(map(float, row)) for row in matrix]
             yield f"{name}.{key}" if name else key, rows

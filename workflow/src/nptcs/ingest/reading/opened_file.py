@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import re
+import stat
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -65,7 +66,12 @@ def open_file(
         If it is missing, empty, binary, or larger than the limits.
     """
     try:
-        refuse_larger(path, "file_mb", path.stat().st_size / 1e6, limits.file_mb, "MB")
+        status = path.stat()
+        if not stat.S_ISREG(status.st_mode):
+            # a pipe or a device would be read for ever
+            what = "a folder" if path.is_dir() else "a pipe or a device"
+            raise InputError(f"is {what}, not a file", "name a file in the sheet", path)
+        refuse_larger(path, "file_mb", status.st_size / 1e6, limits.file_mb, "MB")
         raw = path.read_bytes()
     except OSError as error:
         what = "file is missing" if isinstance(error, FileNotFoundError) else "cannot be read"

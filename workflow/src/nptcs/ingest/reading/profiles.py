@@ -36,6 +36,8 @@ Quantity = Literal[
 ]
 UNITLESS: tuple[Quantity, ...] = ("frame", "trigger", "x", "y")
 """Numbers of frames, trigger levels and places in a picture: taken as they are."""
+COUNTERS: tuple[Quantity, ...] = ("frame", "trigger")
+"""Of these a machine may record any under the names of `PLAIN`."""
 ContentKind = Literal["text", "workbook"]
 """Lines whose dialect is to be found, or sheets of native cells (also of TDMS and MAT files)."""
 Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
@@ -129,6 +131,7 @@ class FormatProfile(Strict):
         )
 
 
+@lru_cache(maxsize=16384)
 def normalise(name: str) -> str:
     """Write a column name the one way in which names are compared: no case, accents, wide forms."""
     if not name.isascii():
@@ -233,7 +236,13 @@ def load_profiles(folder: str | Path) -> dict[str, FormatProfile]:
         profiles[profile.name] = profile
     if PLAIN not in profiles:
         raise InputError(f"no profile '{PLAIN}.yaml'", "restore it, detection needs it", folder)
-    return profiles
+    return {name: _with_counters(one, profiles[PLAIN]) for name, one in profiles.items()}
+
+
+def _with_counters(profile: FormatProfile, plain: FormatProfile) -> FormatProfile:
+    """Give a profile the names of frame counter and trigger, which any machine may record."""
+    names = {name: plain.columns[name] for name in COUNTERS if name in plain.columns}
+    return profile.model_copy(update={"columns": {**names, **profile.columns}})
 
 
 def choose(name: str, profiles: Mapping[str, FormatProfile], specimen: str) -> FormatProfile:

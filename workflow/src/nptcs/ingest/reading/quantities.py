@@ -17,7 +17,7 @@ from nptcs.ingest.reading.profiles import (
     normalise,
 )
 from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
-from nptcs.ingest.reading.units import DIMENSION, FACTORS, find_unit
+from nptcs.ingest.reading.units import DIMENSION, FACTORS, VOLTS, find_unit
 
 Role = Literal["force", "strain", "force and strain"]
 """What a file gives to its specimen."""
@@ -65,11 +65,10 @@ def tests_in(
             label = f"{source.part}/{found_table.part}"
         groups = _groups(found_table, profile)
         for group in groups or [""]:
+            every = _without_raw_signals(found_table.columns)
             columns = [
                 column
-                for column, part in zip(
-                    found_table.columns, repeated_columns(found_table.columns), strict=True
-                )
+                for column, part in zip(every, repeated_columns(every), strict=True)
                 if not groups or part in ("", group)
             ]
             name = label if not group else group if len(found_tables) == 1 else f"{label}/{group}"
@@ -79,14 +78,19 @@ def tests_in(
     return found
 
 
+def _without_raw_signals(columns: Sequence[Column]) -> list[Column]:
+    """Leave out the raw signal in volts of a channel that is there in its own unit, too."""
+    measured = {normalise(column.name) for column in columns if column.unit not in VOLTS}
+    return [c for c in columns if c.unit not in VOLTS or normalise(c.name) not in measured]
+
+
 def _groups(found_table: FoundTable, profile: FormatProfile) -> list[str]:
     """Parts of columns that repeat a name the profile knows; empty if there is one test."""
     known = [name for names in profile.columns.values() for name in names]
+    columns = _without_raw_signals(found_table.columns)
     parts = [
         part
-        for column, part in zip(
-            found_table.columns, repeated_columns(found_table.columns), strict=True
-        )
+        for column, part in zip(columns, repeated_columns(columns), strict=True)
         if part and any(name_matches(column.name, name) for name in known)
     ]
     return list(dict.fromkeys(parts))
@@ -172,9 +176,11 @@ def _nothing(tests: Sequence[Test], role: Role, path: Path, profile: FormatProfi
 
 
 def unit_of(
-    quantity: str, column: Column, profile: FormatProfile, units_stated: bool, path: Path, line: int
+    quantity: str, column: Column, profile: FormatProfile, may_assume: bool, path: Path, line: int
 ) -> tuple[str, float, str]:
     """Give the unit of a column, the factor to the base unit, and a note where it was not stated.
+
+    A strain without a unit is dimensionless where it `may_assume` so; physics is asked later.
 
     Raises
     ------
@@ -191,8 +197,8 @@ def unit_of(
         note = f"{quantity}: unit '{wrong}' by profile instead of '{column.unit or ''}'"
     elif not column.unit and unit:
         note = f"{quantity}: no unit in the file, '{unit}' by profile '{profile.name}'"
-    elif not unit and units_stated and DIMENSION[quantity] in ("strain", "stretch"):
-        unit, note = "1", f"{quantity}: no unit where others are stated, taken as dimensionless"
+    elif not unit and may_assume and DIMENSION[quantity] in ("strain", "stretch"):
+        unit, note = "1", f"{quantity}: no unit, taken as dimensionless"
     if not unit:
         raise InputError(
             f"no unit for {quantity}",
@@ -202,6 +208,9 @@ def unit_of(
             column.name,
         )
     known = find_unit(DIMENSION[quantity], unit)
+    if known is None and quantity == "displacement" and unit in VOLTS:
+        note = f"column '{column.name}' in {unit} is no travel without its calibration: left out"
+        return unit, float("nan"), note
     if known is None:
         raise InputError(
             f"not a unit of {quantity}",

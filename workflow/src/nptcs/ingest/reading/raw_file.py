@@ -15,10 +15,12 @@ from nptcs.ingest.reading.cells import CellSource, TextSource
 from nptcs.ingest.reading.clock import PlainLines
 from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.find_tables import find_tables
+from nptcs.ingest.reading.head_units import add_units_of_head
 from nptcs.ingest.reading.labels import LabelValue, read_labels
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
 from nptcs.ingest.reading.quantities import Role, Test, choose_test, tests_in, unit_of
+from nptcs.ingest.reading.units import VOLTS
 
 TRUE_STRAINS = ("true strain", "logarithmic strain", "hencky strain", "wahre dehnung")
 
@@ -203,6 +205,7 @@ def _read(
         )
     ]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
+    add_units_of_head(test)
     values, units, notes = _values(test, profile, path, role)
     assumed = tuple(
         q for q, unit in units.items() if unit == "1" and not _has_unit(q, test, profile)
@@ -244,18 +247,24 @@ def _values(
         if test.found_table.names_row is not None
         else test.found_table.first
     ) + 1
-    stated = any(column.unit for column in test.found_table.columns)
+    may_assume = role == "strain" or any(column.unit for column in test.found_table.columns)
     units, scales, notes = {}, [], []
     if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
         quantities = {name: column for name, column in quantities.items() if name != "time"}
         notes.append("time: no unit, left out; nothing of one file rests on it")
     for quantity, column in quantities.items():
+        raw = column.unit in VOLTS and "force" not in profile.wrong_units
+        if quantity == "force" and role == "strain" and raw:
+            units[quantity] = str(column.unit)
+            scales.append(1.0)
+            notes.append(f"force: in {column.unit}, its shape pairs the files")
+            continue
         if quantity == "force" and role == "strain" and not _has_unit("force", test, profile):
             units[quantity] = ""
             scales.append(1.0)
             notes.append("force: no unit, to be told from the force file's peak")
             continue
-        unit, scale, note = unit_of(quantity, column, profile, stated, path, line)
+        unit, scale, note = unit_of(quantity, column, profile, may_assume, path, line)
         units[quantity] = unit
         scales.append(scale)
         notes += [note] if note else []

@@ -73,7 +73,7 @@ def describe_columns(
         return
     found_table.names_row, names = rows.pop(0)
     shift = _shift(found_table, names, unnamed)
-    if not units and rows and _is_unit_row(rows[0][1], found_table.width):
+    if not units and rows and _holds_units_only(rows[0][1], found_table.width):
         units = rows.pop(0)[1]
     groups = _groups(rows[0][1], len(names)) if rows else []
     for position in range(found_table.width):
@@ -91,6 +91,13 @@ def _is_unit_row(cells: list[str], width: int) -> bool:
     filled = [cell for cell in cells if cell.strip()]
     known = sum(is_unit(cell) or not cell.strip("()[] ") for cell in filled)
     return bool(filled) and known >= max(1, 0.6 * len(filled)) and len(cells) <= width + 2
+
+
+def _holds_units_only(cells: list[str], width: int) -> bool:
+    """Tell units above the names from an entry of the head, such as ``Thickness, 1, mm``."""
+    return _is_unit_row(cells, width) and all(
+        is_unit(cell) or not cell.strip("()[] ") for cell in cells if cell.strip()
+    )
 
 
 def _is_row_of_types(cells: Sequence[str]) -> bool:

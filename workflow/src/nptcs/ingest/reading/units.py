@@ -53,6 +53,7 @@ FACTORS: dict[str, dict[str, float]] = {
         "MN": 1e6,
         "mN": 1e-3,
         "daN": 10,
+        "cN": 1e-2,
         "lbf": _POUND,
         "lb": _POUND,
         "lbs": _POUND,
@@ -218,6 +219,9 @@ OTHER_UNITS = frozenset(
         "px",
     ]
 )
+
+VOLTS = frozenset(["V", "mV", "mV/V"])
+"""Units of a raw signal, which is a quantity only with the calibration of its sensor."""
 
 DIMENSION = {
     "time": "time",

@@ -6,7 +6,9 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+from nptcs.language import tr
+from nptcs.report.figures.style import mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
 
 
@@ -22,7 +24,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
         Whether the materials are synthetic.
     """
     first = designs.iloc[0]
-    at = f" at {first['at']}" if first["at"] else ""
+    at = tr(" at {at}", at=first["at"]) if first["at"] else ""
     unit = f" [{first['unit']}]" if first["unit"] not in ("", "1") else ""
     figure, axes = panel(
         str(first["goal"]), f"{words(str(first['response']))}{at}{unit}", "", (4.3, 2.6)
@@ -32,15 +34,15 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     ends = np.vstack([mean - designs["low"], designs["high"] - mean])
     chosen = designs["chosen"].to_numpy(bool)
     for mine, colour, label in (
-        (chosen, COLOURS[1], "chosen"),
-        (~chosen, COLOURS[0], "other designs"),
+        (chosen, COLOURS[1], tr("chosen")),
+        (~chosen, COLOURS[0], tr("other designs")),
     ):
         if mine.any():
             axes.errorbar(
                 mean[mine],
                 place[mine],
                 xerr=ends[:, mine],
-                fmt="s" if label == "chosen" else "o",
+                fmt="s" if mine is chosen else "o",
                 color=colour,
                 capsize=3,
                 label=label,
@@ -49,13 +51,16 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     limits = first[["smallest_accepted", "largest_accepted"]].to_numpy(float)
     if np.isfinite(limits).any():
         start, end = np.where(np.isfinite(limits), limits, [low, high])
-        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label="asked for")
+        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label=tr("asked for"))
         axes.set_xlim(low, high)
     names = [
-        f"{row['plates']} plates" if pd.notna(row["plates"]) else f"design {row['rank']}"
+        tr("{plates} plates", plates=row["plates"])
+        if pd.notna(row["plates"])
+        else tr("design {rank}", rank=row["rank"])
         for row in designs.to_dict("records")
     ]
     axes.set_yticks(place, names)
+    figure.data = designs
     axes.grid(visible=False, axis="y")
     figure.legend(loc="outside lower center", ncols=3)
     mark_synthetic(figure, synthetic)

@@ -8,10 +8,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+from nptcs.language import tr
+from nptcs.report.figures.style import HATCHES, mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.report.tables.headings import words
-
-HATCHES = ("", "//", "..", "xx")
 
 
 @styled
@@ -38,7 +38,10 @@ def impact_bars(
     solver = impact["solver"].iloc[0]
     height = 1.3 + 0.24 * len(order) * (len(rules) + 1)
     figure, axes = panel(
-        f"Solver {solver}", "impact on the vertical stiffness [N/mm]", "", (4.3, height)
+        tr("Impact of each factor, {solver}", solver=solver),
+        tr("impact on the vertical stiffness [N/mm]"),
+        "",
+        (4.3, height),
     )
     place = np.arange(len(order))[::-1].astype(float)
     width = 0.8 / len(rules)
@@ -53,16 +56,18 @@ def impact_bars(
             height=width,
             color=COLOURS[number % len(COLOURS)],
             hatch=HATCHES[number % len(HATCHES)],
-            edgecolor="white",
+            edgecolor=PAPER,
             label=words(rule),
         )
     published = by_rule[rules[0]]["published_impact"].to_numpy()
     if np.isfinite(published).any():
-        axes.plot(published, place, "|", color="black", ms=26, mew=1.6)
-        axes.plot([], [], "|", color="black", ms=8, mew=1.6, label="published, table 9 (FE)")
-    axes.axvline(0, color="black", linewidth=0.8)
+        axes.plot(published, place, "|", color=INK, ms=26, mew=1.6)
+        axes.plot([], [], "|", color=INK, ms=8, mew=1.6, label=tr("published, table 9 (FE)"))
+    axes.axvline(0, color=INK, linewidth=0.8)
     axes.set_yticks(place, [labels[key] for key in order])
     axes.grid(visible=False, axis="y")
+    columns = ["study", "factor", "rule", "impact", "published_impact", "rank", "published_rank"]
+    figure.data = impact[columns]
     figure.legend(loc="outside lower left", ncols=2)
     mark_synthetic(figure, synthetic)
     return figure

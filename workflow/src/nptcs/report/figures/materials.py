@@ -1,80 +1,19 @@
-"""Figures of specimens and materials: figures 2, 4 and 5 of the paper."""
+"""Figures of the rubbers' models: figure 5 of the paper."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+import math
+from collections.abc import Callable, Mapping
 
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.arrays import Array
-from nptcs.report.figures.style import COLOURS, GREY, MARKERS, mark_synthetic, panel, styled
-
-DRAWN_POINTS = 400
-"""Readings of a curve that are drawn; the curve files hold all of them."""
-
-STRAIN = "nominal strain [%]"
-STRESS = "nominal stress [MPa]"
-
-
-def thinned(curve: pd.DataFrame) -> pd.DataFrame:
-    """Take evenly spaced readings with a strain, and the one of largest stress."""
-    curve = curve[curve["strain_axial"].notna()]
-    if len(curve) <= DRAWN_POINTS:
-        return curve
-    rows = np.linspace(0, len(curve) - 1, DRAWN_POINTS).round().astype(int)
-    largest = int(np.argmax(np.abs(curve["stress_mpa"].to_numpy())))
-    return curve.iloc[np.union1d(rows, [largest])]
-
-
-@styled
-def stress_strain(
-    title: str,
-    curves: Mapping[str, pd.DataFrame],
-    left_out: Sequence[str],
-    synthetic: bool = False,
-) -> Figure:
-    """Draw the curves of one series; specimens that the sheet leaves out are dashed grey.
-
-    Parameters
-    ----------
-    title : str
-        Name of the series.
-    curves : mapping of str to DataFrame
-        Curves (``strain_axial, stress_mpa``) by specimen.
-    left_out : sequence of str
-        Specimens that enter no result.
-    synthetic : bool
-        Whether any of them is synthetic.
-    """
-    figure, axes = panel(title, STRAIN, STRESS)
-    used = 0
-    for specimen, curve in curves.items():
-        drawn = thinned(curve)
-        if drawn.empty:
-            continue
-        out = specimen in left_out
-        colour = GREY if out else COLOURS[used % len(COLOURS)]
-        dash = "--" if out or used >= len(COLOURS) else "-"
-        label = f"{specimen} (left out)" if out else specimen
-        axes.plot(
-            100 * drawn["strain_axial"],
-            drawn["stress_mpa"],
-            color=colour,
-            linestyle=dash,
-            linewidth=1.6 if out else 1.0,
-            marker="x" if out else None,
-            markevery=[len(drawn) - 1],
-            markersize=7,
-            zorder=3 if out else 2,
-            label=label,
-        )
-        used += not out
-    if 0 < len(axes.get_lines()) <= 8:
-        axes.legend(loc="best", fontsize=7)
-    mark_synthetic(figure, synthetic)
-    return figure
+from nptcs.language import tr
+from nptcs.report.figures.specimens import NORMAL, thinned
+from nptcs.report.figures.style import DASHES, MARKERS, mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
 
 
 @styled
@@ -85,10 +24,12 @@ def hyperelastic_fit(
     label: str,
     strain_range: tuple[float, float],
     synthetic: bool = False,
+    published_c10_mpa: float = math.nan,
 ) -> Figure:
     """Draw the tests of a rubber and its model over the range of the fit, figure 5.
 
-    The model goes on, dotted, to twice the range, to show where it leaves the data.
+    The model goes on, dotted, to twice the range, to show where it leaves the data. Hollow marks
+    are the neo-Hookean model with the C10 that the paper prints, P = 2 C10 (λ - λ⁻²).
 
     Parameters
     ----------
@@ -104,31 +45,51 @@ def hyperelastic_fit(
         Nominal strain range of the fit.
     synthetic : bool
         Whether any specimen is synthetic.
+    published_c10_mpa : float
+        The paper's C10 of this rubber; NaN for none.
     """
     low, high = strain_range
     end = high + (high - low)
-    figure, axes = panel(title, STRAIN, STRESS)
-    axes.axvspan(100 * low, 100 * high, color="#efefef", zorder=0, label="range of the fit")
+    figure, axes = panel(title, NORMAL.strain_words, NORMAL.stress_words)
+    axes.axvspan(
+        100 * low, 100 * high, color=RANGE, ec=GREY, zorder=0, label=tr("range of the fit")
+    )
+    parts = []
     for number, (specimen, curve) in enumerate(curves.items()):
         shown = thinned(curve[curve["strain_axial"].between(low, end)])
         axes.plot(
             100 * shown["strain_axial"],
             shown["stress_mpa"],
             color=COLOURS[number % (len(COLOURS) - 1)],
+            linestyle=DASHES[number % len(DASHES)],
             linewidth=1.0,
             label=specimen,
         )
+        parts.append(shown[["strain_axial", "stress_mpa"]].assign(what=specimen))
     for start, stop, dash in ((low, high, "-"), (high, end, ":")):
         stretch = np.linspace(1 + start, 1 + stop, 60)
         axes.plot(
             100 * (stretch - 1),
             stress(stretch),
-            color="black",
+            color=INK,
             linestyle=dash,
             linewidth=1.8,
             label=label if dash == "-" else None,
         )
-    axes.legend(loc="best")
+        model = pd.DataFrame({"strain_axial": stretch - 1, "stress_mpa": stress(stretch)})
+        parts.append(model.assign(what="model" if dash == "-" else "model, extrapolated"))
+    if math.isfinite(published_c10_mpa):
+        stretch = np.linspace(1 + low, 1 + high, 7)[1:]
+        level = 2 * published_c10_mpa * (stretch - stretch**-2)
+        label = tr("paper: C10 = {published_c10_mpa:g} MPa", published_c10_mpa=published_c10_mpa)
+        axes.plot(100 * (stretch - 1), level, "s", ms=5.5, mfc=PAPER, mec=INK, label=label)
+        published = pd.DataFrame({"strain_axial": stretch - 1, "stress_mpa": level})
+        parts.append(published.assign(what="paper"))
+    axes.set_xlim(left=100 * low)
+    axes.set_ylim(bottom=0 if low >= 0 else None)
+    axes.legend(loc="upper left" if low >= 0 else "lower right")
+    columns = ["what", "strain_axial", "stress_mpa"]
+    figure.data = pd.concat(parts, ignore_index=True)[columns]
     mark_synthetic(figure, synthetic)
     return figure
 
@@ -145,7 +106,7 @@ def c10_against_range(ranges: pd.DataFrame, synthetic: bool = False) -> Figure:
         Whether any specimen is synthetic.
     """
     figure, axes = panel(
-        "C10 against strain range", "upper end of the strain range [%]", "C10 [MPa]"
+        tr("C10 against strain range"), tr("upper end of the strain range [%]"), tr("C10 [MPa]")
     )
     for number, (rubber, table) in enumerate(ranges.groupby("rubber", sort=True)):
         colour = COLOURS[number % len(COLOURS)]
@@ -160,8 +121,11 @@ def c10_against_range(ranges: pd.DataFrame, synthetic: bool = False) -> Figure:
         )
         used = table[table["in_card"]]
         axes.plot(100 * used["strain_high"], used["c10_mpa"], "o", mfc="none", mec=colour, ms=11)
-    axes.plot([], [], "o", mfc="none", mec=GREY, ms=9, label="on the card")
+    axes.plot([], [], "o", mfc="none", mec=GREY, ms=9, label=tr("on the card"))
+    axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     figure.legend(loc="outside lower center", ncols=2)
+    columns = ["rubber", "strain_high", "c10_mpa", "standard_error_mpa", "in_card"]
+    figure.data = ranges[columns]
     mark_synthetic(figure, synthetic)
     return figure

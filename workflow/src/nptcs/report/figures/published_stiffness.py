@@ -9,20 +9,30 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
+from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import FactorLabel
-from nptcs.report.figures.style import GREY, line_look, mark_synthetic, panel, styled
+from nptcs.report.figures.style import (
+    DASHES,
+    line_look,
+    mark_synthetic,
+    note_sampled,
+    panel,
+    sampled,
+    styled,
+)
+from nptcs.report.figures.theme import GREY, INK, PAPER
 from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
 """Differences marked in the parity figure, and the dashes of their lines."""
 
 DISPLACEMENTS = {
-    "radial_mm": "radial displacement, outward [mm]",
-    "tangential_mm": "tangential displacement [mm]",
+    "radial_mm": translatable("radial displacement, outward [mm]"),
+    "tangential_mm": translatable("tangential displacement [mm]"),
 }
 
-
-LINES = ("-", "--", ":", "-.")
+MOST_NUMBERS = 1000
+"""Rows of a table beyond which a figure carries the numbers of its sample only."""
 
 
 def _look(solver: object, order: Sequence[str]) -> dict[str, Any]:
@@ -56,10 +66,12 @@ def parity(
     synthetic : bool
         Whether the materials of any solver are synthetic.
     """
-    figure, axes = panel(title, "published stiffness [N/mm]", "computed stiffness [N/mm]", (4.3, 4))
+    figure, axes = panel(
+        title, tr("published stiffness [N/mm]"), tr("computed stiffness [N/mm]"), (4.3, 4)
+    )
     values = table[[COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS]].to_numpy(float)
     ends = np.array([0.97 * np.nanmin(values), 1.03 * np.nanmax(values)])
-    axes.plot(ends, ends, color="black", linewidth=0.9, label="equal")
+    axes.plot(ends, ends, color=INK, linewidth=0.9, label=tr("equal"))
     for percent, dashes in BANDS_PERCENT.items():
         for sign in (-1, 1):
             edge = ends * (1 + sign * percent / 100)
@@ -68,10 +80,14 @@ def parity(
     for (solver, calibrated), rows in table.groupby(["solver", "used_for_calibration"]):
         look = _look(solver, order)
         if calibrated:
-            look |= {"mfc": "none", "label": f"{solver}, calibrated on"}
-        axes.plot(rows[PUBLISHED_STIFFNESS], rows[COMPUTED_STIFFNESS], linestyle="", **look)
+            look |= {"mfc": "none", "label": tr("{solver}, calibrated on", solver=solver)}
+        drawn = sampled(rows)
+        axes.plot(drawn[PUBLISHED_STIFFNESS], drawn[COMPUTED_STIFFNESS], linestyle="", **look)
+        note_sampled(axes, len(drawn), len(rows), tr("cases per solver"))
     axes.set(xlim=ends, ylim=ends)
     axes.set_aspect("equal")
+    columns = ["case_id", "solver", "used_for_calibration", PUBLISHED_STIFFNESS, COMPUTED_STIFFNESS]
+    figure.data = table[columns] if len(table) <= MOST_NUMBERS else sampled(table[columns])
     return _finished(figure, synthetic)
 
 
@@ -93,7 +109,9 @@ def main_effect(
         Whether the materials of any solver are synthetic.
     """
     figure, axes = panel(
-        f"study {levels['study'].iloc[0]}", str(label), "mean vertical stiffness [N/mm]"
+        tr("Mean stiffness, study {study}", study=levels["study"].iloc[0]),
+        str(label),
+        tr("mean vertical stiffness [N/mm]"),
     )
     # solvers may have been compared over different cases: then each has a published mean of its own
     same = levels.groupby("level")["published_mean_n_per_mm"].nunique().max() == 1
@@ -103,13 +121,17 @@ def main_effect(
             axes.plot(
                 rows["level"],
                 rows["published_mean_n_per_mm"],
-                color="black" if same else look["color"],
+                color=INK if same else look["color"],
                 marker="o",
-                mfc="white",
+                mfc=PAPER,
                 linestyle="--",
-                label="published" if same else f"published, cases of {solver}",
+                label=tr("published")
+                if same
+                else tr("published, cases of {solver}", solver=solver),
             )
         axes.plot(rows["level"], rows["computed_mean_n_per_mm"], **look)
+    means = ["published_mean_n_per_mm", "computed_mean_n_per_mm"]
+    figure.data = levels[["study", "factor", "level", "solver", *means]]
     return _finished(figure, synthetic)
 
 
@@ -124,7 +146,11 @@ def level_differences(
     levels, label, order, synthetic
         As in `main_effect`.
     """
-    figure, axes = panel(f"study {levels['study'].iloc[0]}", str(label), "computed − published [%]")
+    figure, axes = panel(
+        tr("Difference, study {study}", study=levels["study"].iloc[0]),
+        str(label),
+        tr("computed − published [%]"),
+    )
     groups = list(levels.groupby("solver"))
     reach = float(np.ptp(levels["level"])) or 1.0
     for number, (solver, rows) in enumerate(groups):
@@ -141,7 +167,9 @@ def level_differences(
             elinewidth=0.9,
             **_look(solver, order),
         )
-    axes.axhline(0, color="black", linewidth=0.8)
+    axes.axhline(0, color=INK, linewidth=0.8)
+    ends = [f"{which}_difference_percent" for which in ("mean", "lowest", "highest")]
+    figure.data = levels[["study", "factor", "level", "solver", *ends]]
     return _finished(figure, synthetic)
 
 
@@ -164,11 +192,12 @@ def neutral_lines(
     synthetic : bool
         Whether the materials of any solver are synthetic.
     """
-    figure, axes = panel(title, "θ from the middle of the contact [°]", DISPLACEMENTS[column])
+    figure, axes = panel(title, tr("θ from the middle of the contact [°]"), DISPLACEMENTS[column])
     for number, (solver, rows) in enumerate(lines.groupby("solver")):
-        look = _look(solver, order) | {"marker": "", "linestyle": LINES[number % len(LINES)]}
+        look = _look(solver, order) | {"marker": "", "linestyle": DASHES[number % len(DASHES)]}
         axes.plot(rows["theta_deg"], rows[column], **look)
-    axes.axhline(0, color="black", linewidth=0.8)
+    axes.axhline(0, color=INK, linewidth=0.8)
+    figure.data = lines[["case_id", "solver", "load_n", "theta_deg", column]]
     axes.set_xticks(np.arange(-180, 181, 60))
     axes.set_xlim(-180, 180)
     return _finished(figure, synthetic)

@@ -7,7 +7,9 @@ import pandas as pd
 from matplotlib.figure import Figure
 from scipy import stats
 
-from nptcs.report.figures.style import COLOURS, GREY, mark_synthetic, panel, styled
+from nptcs.language import tr
+from nptcs.report.figures.style import mark_synthetic, note_sampled, panel, sampled, styled
+from nptcs.report.figures.theme import COLOURS, GREY
 
 FAR = 3.0
 """Studentised residual beyond which a case is named."""
@@ -27,23 +29,44 @@ def residuals_over_value(influence: pd.DataFrame, title: str, synthetic: bool = 
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "value of the surface [N/mm]", "residual [N/mm]")
-    value = influence["response"] - influence["residual"]
-    sizes = 8 + 60 * influence["leverage"].to_numpy()
-    axes.axhline(0, color=GREY, linewidth=0.8)
-    axes.scatter(value, influence["residual"], s=sizes, color=COLOURS[0], alpha=0.8, linewidths=0)
+    figure, axes = panel(title, tr("value of the surface [N/mm]"), tr("residual [N/mm]"))
     far = influence["studentised_residual"].abs() > FAR
+    drawn = pd.concat([sampled(influence[~far]), sampled(influence[far])])
+    numbers = pd.DataFrame(
+        {
+            "point": drawn["point"],
+            "value_n_per_mm": drawn["response"] - drawn["residual"],
+            "residual_n_per_mm": drawn["residual"],
+            "studentised_residual": drawn["studentised_residual"],
+            "leverage": drawn["leverage"],
+        }
+    )
+    axes.axhline(0, color=GREY, linewidth=0.8)
+    for size, rows in numbers.groupby(numbers["leverage"].mul(5).round()):
+        axes.plot(
+            rows["value_n_per_mm"],
+            rows["residual_n_per_mm"],
+            "o",
+            color=COLOURS[0],
+            alpha=0.8,
+            mew=0,
+            ms=3.0 + 1.2 * float(str(size)),
+        )
     if far.any():
-        axes.scatter(
-            value[far],
-            influence["residual"][far],
-            s=90,
-            facecolors="none",
-            edgecolors=COLOURS[1],
-            linewidths=1.2,
-            label=f"studentised residual beyond {FAR:g}",
+        rows = numbers[numbers["studentised_residual"].abs() > FAR]
+        axes.plot(
+            rows["value_n_per_mm"],
+            rows["residual_n_per_mm"],
+            "o",
+            mfc="none",
+            color=COLOURS[1],
+            ms=10,
+            mew=1.2,
+            label=tr("studentised residual beyond {far:g}", far=FAR),
         )
         figure.legend(loc="outside lower center")
+    note_sampled(axes, len(drawn), len(influence), tr("cases"))
+    figure.data = numbers
     mark_synthetic(figure, synthetic)
     return figure
 
@@ -57,13 +80,16 @@ def residual_quantiles(influence: pd.DataFrame, title: str, synthetic: bool = Fa
     influence, title, synthetic
         As in `residuals_over_value`.
     """
-    figure, axes = panel(title, "normal quantile", "studentised residual")
+    figure, axes = panel(title, tr("normal quantile"), tr("studentised residual"))
     ordered = np.sort(influence["studentised_residual"].dropna().to_numpy())
     ranks = np.arange(1, len(ordered) + 1)
     quantiles = stats.norm.ppf((ranks - 0.375) / (len(ordered) + 0.25))
     if len(ordered):
         ends = np.array([quantiles[0], quantiles[-1]])
         axes.plot(ends, ends, color=GREY, linewidth=0.8)
-    axes.plot(quantiles, ordered, "o", color=COLOURS[0])
+    drawn = sampled(pd.DataFrame({"normal_quantile": quantiles, "studentised_residual": ordered}))
+    axes.plot(drawn["normal_quantile"], drawn["studentised_residual"], "o", color=COLOURS[0])
+    note_sampled(axes, len(drawn), len(ordered), tr("cases"))
+    figure.data = drawn
     mark_synthetic(figure, synthetic)
     return figure

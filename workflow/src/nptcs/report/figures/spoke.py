@@ -7,10 +7,15 @@ import pandas as pd
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
-from nptcs.report.figures.style import COLOURS, MARKERS, mark_synthetic, panel, styled
+from nptcs.language import tr, translatable
+from nptcs.report.figures.style import MARKERS, mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.tables.spoke_stiffness import DIRECTIONS
 
-TRAVEL = {"tension": "elongation [mm]", "compression": "shortening [mm]"}
+TRAVEL = {
+    "tension": translatable("elongation [mm]"),
+    "compression": translatable("shortening [mm]"),
+}
 
 
 @styled
@@ -34,8 +39,13 @@ def force_displacement(
         Whether the materials are synthetic.
     """
     solver, stiffness = curves["solver"].iloc[0], f"{direction}_stiffness_n_per_mm"
-    figure, axes = panel(f"{solver}, {direction}", TRAVEL[direction], "force [N]")
+    figure, axes = panel(
+        tr("One spoke in {direction}, {solver}", direction=tr(direction), solver=solver),
+        TRAVEL[direction],
+        tr("force [N]"),
+    )
     by_case = {line["case_id"]: line for line in lines.to_dict("records")}
+    parts = []
     for number, (case_id, curve) in enumerate(curves.groupby("case_id", sort=False)):
         line = by_case[case_id]
         place = DIRECTIONS[direction] * curve["displacement_mm"]
@@ -43,31 +53,58 @@ def force_displacement(
         half = half[half["x"] >= 0].sort_values("x")
         end = float(half["x"].max())
         colour = COLOURS[number % len(COLOURS)]
-        axes.plot(half["x"], half["f"], color=colour, label=f"{line['spoke_c10_mpa']:g}")
+        marker = MARKERS[number % len(MARKERS)]
+        axes.plot(
+            half["x"],
+            half["f"],
+            color=colour,
+            marker=marker,
+            markevery=max(len(half) // 5, 1),
+            label=f"{line['spoke_c10_mpa']:g}",
+        )
         axes.plot([0, end], [0, end * line[stiffness]], color=colour, linestyle="--", linewidth=0.9)
         if np.isfinite(line[f"published_{stiffness}"]):
             axes.plot(
                 [end],
                 [end * line[f"published_{stiffness}"]],
-                MARKERS[number % len(MARKERS)],
-                mfc="none",
+                marker,
+                mfc=PAPER,
                 mec=colour,
-                ms=7,
+                ms=8,
                 clip_on=False,
             )
+        parts.append(
+            pd.DataFrame(
+                {
+                    "case_id": case_id,
+                    "spoke_c10_mpa": line["spoke_c10_mpa"],
+                    "displacement_mm": DIRECTIONS[direction] * half["x"],
+                    "force_n": DIRECTIONS[direction] * half["f"],
+                    stiffness: line[stiffness],
+                    f"published_{stiffness}": line[f"published_{stiffness}"],
+                }
+            )
+        )
+    figure.data = pd.concat(parts, ignore_index=True)
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(title="spoke C10 [MPa]", title_fontsize=8, ncols=2, loc="upper left")
+    axes.legend(title=tr("spoke C10 [MPa]"), ncols=2, loc="upper left")
     kinds = [
-        Line2D([], [], color="black", label="computed"),
-        Line2D([], [], color="black", linestyle="--", linewidth=0.9, label="line through origin"),
+        Line2D([], [], color=INK, label=tr("computed")),
+        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("line through origin")),
     ]
     if lines[f"published_{stiffness}"].notna().any():
         kinds.append(
             Line2D(
-                [], [], linestyle="", marker="o", mfc="none", mec="black", label="table 10's end"
+                [],
+                [],
+                linestyle="",
+                marker="o",
+                mfc="none",
+                mec=INK,
+                label=tr("paper, end of table 10's line"),
             )
         )
-    figure.legend(handles=kinds, ncols=3, loc="outside lower center")
+    figure.legend(handles=kinds, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

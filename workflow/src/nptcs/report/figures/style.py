@@ -1,33 +1,45 @@
 """One look for all figures, and figures as SVG text that is the same in each run.
 
-Colours are those of Okabe and Ito, which readers with any colour vision tell apart; lines also
-differ in marker or dash. One panel is one figure, so that a phone shows it at its own size.
+Lines differ in marker or dash as well as in colour. One panel is one figure, so that a phone shows
+it at its own size. A figure carries the numbers that it shows, which the page offers as CSV.
 """
 
 from __future__ import annotations
 
 import io
-import re
+import textwrap
 from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
 
 import matplotlib as mpl
+import numpy as np
+import pandas as pd
+from cycler import cycler
 from matplotlib.axes import Axes
+from matplotlib.axis import Axis
 from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
-COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
+from nptcs.language import tr
+from nptcs.report.figures.theme import COLOURS, GREY, GRID, WARNING
+
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
+DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.5, 1.5)), (0, (6, 1.5, 1.5, 1.5)))
+HATCHES = ("", "///", "\\\\\\", "xx")
 MAP = "cividis"
-GREY = "#666666"
 PANEL = (4.3, 3.3)
 """Width and height of a panel in inches; the report shows it at 96 pixels an inch or smaller."""
 
-FONT = "'DejaVu Sans'"
-FONTS = "'DejaVu Sans', Verdana, sans-serif"
-_LONG_NUMBER = re.compile(r"-?\d+\.\d{3,}")
+TITLE_CHARACTERS = 36
+"""Characters of a title that fit on one line above the axes of a panel."""
+
+BESIDE_SYNTHETIC = 22
+"""Characters of a title that leave room on its line for the label of synthetic data."""
+
+MOST_MARKS = 300
+"""Cases of which a figure draws all; of more it draws a sample, and says so."""
 
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -39,19 +51,34 @@ STYLE: Any = {
     "axes.spines.right": False,
     "axes.grid": True,
     "axes.axisbelow": True,
-    "grid.color": "#dddddd",
+    "axes.facecolor": "none",
+    "axes.prop_cycle": cycler(color=COLOURS),
+    "grid.color": GRID,
     "grid.linewidth": 0.6,
+    "hatch.linewidth": 0.7,
     "legend.fontsize": 8,
     "legend.frameon": False,
+    "legend.title_fontsize": 8,
     "lines.linewidth": 1.3,
     "lines.markersize": 4.5,
-    "savefig.facecolor": "white",
+    "savefig.facecolor": "none",
     "svg.fonttype": "none",
     "svg.hashsalt": "nptcs",
 }
 
 P = ParamSpec("P")
 R = TypeVar("R")
+
+
+class Chart(Figure):
+    """A figure together with the numbers that it shows."""
+
+    data: pd.DataFrame | None = None
+
+
+def data_of(figure: Figure) -> pd.DataFrame | None:
+    """Return the numbers that a figure shows; None for a figure that carries none."""
+    return figure.data if isinstance(figure, Chart) else None
 
 
 def styled(function: Callable[P, R]) -> Callable[P, R]:
@@ -67,13 +94,23 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
 
 def panel(
     title: str, x_label: str, y_label: str, size: tuple[float, float] = PANEL
-) -> tuple[Figure, Axes]:
-    """Make one figure with one pair of axes."""
-    figure = Figure(figsize=size, layout="constrained")
+) -> tuple[Chart, Axes]:
+    """Make one figure with one pair of axes, with round numbers on both."""
+    figure = Chart(figsize=size, layout="constrained")
     axes = figure.add_subplot()
-    axes.set(title=title, xlabel=x_label, ylabel=y_label)
-    axes.xaxis.set_major_locator(MaxNLocator(7, steps=[1, 2, 2.5, 5, 10]))
+    fitting = round(TITLE_CHARACTERS * size[0] / PANEL[0])
+    lines = [textwrap.fill(line, fitting) for line in title.split("\n")]
+    axes.set(title="\n".join(lines), xlabel=tr(x_label), ylabel=tr(y_label))
+    for axis in (axes.xaxis, axes.yaxis):
+        round_ticks(axis)
     return figure, axes
+
+
+def round_ticks(axis: Axis, most: int = 7) -> None:
+    """Put ticks at round numbers, at most so many; of an angle at multiples of 15 or 30 degrees."""
+    angle = axis.get_label_text().endswith(("[deg]", "[°]"))
+    steps = [1, 1.5, 3, 4.5, 6, 9, 10] if angle else [1, 2, 5, 10]
+    axis.set_major_locator(MaxNLocator(most, steps=steps))
 
 
 def line_look(number: int) -> dict[str, Any]:
@@ -81,29 +118,57 @@ def line_look(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
 
 
+def dashed_look(number: int) -> dict[str, Any]:
+    """Colour and dash of a figure's line of that number, from 0, for lines with many points."""
+    return {"color": COLOURS[number % len(COLOURS)], "linestyle": DASHES[number % len(DASHES)]}
+
+
 def mark_synthetic(figure: Figure, synthetic: bool) -> None:
-    """Write across a figure that it shows synthetic data."""
-    if synthetic:
-        figure.axes[0].text(
-            0.99,
-            1.015,
-            "SYNTHETIC DATA",
-            transform=figure.axes[0].transAxes,
+    """Write above the axes that a figure shows synthetic data, where the title leaves room."""
+    if not synthetic:
+        return
+    axes = figure.axes[0]
+    lines = axes.get_title(loc="left").split("\n")
+    above = len(lines) if len(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
+    axes.annotate(
+        tr("SYNTHETIC DATA"),
+        (1, 1),
+        (0, 5 + 13 * above),
+        xycoords="axes fraction",
+        textcoords="offset points",
+        ha="right",
+        va="bottom",
+        fontsize=7,
+        fontweight="bold",
+        color=WARNING,
+    )
+
+
+def sampled(table: pd.DataFrame, most: int = MOST_MARKS) -> pd.DataFrame:
+    """Take at most so many rows of a table, in even steps, the first and the last among them."""
+    if len(table) <= most:
+        return table
+    return table.iloc[np.linspace(0, len(table) - 1, most).round().astype(int)]
+
+
+def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
+    """Write into a figure that it draws a sample only."""
+    if drawn < of:
+        axes.annotate(
+            tr("sampled: {drawn:,} of {of:,} {what}", drawn=drawn, of=of, what=what),
+            (1, 0),
+            (-3, 4),
+            xycoords="axes fraction",
+            textcoords="offset points",
             ha="right",
-            va="bottom",
             fontsize=7,
-            fontweight="bold",
-            color="#8a4b00",
+            color=GREY,
         )
 
 
 @styled
 def to_svg(figure: Figure) -> str:
-    """Draw a figure as SVG text, without a date and with stable ids.
-
-    Words stay text; a reader without the font sees the next one of the list. Coordinates have
-    hundredths of a point.
-    """
+    """Draw a figure as Matplotlib writes SVG, without a date; words stay text."""
     FigureCanvasSVG(figure)
     layout = figure.get_layout_engine()
     if layout is not None:
@@ -112,8 +177,4 @@ def to_svg(figure: Figure) -> str:
         figure.set_layout_engine("none")
     stream = io.StringIO()
     figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
-    return _LONG_NUMBER.sub(_shortened, stream.getvalue()).replace(FONT, FONTS)
-
-
-def _shortened(number: re.Match[str]) -> str:
-    return f"{float(number.group()):.2f}".rstrip("0").rstrip(".")
+    return stream.getvalue()

@@ -5,21 +5,38 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from itertools import combinations
 
+import matplotlib as mpl
 import numpy as np
 import pandas as pd
+from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
 
 from nptcs.arrays import Array
+from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import FactorLabel
-from nptcs.report.figures.style import COLOURS, MAP, MARKERS, mark_synthetic, panel, styled
+from nptcs.report.figures.style import (
+    DASHES,
+    MAP,
+    MARKERS,
+    MOST_MARKS,
+    mark_synthetic,
+    note_sampled,
+    panel,
+    sampled,
+    styled,
+)
+from nptcs.report.figures.theme import COLOURS
 from nptcs.surface.fit import Surface
 
 STIFFNESS = "vertical_stiffness_n_per_mm"
-STIFFNESS_LABEL = "vertical stiffness [N/mm]"
+STIFFNESS_LABEL = translatable("vertical stiffness [N/mm]")
 GRID = 41
-MOST_MARKS = 300
-"""Cases of which a figure draws all; of more it draws some."""
+SPARSE = 4
+"""Steps of the grid between the points of a surface that a figure carries as numbers."""
 MOST_LINES = 7
+LEVELS = 12
+"""Steps of a colour scale, at most."""
 
 
 def middle_level(levels: Sequence[float]) -> float:
@@ -73,7 +90,7 @@ def drawn_cases(cases: pd.DataFrame, varied: Sequence[str]) -> pd.DataFrame:
         kept &= cases[name].isin(evenly(sorted(set(cases[name])), per_factor)).to_numpy()
     if kept.sum() >= MOST_MARKS / 4:
         return cases[kept]
-    return cases.iloc[np.linspace(0, len(cases) - 1, MOST_MARKS).round().astype(int)]
+    return sampled(cases)
 
 
 def at_middle(
@@ -96,7 +113,31 @@ def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLa
     levels = [
         f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
     ]
-    return f"{solver}, at {', '.join(levels)}" if levels else f"solver {solver}"
+    if not levels:
+        return tr("Stiffness, {solver}", solver=solver)
+    return tr("Stiffness, {solver}\nat {levels}", solver=solver, levels=", ".join(levels))
+
+
+def common_levels(surfaces: Sequence[tuple[Surface, pd.DataFrame]]) -> list[float]:
+    """Find the round levels that the figures of one response share, over all panels and solvers.
+
+    Parameters
+    ----------
+    surfaces : sequence of (Surface, DataFrame)
+        Each with its solved cases.
+    """
+    heights = [
+        np.concatenate(
+            [
+                cases[STIFFNESS],
+                *(_grid(surface, cases, *pair)[2].ravel() for pair in pairs(surface)),
+            ]
+        )
+        for surface, cases in surfaces
+    ]
+    every = np.concatenate(heights)
+    ticks = MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(every.min(), every.max())
+    return [float(tick) for tick in ticks]
 
 
 @styled
@@ -106,6 +147,7 @@ def contours(
     pair: tuple[str, str],
     labels: Mapping[str, FactorLabel],
     synthetic: bool = False,
+    levels: Sequence[float] = (),
 ) -> Figure:
     """Draw a surface over two factors, and the cases at the same colour scale.
 
@@ -123,35 +165,50 @@ def contours(
         How factors are written.
     synthetic : bool
         Whether the materials are synthetic.
+    levels : sequence of float, optional
+        Steps of the colour scale, as `common_levels` gives them; else those of this surface.
     """
-    shown, held = at_middle(surface, cases, pair)
-    shown = drawn_cases(shown, pair)
+    inside, held = at_middle(surface, cases, pair)
+    shown = drawn_cases(inside, pair)
     x, y, z = _grid(surface, cases, *pair)
     title = _title(cases["solver"].iloc[0], held, labels)
     figure, axes = panel(title, str(labels[pair[0]]), str(labels[pair[1]]))
-    heights = np.concatenate([z.ravel(), shown[STIFFNESS]])  # no case may be at the middle
-    low, high = heights.min(), heights.max()
-    levels = np.linspace(low, high, 13)
-    filled = axes.contourf(x, y, z, levels=levels, cmap=MAP)
-    lines = axes.contour(x, y, z, levels=levels[1::2], colors="white", linewidths=0.6)
-    axes.clabel(lines, fmt="%.0f", fontsize=7)
+    steps = list(levels) or common_levels([(surface, cases)])
+    norm = BoundaryNorm(steps, mpl.colormaps[MAP].N)
+    filled = axes.contourf(x, y, z, levels=steps, cmap=MAP, norm=norm)
+    lines = axes.contour(x, y, z, levels=steps, colors="white", linewidths=0.6)
+    axes.clabel(lines, fmt="%g", fontsize=7)
     axes.scatter(
         shown[pair[0]],
         shown[pair[1]],
         c=shown[STIFFNESS],
         cmap=MAP,
-        vmin=low,
-        vmax=high,
+        norm=norm,
         s=42,
         edgecolors="white",
         linewidths=1.0,
         clip_on=False,
         zorder=5,
     )
-    figure.colorbar(filled, ax=axes, label=STIFFNESS_LABEL, format="%.0f")
+    bar = figure.colorbar(filled, ax=axes, label=tr(STIFFNESS_LABEL), ticks=steps[::2], format="%g")
+    bar.ax.grid(visible=False)
+    note_sampled(axes, len(shown), len(inside), tr("cases"))
+    figure.data = _numbers(shown, (x, y, z), pair, held)
     axes.grid(visible=False)
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def _numbers(
+    shown: pd.DataFrame,
+    grid: tuple[Array, Array, Array],
+    pair: tuple[str, str],
+    held: Mapping[str, float],
+) -> pd.DataFrame:
+    """Gather the cases of a panel, and the surface at every so many points of its grid."""
+    x, y, z = (part[::SPARSE, ::SPARSE].ravel() for part in grid)
+    surface = pd.DataFrame({pair[0]: x, pair[1]: y, **held, STIFFNESS: z, "what": "surface"})
+    return pd.concat([shown.assign(what="case")[list(surface)], surface], ignore_index=True)
 
 
 def _line_levels(
@@ -174,6 +231,7 @@ def slices(
     varied: Sequence[str],
     labels: Mapping[str, FactorLabel],
     synthetic: bool = False,
+    limits: Sequence[float] = (),
 ) -> Figure:
     """Draw the stiffness over one factor, a line for each level of a second one if there is one.
 
@@ -185,6 +243,8 @@ def slices(
         As in `contours`.
     varied : sequence of str
         The factor on the x axis, then the one whose levels make the lines.
+    limits : sequence of float, optional
+        Levels whose first and last one end the axis of the stiffness, to compare solvers.
     """
     shown, held = at_middle(surface, cases, varied)
     title = _title(cases["solver"].iloc[0], held, labels)
@@ -193,24 +253,32 @@ def slices(
     axis = factors.index(varied[0])
     x = np.linspace(surface.lower[axis], surface.upper[axis], GRID)
     levels = _line_levels(surface, shown, varied)
+    parts = []
     for number, level in enumerate(levels):
-        at_level = shown if level is None else shown[shown[varied[1]] == level]
-        at_level = drawn_cases(at_level, varied[:1])
+        inside = shown if level is None else shown[shown[varied[1]] == level]
+        at_level = drawn_cases(inside, varied[:1])
         fixed = held if level is None else {**held, varied[1]: level}
         points = np.column_stack(
             [x if name == varied[0] else np.full(GRID, fixed[name]) for name in factors]
         )
         colour = COLOURS[number % len(COLOURS)]
-        axes.plot(x, surface.predict(points), color=colour)
+        height = surface.predict(points)
+        axes.plot(x, height, color=colour, linestyle=DASHES[number % len(DASHES)])
+        line = pd.DataFrame(points, columns=factors).assign(what="surface", **{STIFFNESS: height})
+        parts += [at_level[[*factors, STIFFNESS]].assign(what="case"), line]
         axes.plot(
             at_level[varied[0]],
             at_level[STIFFNESS],
             linestyle="none",
             color=colour,
             marker=MARKERS[number % len(MARKERS)],
-            label="cases" if level is None else f"{level:.4g}",
+            label=tr("cases") if level is None else f"{level:.4g}",
         )
+        note_sampled(axes, len(at_level), len(inside), tr("cases per line"))
+    if len(limits):
+        axes.set_ylim(limits[0], limits[-1])
     legend_title = str(labels[varied[1]]) if len(varied) > 1 else None
-    figure.legend(title=legend_title, title_fontsize=8, ncols=5, loc="outside lower center")
+    figure.legend(title=legend_title, ncols=5, loc="outside lower center")
+    figure.data = pd.concat(parts, ignore_index=True)[[*factors, STIFFNESS, "what"]]
     mark_synthetic(figure, synthetic)
     return figure

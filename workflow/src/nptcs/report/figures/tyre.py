@@ -2,45 +2,151 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
+from matplotlib.collections import PolyCollection
 from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
+from matplotlib.patches import Patch
 
-from nptcs.report.figures.style import COLOURS, GREY, MARKERS, mark_synthetic, panel, styled
+from nptcs.compare.conditions import PAPER_LOAD_N
+from nptcs.language import tr
+from nptcs.report.figures.style import (
+    DASHES,
+    MARKERS,
+    line_look,
+    mark_synthetic,
+    note_sampled,
+    panel,
+    sampled,
+    styled,
+)
+from nptcs.report.figures.theme import COLOURS, GREY, INK, RANGE
+
+WINDOW_MM = 110.0
+"""Half the width of the surroundings of the contact that are drawn."""
 
 PUBLISHED_STRESS_MPA = 89.5
 """Largest stress of a reinforcing plate at 5000 N, section 4.1 of the paper."""
 
 
 @styled
-def load_displacement(curves: pd.DataFrame, title: str, synthetic: bool = False) -> Figure:
-    """Draw load against displacement of all tyres, the softest and the stiffest with their names.
+def load_displacement(
+    curves: pd.DataFrame, published: pd.DataFrame, title: str, synthetic: bool = False
+) -> Figure:
+    """Draw load against displacement of all tyres, figure 10 b of the paper.
+
+    The softest and the stiffest tyre have their names and their secant stiffness at the end;
+    crosses are the paper's values at its load.
 
     Parameters
     ----------
     curves : DataFrame
         Rows of ``tyre_curves.csv`` of one study and solver.
+    published : DataFrame
+        ``case_id, load_n, displacement_mm`` of the same cases as published; may be empty.
     title : str
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "vertical displacement [mm]", "vertical load [kN]")
+    figure, axes = panel(title, tr("vertical displacement [mm]"), tr("vertical load [kN]"))
     cases = {str(name): curve for name, curve in curves.groupby("case_id", sort=False)}
-    ends = {name: curve.iloc[-1] for name, curve in cases.items()}
-    stiffness = {name: end["force_n"] / end["displacement_mm"] for name, end in ends.items()}
-    softest = min(stiffness, key=stiffness.__getitem__)
-    stiffest = max(stiffness, key=stiffness.__getitem__)
-    named = {stiffest: COLOURS[1], softest: COLOURS[0]}
-    for name, curve in cases.items():
-        place, load = curve["displacement_mm"], curve["force_n"] / 1000.0
-        if name in named:
-            label = f"{name}, {stiffness[name]:.0f} N/mm at the end"
-            axes.plot(place, load, color=named[name], marker="o", label=label, zorder=3)
-        else:
-            axes.plot(place, load, color=GREY, linewidth=0.6, alpha=0.6)
+    ends = pd.DataFrame({name: curve.iloc[-1] for name, curve in cases.items()}).T
+    stiffness = ends["force_n"].astype(float) / ends["displacement_mm"].astype(float)
+    looks = {stiffness.idxmax(): (COLOURS[1], "s"), stiffness.idxmin(): (COLOURS[0], "o")}
+    drawn = {*sampled(ends)["case_id"], *looks}
+    for name in drawn - set(looks):
+        curve = cases[name]
+        axes.plot(
+            curve["displacement_mm"], curve["force_n"] / 1000, color=GREY, linewidth=0.6, alpha=0.6
+        )
+    for name, (colour, marker) in looks.items():
+        curve = cases[str(name)]
+        axes.plot(
+            curve["displacement_mm"],
+            curve["force_n"] / 1000,
+            color=colour,
+            marker=marker,
+            markevery=max(len(curve) // 10, 1),
+            label=f"{name}: {stiffness[name]:.0f} N/mm",
+            zorder=3,
+        )
+    printed = published[published["case_id"].isin(drawn)]
+    if not printed.empty:
+        axes.plot(
+            printed["displacement_mm"],
+            printed["load_n"] / 1000,
+            "x",
+            color=INK,
+            ms=5,
+            zorder=4,
+            label=tr("paper, FEM"),
+        )
+    note_sampled(axes, len(drawn), len(cases), tr("tyres"))
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
-    axes.legend(loc="lower right")
+    figure.legend(loc="outside lower center", ncols=2)
+    columns = ["case_id", "displacement_mm", "force_n"]
+    figure.data = curves.loc[curves["case_id"].isin(drawn), columns]
+    mark_synthetic(figure, synthetic)
+    return figure
+
+
+@styled
+def deformed_tyre(
+    outlines: pd.DataFrame, title: str, near: bool, synthetic: bool = False
+) -> Figure:
+    """Draw the outlines of a loaded tyre, figure 10 a of the paper.
+
+    Parameters
+    ----------
+    outlines : DataFrame
+        Rows of ``deformed_tyre.csv``.
+    title : str
+    near : bool
+        Whether only the surroundings of the contact are drawn, with the undeformed outlines.
+    synthetic : bool
+        Whether the materials are synthetic.
+    """
+    figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 3.7 if near else 4.7))
+    ground = float(outlines["y_mm"].min())
+    if near:
+        around = outlines["x_mm"].abs().lt(WINDOW_MM) & outlines["y_mm"].lt(ground + WINDOW_MM)
+        kept = outlines.loc[around, "outline"].unique()
+        outlines = outlines[outlines["outline"].isin(kept)]
+        axes.set_xlim(-WINDOW_MM, WINDOW_MM)
+        axes.set_ylim(ground - 5, ground + 1.25 * WINDOW_MM)
+    looks = {
+        "spoke": {"facecolor": RANGE, "edgecolor": GREY, "linewidth": 0.5},
+        "plate": {"facecolor": COLOURS[1], "edgecolor": "none"},
+        "band": {"facecolor": "none", "edgecolor": COLOURS[0], "linewidth": 1.3},
+        "rim": {"facecolor": "none", "edgecolor": INK, "linewidth": 0.9},
+    }
+    for part, look in looks.items():
+        rows = outlines[outlines["part"] == part]
+        lines = [line[["x_mm", "y_mm"]].to_numpy() for _, line in rows.groupby("outline")]
+        axes.add_collection(PolyCollection(lines, zorder=2, **look))
+        if near and part in ("spoke", "band"):
+            columns = ["x_undeformed_mm", "y_undeformed_mm"]
+            before = [line[columns].to_numpy() for _, line in rows.groupby("outline")]
+            dotted = {"edgecolor": GREY, "linewidth": 0.6, "linestyle": ":"}
+            axes.add_collection(PolyCollection(before, facecolor="none", zorder=1, **dotted))
+    axes.axhline(ground, color=INK, linewidth=0.8)
+    axes.set_aspect("equal")
+    if not near:
+        axes.autoscale_view()
+    axes.grid(visible=False)
+    handles = [
+        Patch(fc=RANGE, ec=GREY, label="spoke's rubber"),
+        Patch(fc=COLOURS[1], label="plates"),
+        Line2D([], [], color=COLOURS[0], label="band and tread"),
+        Line2D([], [], color=INK, label="rim, ground"),
+    ]
+    if near:
+        handles.append(Line2D([], [], color=GREY, linestyle=":", label="before the load"))
+    figure.legend(handles=handles, ncols=3, loc="outside lower center")
+    places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
+    figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))
     mark_synthetic(figure, synthetic)
     return figure
 
@@ -58,8 +164,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
     synthetic : bool
         Whether the materials are synthetic.
     """
-    height = f"height above the rim [mm], at {stress['load_n'].iloc[0]:g} N"
-    figure, axes = panel(title, height, "von Mises stress at a face [MPa]")
+    height = tr("height above the rim [mm], at {load_n:g} N", load_n=stress["load_n"].iloc[0])
+    figure, axes = panel(title, height, tr("von Mises stress at a face [MPa]"))
     worst = stress["spoke"].to_numpy()[int(stress["mises_mpa"].argmax())]
     rows = stress[stress["spoke"] == worst].sort_values("height_mm")
     for number in (0, 1):
@@ -67,17 +173,23 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         colour, marker = COLOURS[number], MARKERS[number]
         for leg in (0, 1):
             half = face[face["leg"] == leg]
-            label = f"ply {half['ply_deg'].iloc[0]:+g}°" if leg == 0 else None
+            label = tr("ply {ply_deg:+g}°", ply_deg=half["ply_deg"].iloc[0]) if leg == 0 else None
             place = half["height_mm"]
-            axes.plot(place, half["mises_mpa"], color=colour, marker=marker, label=label)
+            look = {**line_look(number), "linestyle": DASHES[number]}
+            axes.plot(place, half["mises_mpa"], label=label, **look)
             axes.plot(place, half["mean_mises_mpa"], marker, ms=8, mfc="none", mec=colour)
-    axes.axhline(PUBLISHED_STRESS_MPA, color="black", linestyle="--", linewidth=0.9)
+    compared = bool(np.isclose(stress["load_n"].iloc[0], PAPER_LOAD_N))
+    if compared:
+        axes.axhline(PUBLISHED_STRESS_MPA, color=INK, linestyle="--", linewidth=0.9)
     axes.set_ylim(bottom=0)
+    figure.data = rows.drop(columns=["study", "along_mpa", "across_mpa", "shear_mpa"])
     handles, _ = axes.get_legend_handles_labels()
     handles += [
-        Line2D([], [], linestyle="", marker="o", mfc="none", mec="black", label="element mean"),
-        Line2D([], [], color="black", linestyle="--", linewidth=0.9, label="published largest"),
+        Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
     ]
+    if compared:
+        paper = {"color": INK, "linestyle": "--", "linewidth": 0.9}
+        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

@@ -6,7 +6,10 @@ import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
-from nptcs.report.figures.style import COLOURS, mark_synthetic, panel, styled
+from nptcs.language import tr
+from nptcs.report.figures.style import mark_synthetic, panel, styled
+from nptcs.report.figures.theme import COLOURS, PAPER
+from nptcs.report.tables.headings import heading
 
 KINDS = {
     "test": COLOURS[0],
@@ -14,7 +17,7 @@ KINDS = {
     "tolerance": COLOURS[2],
     "surface": COLOURS[4],
 }
-HATCHES = {"test": "", "stated": "//", "tolerance": "..", "surface": "xx"}
+HATCHES = {"test": "", "stated": "///", "tolerance": "\\\\\\", "surface": "xx"}
 
 
 @styled
@@ -29,7 +32,10 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "share of the variance [%]", "", (4.3, 1.3 + 0.3 * len(shares)))
+    names = [in_lines(str(text)) for text in shares["quantities"]]
+    lines = max(name.count("\n") + 1 for name in names)
+    height = 1.3 + (0.15 + 0.13 * lines) * len(names)
+    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, height))
     place = np.arange(len(shares))[::-1]
     for kind, colour in KINDS.items():
         mine = (shares["kind"] == kind).to_numpy()
@@ -39,16 +45,40 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
                 shares["share_percent"].to_numpy()[mine],
                 color=colour,
                 hatch=HATCHES[kind],
-                edgecolor="white",
-                label=kind,
+                edgecolor=PAPER,
+                label=tr(kind),
             )
-    for height, share in zip(place, shares["share_percent"], strict=True):
-        text = f" {share:.0f}" if share >= 1 else f" {share:.1g}"
-        axes.text(share, height, text, va="center", fontsize=7.5)
-    names = [text.replace(", ", "\n", 1) for text in shares["quantities"]]
+    for bar, share in zip(place, shares["share_percent"], strict=True):
+        text = f"{share:.0f}" if share >= 1 else f"{share:.1g}"
+        axes.annotate(
+            text, (share, bar), (3, 0), textcoords="offset points", va="center", fontsize=7.5
+        )
+    figure.data = shares
     axes.set_yticks(place, names, fontsize=7.5)
     axes.set_xlim(0, max(1.0, 1.12 * float(shares["share_percent"].max())))
     axes.grid(visible=False, axis="y")
     figure.legend(loc="outside lower center", ncols=4)
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def in_lines(quantities: str) -> str:
+    """Write quantities and their standard deviations for a reader, each on a line of its own.
+
+    Examples
+    --------
+    >>> print(in_lines("e1_mpa ± 2.04e+03, nu12 ± 0.01"))
+    E1 ± 2040 MPa
+    ν12 ± 0.01
+    """
+    lines = []
+    for part in quantities.split(", "):
+        name, between, spread = part.partition(" ± ")
+        try:
+            number = float(f"{float(spread):.3g}")
+        except ValueError:
+            lines.append(part)
+            continue
+        written = heading(name)
+        lines.append(f"{written.name}{between}{number:g} {written.unit}".rstrip())
+    return "\n".join(lines)

@@ -7,6 +7,7 @@ from collections.abc import Mapping
 import pandas as pd
 
 from nptcs.config.study import Study
+from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import Heading
 from nptcs.tables.published_stiffness import (
@@ -41,14 +42,14 @@ def case_comparison(
     headings : mapping of str to Heading
     """
     table = rows.drop_duplicates("case_id").set_index("case_id")[[*factors, PUBLISHED_STIFFNESS]]
-    headings = {PUBLISHED_STIFFNESS: Heading("published", "N/mm")}
+    headings = {PUBLISHED_STIFFNESS: Heading(tr("published"), "N/mm")}
     failed, calibrated = (pd.Series("", index=table.index) for _ in range(2))
     for solver, of_solver in rows.groupby("solver", sort=False):
         case = of_solver.set_index("case_id")
         table[f"{solver}_computed"] = case[COMPUTED_STIFFNESS]
         table[f"{solver}_{DIFFERENCE}"] = case[DIFFERENCE]
         headings[f"{solver}_computed"] = Heading(str(solver), "N/mm")
-        headings[f"{solver}_{DIFFERENCE}"] = Heading(f"{solver} − published", "%")
+        headings[f"{solver}_{DIFFERENCE}"] = Heading(tr("{solver} − published", solver=solver), "%")
         failed += (f"{solver}: " + case["status"] + " ").where(~has_result(case["status"]), "")
         calibrated += pd.Series(f"{solver} ", case.index).where(case["used_for_calibration"], "")
     table["failed"], table["calibrated_on"] = failed.str.strip(), calibrated.str.strip()

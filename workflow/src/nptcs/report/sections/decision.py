@@ -6,6 +6,7 @@ from collections.abc import Hashable, Mapping
 from typing import Any
 
 from nptcs.config.decisions import Decision
+from nptcs.language import tr
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.decision import goal_intervals
@@ -27,7 +28,7 @@ def decision_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the decisions."""
     table = results.table(Decisions)
     if table.empty:
-        return Section(ReportSection.DECISION, "Decision", ())
+        return Section(ReportSection.DECISION, tr("Decision"), ())
     blocks: list[PageBlock] = []
     for row in table.to_dict("records"):
         blocks.append(Text(_title(results, row), "heading"))
@@ -37,7 +38,7 @@ def decision_section(results: Results, sheets: Sheets) -> Section:
     shown = (Decisions, DecisionDesigns, DecisionFront, DecisionConfirmation)
     blocks += [sheet_view(sheet_of(sheets, one)) for one in shown if len(results.table(one))]
     return Section(
-        ReportSection.DECISION, "Decision", tuple(blocks), results.table_is_synthetic(table)
+        ReportSection.DECISION, tr("Decision"), tuple(blocks), results.table_is_synthetic(table)
     )
 
 
@@ -46,20 +47,39 @@ def _decision(results: Results, name: str) -> Decision:
 
 
 def _title(results: Results, row: Row) -> str:
-    return _decision(results, str(row["decision"])).title or str(row["goals"])
+    return tr(_decision(results, str(row["decision"])).title) or str(row["goals"])
 
 
 def _answer(row: Row) -> str:
-    asked = f"Asked of study {row['study']}, solver {row['solver']}: {row['goals']}"
+    asked = tr(
+        "Asked of study {study}, solver {solver}: {goals}",
+        study=row["study"],
+        solver=row["solver"],
+        goals=row["goals"],
+    )
     if row["status"] == "refused":
-        return f"{asked}. No answer: {row['message']}"
-    probability = f"with probability {row['with_probability']:g}"
+        return tr("{asked}. No answer: {message}", asked=asked, message=row["message"])
+    probability = tr(
+        "with probability {with_probability:g}", with_probability=row["with_probability"]
+    )
     if row["status"] == "infeasible":
-        return f"{asked}, {probability}. {row['message']}. Nearest design: {row['design']}."
-    return (
-        f"{asked}, {probability}. Chosen: {row['design']}; it meets all targets and bounds with "
-        f"probability {row['probability']:.2f}. {row['feasible_percent']:.2g} % of "
-        f"{row['candidates']} candidates do."
+        return tr(
+            "{asked}, {probability}. {message}. Nearest design: {design}.",
+            asked=asked,
+            probability=probability,
+            message=row["message"],
+            design=row["design"],
+        )
+    return tr(
+        "{asked}, {probability}. Chosen: {design}; it meets all targets and "
+        "bounds with probability {probability_2:.2f}. {feasible_percent:.2g} % "
+        "of {candidates} candidates do.",
+        asked=asked,
+        probability=probability,
+        design=row["design"],
+        probability_2=row["probability"],
+        feasible_percent=row["feasible_percent"],
+        candidates=row["candidates"],
     )
 
 
@@ -68,19 +88,31 @@ def _confirmation(results: Results, decision: str) -> list[PageBlock]:
     rows = results.table(DecisionConfirmation)
     facts = []
     for row in rows[rows["decision"] == decision].to_dict("records"):
-        at = f" at {row['at']}" if row["at"] else ""
-        what = f"Round {row['round']}: {row['response']}{at} of {row['design']}"
+        at = tr(" at {at}", at=row["at"]) if row["at"] else ""
+        what = tr(
+            "Round {round}: {response}{at} of {design}",
+            round=row["round"],
+            response=row["response"],
+            at=at,
+            design=row["design"],
+        )
         if row["result"] == "not solved":
-            text = f"not solved: {row['message']}"
+            text = tr("not solved: {message}", message=row["message"])
         else:
-            text = (
-                f"solved {row['solved']:.6g} {row['unit']}, predicted {row['predicted']:.6g} "
-                f"({row['low']:.6g} to {row['high']:.6g}): {row['result']}"
+            text = tr(
+                "solved {solved:.6g} {unit}, predicted {predicted:.6g} ({low:.6g} to "
+                "{high:.6g}): {result}",
+                solved=row["solved"],
+                unit=row["unit"],
+                predicted=row["predicted"],
+                low=row["low"],
+                high=row["high"],
+                result=tr(row["result"]),
             )
         if row["added"]:
-            text += "; the case was added to the surfaces, and the choice was made again"
+            text += tr("; the case was added to the surfaces, and the choice was made again")
         facts.append(Fact(what, text, "decision_confirmation.csv"))
-    return [Facts("Confirmation by a solved case", tuple(facts))] if facts else []
+    return [Facts(tr("Confirmation by a solved case"), tuple(facts))] if facts else []
 
 
 def _figures(results: Results, row: Row) -> list[PageBlock]:
@@ -91,8 +123,12 @@ def _figures(results: Results, row: Row) -> list[PageBlock]:
     synthetic = results.study_is_synthetic(study, decision.solver)
     plots: list[Plot] = []
     for goal, rows in designs.groupby("goal", sort=False):
-        alt = f"{goal}: best designs of the decision {decision.name} with their intervals"
+        alt = tr(
+            "{goal}: best designs of the decision {name} with their intervals",
+            goal=goal,
+            name=decision.name,
+        )
         plots.append(plot(alt, synthetic, goal_intervals, rows, synthetic))
     if not plots:
         return []
-    return [Plots("The best designs: mean and interval of each response.", tuple(plots))]
+    return [Plots(tr("The best designs: mean and interval of each response."), tuple(plots))]

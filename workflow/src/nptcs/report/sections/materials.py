@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from functools import partial
 
 import numpy as np
@@ -9,40 +10,46 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.models import model_named
+from nptcs.language import tr
 from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import material_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.material_card import RubberCard
+from nptcs.tables.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection
 
 
 def materials_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     blocks: list[PageBlock] = [
+        *material_facts(results),
         sheet_view(sheets[entries.PLY.sheet]),
         sheet_view(sheets[entries.RUBBERS.sheet]),
     ]
     checks = [f"{card.name}: {check}" for card in results.cards for check in card.checks]
     if checks:
-        blocks.append(Listing("What the checks of the card found", tuple(checks), "warn"))
+        blocks.append(Listing(tr("What the checks of the card found"), tuple(checks), "warn"))
     blocks += [
         Plots(
-            "The rubbers' tests and their models (figure 5 of the paper): the model "
-            "within the range of its fit (full line) and beyond it (dotted). Last panel: how C10 "
-            "depends on that range.",
+            tr(
+                "The rubbers' tests and their models (figure 5 of the paper): the model "
+                "within the range of its fit (full line) and beyond it (dotted); "
+                "squares: the neo-Hookean model with the C10 that the paper prints. Last "
+                "panel: how C10 depends on that range."
+            ),
             (*_fit_plots(results), *_range_plot(results)),
         ),
         sheet_view(sheet_of(sheets, ModelComparison)),
         sheet_view(sheet_of(sheets, RangeTable)),
     ]
     synthetic = results.plies_synthetic or results.rubbers_synthetic
-    return Section(ReportSection.MATERIALS, "Materials", tuple(blocks), synthetic)
+    return Section(ReportSection.MATERIALS, tr("Materials"), tuple(blocks), synthetic)
 
 
 def _fit_plots(results: Results) -> list[Plot]:
@@ -67,7 +74,11 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             modes.setdefault(specimen.test.value, []).append(specimen.specimen)
     plots = []
     for mode, names in modes.items():
-        alt = f"Stress over strain of {rubber.name} and its {words(rubber.model)} fit"
+        alt = tr(
+            "Stress over strain of {name} and its {model} fit",
+            name=rubber.name,
+            model=words(rubber.model),
+        )
         drawn = plot(
             alt,
             rubber.synthetic,
@@ -78,6 +89,7 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
             f"{words(rubber.model)}\n{values}",
             rubber.strain_range,
             rubber.synthetic,
+            PUBLISHED_C10_MPA.get(rubber.name, math.nan),
         )
         plots.append(drawn)
     return plots
@@ -93,5 +105,5 @@ def _range_plot(results: Results) -> list[Plot]:
     if joint.empty:
         return []
     synthetic = results.rubbers_synthetic
-    alt = "C10 of each rubber over the strain range of its fit"
+    alt = tr("C10 of each rubber over the strain range of its fit")
     return [plot(alt, synthetic, c10_against_range, joint, synthetic)]

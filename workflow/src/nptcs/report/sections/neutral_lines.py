@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import (
     Listing,
     PageBlock,
@@ -28,7 +29,7 @@ def line_blocks(results: Results) -> list[PageBlock]:
     missing = [case_id for case_id in _line_cases(results) if case_id not in set(lines["case_id"])]
     blocks: list[PageBlock] = []
     if missing:
-        blocks.append(Text(f"No solver gave a neutral line for {joined(missing)}."))
+        blocks.append(Text(tr("No solver gave a neutral line for {names}.", names=joined(missing))))
     return blocks if lines.empty else [*blocks, *_drawn_lines(results)]
 
 
@@ -53,18 +54,29 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
         title = f"{case_id}, {rows['load_n'].iloc[0]:g} N"
         for column, label in DISPLACEMENTS.items():
             given = (rows, column, title, solver_order(results), synthetic)
-            plots.append(plot(f"{label} of {case_id} against θ", synthetic, neutral_lines, *given))
+            plots.append(
+                plot(
+                    tr("{label} of {case_id} against θ", label=tr(label), case_id=case_id),
+                    synthetic,
+                    neutral_lines,
+                    *given,
+                )
+            )
         sentences += line_words(rows)
     return [
         Plots(
-            "Displacement of the band's neutral line relative to the rim (figure 14 of the "
-            "paper), by every solver that computes it. Finite elements: the middle between the "
-            f"wire layers, radius {middle:g} mm, all spokes lean the same way, so that the two "
-            f"sides differ; load-bearing model: the ring of radius {tyre.band_radius_mm:g} mm, the "
-            "same on both sides.",
+            tr(
+                "Displacement of the band's neutral line relative to the rim (figure 14 "
+                "of the paper), by every solver that computes it. Finite elements: the "
+                "middle between the wire layers, radius {middle:g} mm, all spokes lean "
+                "the same way, so that the two sides differ; load-bearing model: the "
+                "ring of radius {band_radius_mm:g} mm, the same on both sides.",
+                middle=middle,
+                band_radius_mm=tyre.band_radius_mm,
+            ),
             tuple(plots),
         ),
-        Listing("What the neutral lines show", tuple(sentences)),
+        Listing(tr("What the neutral lines show"), tuple(sentences)),
     ]
 
 
@@ -77,9 +89,18 @@ def line_words(rows: pd.DataFrame) -> list[str]:
         )
         along = line["tangential_mm"]
         sentences.append(
-            f"{solver}, {line['case_id'].iloc[0]}: radially from {inward['radial_mm']:+.2f} mm at "
-            f"θ = {inward['theta_deg']:.1f}° to {outward['radial_mm']:+.2f} mm at "
-            f"θ = {outward['theta_deg']:.1f}°; tangentially from {along.min():+.2f} to "
-            f"{along.max():+.2f} mm."
+            tr(
+                "{solver}, {case_id}: radially from {radial_mm:+.2f} mm at θ = "
+                "{theta_deg:.1f}° to {radial_mm_2:+.2f} mm at θ = {theta_deg_2:.1f}°; "
+                "tangentially from {lowest:+.2f} to {highest:+.2f} mm.",
+                solver=solver,
+                case_id=line["case_id"].iloc[0],
+                radial_mm=inward["radial_mm"],
+                theta_deg=inward["theta_deg"],
+                radial_mm_2=outward["radial_mm"],
+                theta_deg_2=outward["theta_deg"],
+                lowest=along.min(),
+                highest=along.max(),
+            )
         )
     return sentences

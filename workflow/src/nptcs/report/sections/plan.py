@@ -7,9 +7,11 @@ from dataclasses import dataclass, replace
 
 import pandera.pandas as pa
 
+from nptcs.language import tr
 from nptcs.report.blocks import PageBlock, Section, TableView, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.decision import decision_section
+from nptcs.report.sections.explorer import explorer_section
 from nptcs.report.sections.lca import lca_section
 from nptcs.report.sections.materials import materials_section
 from nptcs.report.sections.provenance import provenance_section
@@ -26,6 +28,7 @@ from nptcs.report.sections.tyre import tyre_section
 from nptcs.report.sections.uncertainty import uncertainty_section
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheet, Sheets
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.lca_validation import LcaNeutralLine
 from nptcs.tables.neutral_line import NeutralLine
 from nptcs.tables.result_table import ReportSection
@@ -38,7 +41,7 @@ MOST_ROWS = 500
 
 def further_section(results: Results, sheets: Sheets) -> Section:
     """Begin the section of tables that no other section claims."""
-    return Section(ReportSection.FURTHER, "Further tables", ())
+    return Section(ReportSection.FURTHER, tr("Further tables"), ())
 
 
 @dataclass(frozen=True)
@@ -58,18 +61,20 @@ class SectionPlan:
 
 
 PLANS: Mapping[ReportSection, SectionPlan] = {
-    ReportSection.SPECIMENS: SectionPlan(specimens_section),
-    ReportSection.MATERIALS: SectionPlan(materials_section),
-    ReportSection.DESIGN: SectionPlan(design_section),
-    ReportSection.CASES: SectionPlan(cases_section),
-    ReportSection.SURFACES: SectionPlan(surfaces_section),
-    ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
-    ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
+    # what follows the first screen: to try out designs, then the results, then what they rest on
+    ReportSection.EXPLORE: SectionPlan(explorer_section),
     ReportSection.DECISION: SectionPlan(decision_section),
-    ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
-    ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress)),
+    ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),
+    ReportSection.SENSITIVITY: SectionPlan(sensitivity_section),
+    ReportSection.TYRE: SectionPlan(tyre_section, (TyreCurves, PlateStress, DeformedTyre)),
     ReportSection.PUBLISHED_STIFFNESS: SectionPlan(published_stiffness_section, (NeutralLine,)),
     ReportSection.LCA: SectionPlan(lca_section, (LcaNeutralLine,)),
+    ReportSection.SPOKE: SectionPlan(spoke_section, (SpokeCurves,)),
+    ReportSection.SURFACES: SectionPlan(surfaces_section),
+    ReportSection.MATERIALS: SectionPlan(materials_section),
+    ReportSection.SPECIMENS: SectionPlan(specimens_section),
+    ReportSection.DESIGN: SectionPlan(design_section),
+    ReportSection.CASES: SectionPlan(cases_section),
     ReportSection.FURTHER: SectionPlan(further_section),
     ReportSection.PROVENANCE: SectionPlan(provenance_section),
 }
@@ -104,5 +109,17 @@ def _shown(sheet: Sheet) -> PageBlock:
     """Show a table, or say where it is if it is too long for a page."""
     if len(sheet.table) <= MOST_ROWS:
         return sheet_view(sheet)
-    place = f" and in the sheet {sheet.entry.sheet} of the workbook" if sheet.in_workbook else ""
-    return Text(f"{sheet.entry.title}: {len(sheet.table):,} rows, in {sheet.entry.file}{place}.")
+    place = (
+        tr(" and in the sheet {sheet} of the workbook", sheet=sheet.entry.sheet)
+        if sheet.in_workbook
+        else ""
+    )
+    return Text(
+        tr(
+            "{title}: {count:,} rows, in {file}{place}.",
+            title=tr(sheet.entry.title),
+            count=len(sheet.table),
+            file=sheet.entry.file,
+            place=place,
+        )
+    )

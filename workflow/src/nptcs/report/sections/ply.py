@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import words
 from nptcs.report.text import joined, number_text
@@ -29,9 +30,16 @@ def ply_words(results: Results) -> str:
                 f"{words(name.removesuffix('_mpa'))} {number_text(quantity.value, 4)}{unit} "
                 f"({change:+.1f} %)"
             )
-        origin = " (SYNTHETIC data)" if ply.synthetic else ""
+        origin = tr(" (SYNTHETIC data)") if ply.synthetic else ""
         sentences.append(
-            f"The ply of {joined(solvers)} is {ply.name} of the material card{origin}, not the one "
-            f"that the paper prints; in brackets the difference from table 2: {', '.join(parts)}."
+            tr(
+                "The ply of {names} is {name} of the material card{origin}, not the one "
+                "that the paper prints; in brackets the difference from table 2: "
+                "{names_2}.",
+                names=joined(solvers),
+                name=ply.name,
+                origin=origin,
+                names_2=", ".join(parts),
+            )
         )
     return " ".join(sentences)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from nptcs.config.study import Study
+from nptcs.language import tr
 from nptcs.report.blocks import (
     Facts,
     PageBlock,
@@ -22,6 +23,7 @@ from nptcs.report.figures.published_stiffness import (
 )
 from nptcs.report.plots import plot
 from nptcs.report.sections.compared_cases import case_comparison, rests_on_synthetic, solver_order
+from nptcs.report.sections.key_facts import published_facts
 from nptcs.report.sections.neutral_lines import line_blocks
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.sections.rings import ring_blocks
@@ -40,10 +42,10 @@ from nptcs.tables.spoke_stiffness import SpokeLines
 
 def published_stiffness_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
-    title = "Computed stiffness against the paper's finite elements"
+    title = tr("Computed stiffness against the paper's finite elements")
     blocks = [*_stiffness_blocks(results, sheets), *line_blocks(results)]
     if not blocks:
-        nothing = "No study of the configuration has both published and computed results."
+        nothing = tr("No study of the configuration has both published and computed results.")
         return Section(ReportSection.PUBLISHED_STIFFNESS, title, (Text(nothing),))
     synthetic = sheet_of(sheets, StiffnessAgainstPublished).synthetic
     return Section(ReportSection.PUBLISHED_STIFFNESS, title, tuple(blocks), synthetic)
@@ -57,27 +59,34 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
     bands = joined(f"±{percent:g} %" for percent in BANDS_PERCENT)
     return [
         Text(
-            "Differences are (computed − published) / published. Cases that a solver was "
-            "calibrated on are named in the configuration and summarised separately; all others "
-            "are blind. " + ply_words(results)
+            tr(
+                "Differences are (computed − published) / published. Cases that a solver "
+                "was calibrated on are named in the configuration and summarised "
+                "separately; all others are blind. "
+            )
+            + ply_words(results)
         ),
+        *published_facts(results),
         sheet_view(sheet_of(sheets, StiffnessErrors)),
         *ring_blocks(results),
         Plots(
-            f"Computed against published stiffness; the lines are equality and {bands}. Hollow "
-            "marks are cases that the solver was calibrated on.",
+            tr(
+                "Computed against published stiffness; the lines are equality and "
+                "{bands}. Hollow marks are cases that the solver was calibrated on.",
+                bands=bands,
+            ),
             tuple(_parity(results, study) for study in studies),
         ),
         Facts(
-            "Where the differences lie, as means at each level",
+            tr("Where the differences lie, as means at each level"),
             (*level_facts(results), *spoke_facts(results.table(SpokeLines))),
         ),
         Plots(
-            "Main effects: mean stiffness over the cases at a level, published and computed.",
+            tr("Main effects: mean stiffness over the cases at a level, published and computed."),
             tuple(_effects(results, studies, differences=False)),
         ),
         Plots(
-            "Mean difference at each level; bars reach from the lowest to the highest case.",
+            tr("Mean difference at each level; bars reach from the lowest to the highest case."),
             tuple(_effects(results, studies, differences=True)),
         ),
         sheet_view(sheet_of(sheets, StiffnessByLevel)),
@@ -89,8 +98,13 @@ def _parity(results: Results, study: Study) -> Plot:
     table = results.table(StiffnessAgainstPublished)
     rows = table[table["study"] == study.name]
     synthetic = rests_on_synthetic(results, study, rows)
-    alt = f"Computed against published stiffness of the study {study.name}"
-    given = (rows, f"study {study.name}", solver_order(results), synthetic)
+    alt = tr("Computed against published stiffness of the study {name}", name=study.name)
+    given = (
+        rows,
+        tr("Stiffness against the paper's,\nstudy {name}", name=study.name),
+        solver_order(results),
+        synthetic,
+    )
     return plot(alt, synthetic, parity, *given)
 
 
@@ -105,9 +119,13 @@ def _effects(results: Results, studies: list[Study], *, differences: bool) -> li
             synthetic = rests_on_synthetic(results, study, rows)
             draw = level_differences if differences else main_effect
             what = (
-                "Mean difference from the published stiffness" if differences else "Mean stiffness"
+                tr("Mean difference from the published stiffness")
+                if differences
+                else tr("Mean stiffness")
             )
-            alt = f"{what} by {label.label}, study {study.name}"
+            alt = tr(
+                "{what} by {label}, study {name}", what=what, label=label.label, name=study.name
+            )
             given = (rows, label, solver_order(results), synthetic)
             plots.append(plot(alt, synthetic, draw, *given))
     return plots
@@ -122,7 +140,11 @@ def _case_comparison(results: Results, sheets: Sheets, study: Study) -> TableVie
     return table_view(
         view,
         entry,
-        f"Cases of the study {study.name}, published and computed: {study.title}",
+        tr(
+            "Cases of the study {name}, published and computed: {title}",
+            name=study.name,
+            title=tr(study.title),
+        ),
         mark=lambda row: "bad" if row["failed"] else "out" if row["calibrated_on"] else "",
         synthetic=rests_on_synthetic(results, study, rows),
     )

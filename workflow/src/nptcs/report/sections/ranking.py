@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import Listing, PageBlock
 from nptcs.report.data import Results
 from nptcs.report.factor_labels import factor_labels
@@ -23,10 +24,10 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
     table, headings = published_ranking(compared)
     entry = Entry(
         "impact_ranking",
-        "Table 9 and ours: impact values with their rank by every rule",
+        tr("Table 9 and ours: impact values with their rank by every rule"),
         FILE,
         "sensitivity",
-        "impact.csv, factors that table 9 prints; a rank is among these",
+        tr("impact.csv, factors that table 9 prints; a rank is among these"),
         headings,
     )
     synthetic = any(
@@ -35,7 +36,7 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
     )
     return [
         Listing(
-            "Is the ranking that of table 9?",
+            tr("Is the ranking that of table 9?"),
             (*verdicts(results, compared), *near_tie_sentences(results, compared)),
         ),
         table_view(table, entry, synthetic=synthetic),
@@ -52,16 +53,16 @@ def published_ranking(compared: pd.DataFrame) -> tuple[pd.DataFrame, dict[str, H
     published = published.drop(columns="place")
     ranks = published.groupby("rule")["published_impact"].rank(ascending=False)
     headings = {
-        "published_impact": Heading("table 9, impact", "N/mm"),
-        "published_rank": Heading("table 9, rank"),
+        "published_impact": Heading(tr("table 9, impact"), "N/mm"),
+        "published_rank": Heading(tr("table 9, rank")),
     }
     table = published.assign(published_rank=ranks)
     for solver, rows in compared.groupby("solver", sort=True):
         computed = rows.set_index(keys)
         table = table.join(computed["impact"].abs().rename(f"impact_{solver}"), on=keys)
         table = table.join(computed["rank"].astype(float).rename(f"rank_{solver}"), on=keys)
-        headings[f"impact_{solver}"] = Heading(f"{solver}, impact", "N/mm")
-        headings[f"rank_{solver}"] = Heading(f"{solver}, rank")
+        headings[f"impact_{solver}"] = Heading(tr("{solver}, impact", solver=solver), "N/mm")
+        headings[f"rank_{solver}"] = Heading(tr("{solver}, rank", solver=solver))
     return table.reset_index(drop=True), headings
 
 
@@ -79,8 +80,12 @@ def near_tie_sentences(results: Results, compared: pd.DataFrame) -> list[str]:
         for partner in str(partners).split(", ")
     }
     return [
-        f"{labels[study, one]} and {labels[study, other]} are a near tie: their order is not "
-        "settled, because they are close, or rules or solvers disagree on it."
+        tr(
+            "{labels} and {labels_2} are a near tie: their order is not settled, "
+            "because they are close, or rules or solvers disagree on it.",
+            labels=labels[study, one],
+            labels_2=labels[study, other],
+        )
         for study, one, other in sorted(pairs)
     ]
 
@@ -107,8 +112,19 @@ def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
                 for by in ("rank", "published_rank")
             )
             same = bool((rows["rank"] == rows["published_rank"]).all())
-            verdict = "the same as in table 9" if same else f"NOT that of table 9 ({published})"
+            verdict = (
+                tr("the same as in table 9")
+                if same
+                else tr("NOT that of table 9 ({published})", published=published)
+            )
             sentences.append(
-                f"{solver}, {words(str(rule))}, {len(rows)} factors: {computed}: {verdict}."
+                tr(
+                    "{solver}, {rule}, {count} factors: {computed}: {verdict}.",
+                    solver=solver,
+                    rule=words(str(rule)),
+                    count=len(rows),
+                    computed=computed,
+                    verdict=verdict,
+                )
             )
     return sentences

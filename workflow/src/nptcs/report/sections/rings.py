@@ -6,38 +6,47 @@ from collections.abc import Mapping
 
 import pandas as pd
 
+from nptcs.language import tr, translatable
 from nptcs.report.blocks import Fact, Facts, Listing, PageBlock, Text
 from nptcs.report.data import Results
 from nptcs.report.text import joined
 from nptcs.tables.published_stiffness import StiffnessErrors, StiffnessExponents
 
 RINGS: Mapping[str, str] = {
-    "fe_tyre_paper": "the ring as the paper meshed it: 270 × 4 elements of four nodes with one "
-    "pressure each, wires as membranes, which wrinkle on finer meshes. It predicts the paper's "
-    "model and is for nothing else",
-    "fe_tyre": "a converged ring: wires that bend, half of every length of its mesh changes the "
-    "stiffness by less than 0.3 %. It is the one for a tyre that is to be built",
+    "fe_tyre_paper": translatable(
+        "the ring as the paper meshed it: 270 × 4 elements of four nodes with "
+        "one pressure each, wires as membranes, which wrinkle on finer meshes. "
+        "It predicts the paper's model and is for nothing else"
+    ),
+    "fe_tyre": translatable(
+        "a converged ring: wires that bend, half of every length of its mesh "
+        "changes the stiffness by less than 0.3 %. It is the one for a tyre that "
+        "is to be built"
+    ),
 }
 """Solvers of finite element tyres and what their rings are for."""
 
 BAND, SPOKES = "shear_band_c10_mpa", "spoke_c10_mpa"
 
 EXCLUDED = (
-    "stiffness of the contact",
-    "phase of the spokes to the contact",
-    "number of elements around the ring",
-    "a rim that moves",
-    "the spokes' stiffness to the side: nothing supports the 1.5 times that it would take",
-    "the wires' modulus: another one breaks tables 5 and 10",
-    "the convention of R²: the uncentred one fits all ten values of table 10",
-    "locking of the paper's host bricks: it would show in table 10",
+    translatable("stiffness of the contact"),
+    translatable("phase of the spokes to the contact"),
+    translatable("number of elements around the ring"),
+    translatable("a rim that moves"),
+    translatable(
+        "the spokes' stiffness to the side: nothing supports the 1.5 times that it would take"
+    ),
+    translatable("the wires' modulus: another one breaks tables 5 and 10"),
+    translatable("the convention of R²: the uncentred one fits all ten values of table 10"),
+    translatable("locking of the paper's host bricks: it would show in table 10"),
 )
 """What cannot explain the rest, each changed in an experiment of its own."""
 
-OPEN_CLUE = (
-    "The open clue is the shape of the load curve. The errors that the paper gives for its LCA "
-    "(16, 11.63, 7.49 and 8.44 % at 3, 4, 5 and 6 kN) bound the curve of its finite elements: that "
-    "tyre softens between 3 and 5 kN on stiff spokes, where this one does not."
+OPEN_CLUE = translatable(
+    "The open clue is the shape of the load curve. The errors that the paper "
+    "gives for its LCA (16, 11.63, 7.49 and 8.44 % at 3, 4, 5 and 6 kN) "
+    "bound the curve of its finite elements: that tyre softens between 3 and "
+    "5 kN on stiff spokes, where this one does not."
 )
 
 
@@ -51,13 +60,15 @@ def ring_blocks(results: Results) -> list[PageBlock]:
     if len(found) == len(RINGS):
         blocks.append(
             Text(
-                "Both rings are shown: what the paper's mesh does, and what a converged one says. "
-                "Each has the section of the spoke that was calibrated with it, on table 10 and "
-                "five cases of table 5; no number of table 7 entered."
+                tr(
+                    "Both rings are shown: what the paper's mesh does, and what a converged "
+                    "one says. Each has the section of the spoke that was calibrated with "
+                    "it, on table 10 and five cases of table 5; no number of table 7 entered."
+                )
             )
         )
     facts = [Fact(solver, _ring(errors, solver), "stiffness_errors.csv") for solver in found]
-    blocks.append(Facts("The finite element tyre by its ring", tuple(facts)))
+    blocks.append(Facts(tr("The finite element tyre by its ring"), tuple(facts)))
     return [*blocks, *_rest(results.table(StiffnessExponents), found)]
 
 
@@ -67,12 +78,20 @@ def _ring(errors: pd.DataFrame, solver: str) -> str:
         errors["solver"].eq(solver) & errors["group"].eq("blind") & errors["compared"].gt(0)
     ]
     parts = [
-        f"{row.study}: mean {row.mean_percent:+.2f} %, mean absolute "
-        f"{row.mean_absolute_percent:.2f} %, largest {row.largest_percent:+.2f} %, over "
-        f"{row.compared} of {row.cases} blind cases"
+        tr(
+            "{study}: mean {mean_percent:+.2f} %, mean absolute "
+            "{mean_absolute_percent:.2f} %, largest {largest_percent:+.2f} %, over "
+            "{compared} of {cases} blind cases",
+            study=row.study,
+            mean_percent=row.mean_percent,
+            mean_absolute_percent=row.mean_absolute_percent,
+            largest_percent=row.largest_percent,
+            compared=row.compared,
+            cases=row.cases,
+        )
         for row in rows.itertuples()
     ]
-    return ". ".join([RINGS[solver], *parts])
+    return ". ".join([tr(RINGS[solver]), *parts])
 
 
 def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
@@ -84,9 +103,14 @@ def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
     if not facts:
         return []
     return [
-        Facts("What is known of the difference from the published rubbers' table", tuple(facts)),
-        Listing("Excluded, each by an experiment with the model outside this run", EXCLUDED),
-        Text(OPEN_CLUE),
+        Facts(
+            tr("What is known of the difference from the published rubbers' table"), tuple(facts)
+        ),
+        Listing(
+            tr("Excluded, each by an experiment with the model outside this run"),
+            tuple(map(tr, EXCLUDED)),
+        ),
+        Text(tr(OPEN_CLUE)),
     ]
 
 
@@ -97,26 +121,40 @@ def _study(rows: pd.DataFrame) -> list[Fact]:
         difference = whole["exponent_difference"]
         facts.append(
             Fact(
-                f"Exponent of the spokes' C10, {solver}",
-                f"computed {_numbers(whole['computed_exponent'])}, published "
-                f"{_numbers(whole['published_exponent'])} ({_held(whole)}): the computed stiffness "
-                f"is the published one times a constant and C10 to the power of "
-                f"{difference.min():+.3f} to {difference.max():+.3f}",
+                tr("Exponent of the spokes' C10, {solver}", solver=solver),
+                tr(
+                    "computed {numbers}, published {numbers_2} ({held}): the computed "
+                    "stiffness is the published one times a constant and C10 to the power of "
+                    "{lowest:+.3f} to {highest:+.3f}",
+                    numbers=_numbers(whole["computed_exponent"]),
+                    numbers_2=_numbers(whole["published_exponent"]),
+                    held=_held(whole),
+                    lowest=difference.min(),
+                    highest=difference.max(),
+                ),
                 "stiffness_exponents.csv",
             )
         )
     band = rows[(rows["factor"] == BAND) & (rows["solver"] == rows["solver"].iloc[0])]
     steps = band[band["levels"] == 2].groupby(["low_mpa", "high_mpa"], sort=True)
     spans = [
-        f"from {low:g} to {high:g} MPa {_numbers(step['published_exponent'])}"
+        tr(
+            "from {low:g} to {high:g} MPa {numbers}",
+            low=low,
+            high=high,
+            numbers=_numbers(step["published_exponent"]),
+        )
         for (low, high), step in steps
     ]
     if len(spans) > 1:
         facts.append(
             Fact(
-                "The published table's own scatter",
-                f"its exponent of the band's C10 is {joined(spans)}, by the spokes' C10 in rising "
-                "order; one law would give the same numbers",
+                tr("The published table's own scatter"),
+                tr(
+                    "its exponent of the band's C10 is {names}, by the spokes' C10 in rising "
+                    "order; one law would give the same numbers",
+                    names=joined(spans),
+                ),
                 "stiffness_exponents.csv",
             )
         )

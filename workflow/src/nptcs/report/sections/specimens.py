@@ -2,17 +2,37 @@
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
+import pandas as pd
+
+from nptcs.language import tr
+from nptcs.mechanical_tests import TestType
+from nptcs.reduce.shear import shear_curve
 from nptcs.report.blocks import Plot, Plots, Section, Text
 from nptcs.report.data import Results
-from nptcs.report.figures.materials import stress_strain
+from nptcs.report.figures.specimens import NORMAL, SHEAR, Moduli, rubber_curves, stress_strain
 from nptcs.report.plots import plot
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.report.text import joined
 from nptcs.tables.files import Files
+from nptcs.tables.material_card import PUBLISHED_PLY
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.result_table import ReportSection
+from nptcs.tables.specimen import Specimen
 from nptcs.tables.statistics import StatisticsTable
+
+PUBLISHED_MODULI = {
+    (TestType.TENSION, 0.0): ("E1", PUBLISHED_PLY["e1_mpa"]),
+    (TestType.TENSION, 90.0): ("E2", PUBLISHED_PLY["e2_mpa"]),
+    (TestType.SHEAR, 45.0): ("G12", PUBLISHED_PLY["g12_mpa"]),
+    (TestType.COMPRESSION, 0.0): ("E1c", math.nan),
+    (TestType.COMPRESSION, 90.0): ("E2c", math.nan),
+}
+"""Symbol and the paper's value (table 2, MPa) by test and direction; it has none in compression."""
 
 
 def specimens_section(results: Results, sheets: Sheets) -> Section:
@@ -25,13 +45,18 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
         sheet_of(sheets, Files),
     )
     curves = Plots(
-        "Stress–strain curves of each series after signal conditioning. Dashed grey: left out by "
-        "the specimen sheet. Compression is negative.",
+        tr(
+            "Stress–strain curves of each series after signal conditioning (figures "
+            "2 and 4 of the paper). A bold piece of a curve is the chord of its "
+            "modulus; lines through the origin have the mean modulus and the one "
+            "that the paper prints in table 2. Dashed grey: left out by the specimen "
+            "sheet. Compression is negative."
+        ),
         tuple(_series_plots(results)),
     )
     return Section(
         ReportSection.SPECIMENS,
-        "Specimens and files",
+        tr("Specimens and files"),
         (_counts(results), curves, *map(sheet_view, tables)),
         results.any_synthetic,
     )
@@ -39,19 +64,27 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
 
 def _counts(results: Results) -> Text:
     counts = results.table(Files)["status"].value_counts()
-    files = ", ".join(f"{number} {status}" for status, number in counts.sort_index().items())
+    files = ", ".join(
+        f"{number} {tr(str(status))}" for status, number in counts.sort_index().items()
+    )
     failed, left_out = len(results.failed()), len(results.left_out())
     return Text(
-        f"{len(results.sheet)} specimens in {len(results.series())} series; "
-        f"{left_out} left out by the sheet, {failed} that could not be read. "
-        f"Files of the folder: {files}."
+        tr(
+            "{count} specimens in {count_2} series; {left_out} left out by the "
+            "sheet, {failed} that could not be read. Files of the folder: {files}.",
+            count=len(results.sheet),
+            count_2=len(results.series()),
+            left_out=left_out,
+            failed=failed,
+            files=files,
+        )
     )
 
 
 def _series_plots(results: Results) -> list[Plot]:
     left_out = list(results.left_out())
     plots = []
-    for name, specimens in results.series().items():
+    for specimens in results.series().values():
         curves = {
             s.specimen: results.curves[s.specimen]
             for s in specimens
@@ -60,6 +93,73 @@ def _series_plots(results: Results) -> list[Plot]:
         if not curves:
             continue
         synthetic = any(s.origin == "synthetic" for s in specimens)
-        alt = f"Stress over strain of {len(curves)} specimens, series {name}"
-        plots.append(plot(alt, synthetic, stress_strain, name, curves, left_out, synthetic))
-    return plots
+        title, moduli, axis = series_title(specimens[0]), moduli_of(results, specimens), NORMAL
+        if specimens[0].test is TestType.SHEAR:
+            curves, axis = {name: with_shear(curve) for name, curve in curves.items()}, SHEAR
+        given = (title, curves, left_out, synthetic, moduli, axis)
+        alt = tr(
+            "{stress_words} over {strain_words}, {title}, {count} specimens",
+            stress_words=tr(axis.stress_words),
+            strain_words=tr(axis.strain_words),
+            title=title,
+            count=len(curves),
+        )
+        plots.append(plot(alt, synthetic, stress_strain, *given))
+    return plots + _rubber_plot(results)
+
+
+def _rubber_plot(results: Results) -> list[Plot]:
+    """Draw the tension tests of all rubbers in one panel; nothing for fewer than two rubbers."""
+    tests: dict[str, dict[str, pd.DataFrame]] = {}
+    for specimen in results.sheet:
+        curve = results.curves[specimen.specimen]
+        if specimen.test is TestType.RUBBER_TENSION and specimen.include and len(curve):
+            tests.setdefault(specimen.material, {})[specimen.specimen] = curve
+    if len(tests) < 2:
+        return []
+    alt = tr("Stress over strain of {names} in tension, all specimens", names=joined(tests))
+    synthetic = results.rubbers_synthetic
+    return [plot(alt, synthetic, rubber_curves, tests, synthetic)]
+
+
+def series_title(specimen: Specimen) -> str:
+    """Name a series for a reader, such as "cfrp, tension at 90°"."""
+    test = specimen.test.value.removeprefix("rubber_").replace("_", " ")
+    if specimen.orientation_deg is None:
+        return f"{specimen.material}, {test}"
+    sign = "±" if specimen.test is TestType.SHEAR else ""
+    return f"{specimen.material}, {test} at {sign}{specimen.orientation_deg:g}°"
+
+
+def with_shear(curve: pd.DataFrame) -> pd.DataFrame:
+    """Add shear strain and shear stress to a curve of a ±45° laminate (ASTM D3518)."""
+    gamma, tau = shear_curve(curve)
+    return pd.DataFrame({SHEAR.strain: gamma, SHEAR.stress: tau})
+
+
+def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
+    """Gather the chords of a series, their mean and the paper's modulus; None without chords."""
+    first, table = specimens[0], results.table(PropertiesTable)
+    name = "shear_modulus" if first.test is TestType.SHEAR else "modulus"
+    chords = table[
+        table["specimen"].isin([s.specimen for s in specimens])
+        & table["property"].eq(name)
+        & table[["value", "range_low", "range_high"]].notna().all(axis=1)
+    ]
+    if chords.empty or first.test.is_rubber:
+        return None
+    symbol, published = PUBLISHED_MODULI.get((first.test, first.orientation_deg), ("E", math.nan))
+    if first.material not in results.card.plies:
+        published = math.nan
+    groups = results.table(StatisticsTable)
+    groups = groups[
+        groups["test"].eq(first.test.value)
+        & groups["material"].eq(first.material)
+        & groups["property"].eq(name)
+        & groups["scope"].eq("group")
+        & groups["orientation_deg"].fillna(math.nan).eq(first.orientation_deg)
+    ]
+    mean = float(groups["mean"].iloc[0]) if len(groups) == 1 else math.nan
+    sign = -1 if first.test is TestType.COMPRESSION else 1
+    columns = ["specimen", "value", "range_low", "range_high"]
+    return Moduli(chords[columns], mean, published, symbol, sign)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import (
     Fact,
 )
@@ -26,10 +27,20 @@ def level_facts(results: Results) -> list[Fact]:
         for (solver, factor), levels in rows.groupby(["solver", "factor"], sort=False):
             label = labels[str(factor)]
             means = ", ".join(
-                f"{row.mean_difference_percent:+.1f} % at {row.level:g}"
+                tr(
+                    "{difference:+.1f} % at {level:g}",
+                    difference=row.mean_difference_percent,
+                    level=row.level,
+                )
                 for row in levels.itertuples()
             )
-            what = f"{label.label} [{label.unit}], study {study.name}, solver {solver}"
+            what = tr(
+                "{label} [{unit}], study {name}, solver {solver}",
+                label=label.label,
+                unit=label.unit,
+                name=study.name,
+                solver=solver,
+            )
             facts.append(Fact(what, f"{means}; {_trend(levels)}", "stiffness_by_level.csv"))
     return facts
 
@@ -40,18 +51,20 @@ def spoke_facts(lines: pd.DataFrame) -> list[Fact]:
     facts = []
     for (study, solver), rows in compared.groupby(["study", "solver"], sort=False):
         parts = [
-            f"{name} "
+            f"{tr(name)} "
             + ", ".join(
-                f"{difference:+.1f} % at {c10:g}"
+                tr("{difference:+.1f} % at {level:g}", difference=difference, level=c10)
                 for difference, c10 in zip(
                     rows[f"{name}_difference_percent"], rows["spoke_c10_mpa"], strict=True
                 )
             )
             for name in DIRECTIONS
         ]
-        what = (
-            f"For comparison, single spokes against table 10, by spoke C10 [MPa], study {study}, "
-            f"solver {solver}"
+        what = tr(
+            "For comparison, single spokes against table 10, by spoke C10 [MPa], "
+            "study {study}, solver {solver}",
+            study=study,
+            solver=solver,
         )
         facts.append(Fact(what, "; ".join(parts), "spoke_stiffness.csv"))
     return facts
@@ -65,16 +78,27 @@ def _trend(levels: pd.DataFrame) -> str:
     level = levels["level"].to_numpy(float)
     steps = range(len(level) - 1)
     opposite = [
-        f"{level[step]:g} to {level[step + 1]:g} ({computed[step + 1] - computed[step]:+.2f} N/mm, "
-        f"published {published[step + 1] - published[step]:+.2f})"
+        tr(
+            "{level:g} to {level_2:g} ({computed:+.2f} N/mm, published {published:+.2f})",
+            level=level[step],
+            level_2=level[step + 1],
+            computed=computed[step + 1] - computed[step],
+            published=published[step + 1] - published[step],
+        )
         for step in steps
         if (computed[step + 1] - computed[step]) * (published[step + 1] - published[step]) < 0
     ]
-    change = (
-        f"mean stiffness from lowest to highest level "
-        f"{levels['computed_change_percent'].iloc[-1]:+.1f} %, published "
-        f"{levels['published_change_percent'].iloc[-1]:+.1f} %"
+    change = tr(
+        "mean stiffness from lowest to highest level "
+        "{computed_change_percent:+.1f} %, published "
+        "{published_change_percent:+.1f} %",
+        computed_change_percent=levels["computed_change_percent"].iloc[-1],
+        published_change_percent=levels["published_change_percent"].iloc[-1],
     )
     if opposite:
-        return f"{change}; steps in the other direction than published: {joined(opposite)}"
-    return f"{change}; every step has the published direction"
+        return tr(
+            "{change}; steps in the other direction than published: {names}",
+            change=change,
+            names=joined(opposite),
+        )
+    return tr("{change}; every step has the published direction", change=change)

@@ -8,14 +8,18 @@ from collections.abc import Sequence
 import pandas as pd
 
 from nptcs.config.study import Factor, MeasuredRubber, Study
+from nptcs.language import tr, translatable
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, TableView, Text
 from nptcs.report.data import Results, SolverFacts
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
-from nptcs.report.figures.surface import MOST_MARKS, contours, pairs, slices
+from nptcs.report.figures.style import MOST_MARKS
+from nptcs.report.figures.surface import common_levels, contours, pairs, slices
 from nptcs.report.plots import plot
+from nptcs.report.sections.key_facts import ranking_facts, surface_facts
 from nptcs.report.sections.ranking import ranking_blocks
+from nptcs.report.sections.refused import refused_blocks
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import heading, words
@@ -35,24 +39,24 @@ COEFFICIENT_DIGITS = 10
 
 FACTORS = entries.Entry(
     "factors",
-    "Factors, levels and fixed values of each study",
+    translatable("Factors, levels and fixed values of each study"),
     "results/4_design/*.csv",
     "design",
-    "the configuration; C10 of tested rubbers from the material card",
+    translatable("the configuration; C10 of tested rubbers from the material card"),
 )
 COUNTS = entries.Entry(
     "case_counts",
-    "Cases by study, solver and status",
+    translatable("Cases by study, solver and status"),
     "results/tables/cases.csv",
     "cases",
-    "the case records, counted",
+    translatable("the case records, counted"),
 )
 SPANS = entries.Entry(
     "response_spans",
-    "Responses of the solved cases by study and solver",
+    translatable("Responses of the solved cases by study and solver"),
     "results/tables/cases.csv",
     "cases",
-    "the case records",
+    translatable("the case records"),
 )
 
 
@@ -61,7 +65,7 @@ def design_section(results: Results, sheets: Sheets) -> Section:
     rows = [row for study in results.config.studies for row in _factor_rows(study, results)]
     columns = ["study", "title", "cases", "quantity", "unit", "levels", "load_n", "solvers"]
     view = table_view(pd.DataFrame(rows, columns=columns), FACTORS)
-    return Section(ReportSection.DESIGN, "Design", (view,))
+    return Section(ReportSection.DESIGN, tr("Design"), (view,))
 
 
 def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
@@ -69,12 +73,27 @@ def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
     loaded = any(results.solvers[name].loads_tyre for name in study.solvers)
     shared = (study.load_n if loaded else math.nan, ", ".join(study.solvers))
     rows: list[tuple[object, ...]] = [
-        (study.name, study.title, len(design), factor.label, factor.unit, _levels(factor, design))
+        (
+            study.name,
+            tr(study.title),
+            len(design),
+            tr(factor.label),
+            factor.unit,
+            _levels(factor, design),
+        )
         + shared
         for factor in study.factors
     ]
     return rows + [
-        (study.name, study.title, len(design), f"{words(name)} (fixed)", "", _fixed(value)) + shared
+        (
+            study.name,
+            tr(study.title),
+            len(design),
+            tr("{name} (fixed)", name=words(name)),
+            "",
+            _fixed(value),
+        )
+        + shared
         for name, value in study.fixed.items()
     ]
 
@@ -87,7 +106,12 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
     """Write the levels as the design has them, with the rubber behind each measured one."""
     numbers = list(dict.fromkeys(design[factor.name]))
     if len(numbers) != len(factor.levels):
-        return f"{min(numbers):g} to {max(numbers):g}, {len(numbers)} values"
+        return tr(
+            "{lowest:g} to {highest:g}, {count} values",
+            lowest=min(numbers),
+            highest=max(numbers),
+            count=len(numbers),
+        )
     return ", ".join(
         f"{number:.5g} ({level.rubber})" if isinstance(level, MeasuredRubber) else f"{number:g}"
         for number, level in zip(numbers, factor.levels, strict=True)
@@ -97,25 +121,26 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
     solvers = [
-        f"{name}: {facts.about}{_choices(facts)}." for name, facts in results.solvers.items()
+        tr("{name}: {about}{choices}.", name=name, about=tr(facts.about), choices=_choices(facts))
+        for name, facts in results.solvers.items()
     ]
     blocks: list[PageBlock] = [
-        Text("Solvers. " + " — ".join(solvers)),
+        Text(tr("Solvers. {list}", list=" — ".join(solvers))),
         table_view(case_counts(results.table(Cases)), COUNTS, mark=by_status),
         table_view(response_spans(results.table(Cases)), SPANS),
     ]
     entry = sheet_of(sheets, Cases).entry
     blocks += [_cases_of(results, study, entry) for study in results.config.studies]
-    return Section(ReportSection.CASES, "Cases", tuple(blocks))
+    return Section(ReportSection.CASES, tr("Cases"), tuple(blocks))
 
 
 def _choices(facts: SolverFacts) -> str:
     """Name the models that the solver's options choose."""
     sets = [
-        ", ".join(f"{words(name)}: {choice}" for name, choice in chosen.items())
+        ", ".join(f"{words(name)}: {tr(choice)}" for name, choice in chosen.items())
         for chosen in facts.choices
     ]
-    return f" ({' or '.join(sets)})" if sets else ""
+    return f" ({tr(' or ').join(sets)})" if sets else ""
 
 
 def _cases_of(results: Results, study: Study, entry: entries.Entry) -> TableView:
@@ -125,7 +150,7 @@ def _cases_of(results: Results, study: Study, entry: entries.Entry) -> TableView
     return table_view(
         cases,
         entry,
-        f"Cases of the study {study.name}: {study.title}",
+        tr("Cases of the study {name}: {title}", name=study.name, title=tr(study.title)),
         [*names, "message"],
         mark=by_status,
         synthetic=results.study_is_synthetic(study),
@@ -157,49 +182,62 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the response surfaces."""
     blocks: list[PageBlock] = [
         Text(
-            "Coefficients are fitted in coded units, each factor scaled to [−1, 1] over its range, "
-            "and given in both units at full precision: a surface can be evaluated from this "
-            "page. The published coefficient is next to it, rounded as the paper prints it."
+            tr(
+                "Coefficients are fitted in coded units, each factor scaled to [−1, 1] "
+                "over its range, and given in both units at full precision: a surface "
+                "can be evaluated from this page. The published coefficient is next to "
+                "it, rounded as the paper prints it."
+            )
         ),
+        *surface_facts(results),
         sheet_view(sheet_of(sheets, SurfaceQuality)),
     ]
     for study in results.config.studies:
         blocks += _surface_blocks(results, sheets, study)
-    return Section(ReportSection.SURFACES, "Response surfaces", tuple(blocks))
+    return Section(ReportSection.SURFACES, tr("Response surfaces"), tuple(blocks))
 
 
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
-        asked = f"The study {study.name} has no terms, so no surface is fitted to it."
-        return [Text(study.title, "heading"), Text(asked)]
+        asked = tr("The study {name} has no terms, so no surface is fitted to it.", name=study.name)
+        return [Text(tr(study.title), "heading"), Text(asked)]
     if not results.surfaces[study.name]:
-        refused = f"No surface could be fitted to the study {study.name}; see the problems above."
-        return [Text(study.title, "heading"), Text(refused, "bad")]
+        refused = tr(
+            "No surface could be fitted to the study {name}; see the problems above.",
+            name=study.name,
+        )
+        return [Text(tr(study.title), "heading"), Text(refused, "bad")]
     sheet = sheet_of(sheets, SurfaceTable, study.name)
     precise = dict.fromkeys(map(str, sheet.table.columns), COEFFICIENT_DIGITS)
     blocks: list[PageBlock] = [
-        Text(study.title, "heading"),
+        Text(tr(study.title), "heading"),
+        *refused_blocks(study),
         sheet_view(sheet, given_digits=precise, whole=True),
     ]
+    solved = {name: _solved(results, study, name) for name in results.surfaces[study.name]}
+    levels = common_levels([(results.surfaces[study.name][name], solved[name]) for name in solved])
     plots = [
         drawn
-        for solver in results.surfaces[study.name]
-        for drawn in _surface_plots(results, study, solver)
+        for solver, cases in solved.items()
+        for drawn in _surface_plots(results, study, solver, cases, levels)
     ]
     many = len(results.designs[study.name]) > MOST_MARKS
-    held = " Factors that a panel does not show are at the middle level in its title."
-    caption = (
-        f"{study.title}: each surface over two factors, the discs are the cases on the same "
-        "colour scale; and over one factor, the lines are the surface, the marks are the cases"
-        + (f", some {MOST_MARKS} of very many." if many else ".")
-    )
+    held = tr(" Factors that a panel does not show are at the middle level in its title.")
+    caption = tr(
+        "{title}: each surface over two factors, the discs are the cases; one "
+        "colour scale for all panels and solvers; and over one factor, the lines "
+        "are the surface, the marks are the cases",
+        title=tr(study.title),
+    ) + (tr(", sampled, at most {most_marks} per panel.", most_marks=MOST_MARKS) if many else ".")
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     if residuals := _residual_plots(results, study):
-        words_of_residuals = (
-            f"{study.title}: what the polynomial leaves of its cases, over its value (marks grow "
-            "with the leverage) and against a normal distribution. The results of a solver have no "
-            "noise: a pattern is what the polynomial cannot follow."
+        words_of_residuals = tr(
+            "{title}: what the polynomial leaves of its cases, over its value (marks "
+            "grow with the leverage) and against a normal distribution. The results "
+            "of a solver have no noise: a pattern is what the polynomial cannot "
+            "follow.",
+            title=tr(study.title),
         )
         blocks.append(Plots(words_of_residuals, tuple(residuals)))
     return blocks
@@ -210,32 +248,47 @@ def _residual_plots(results: Results, study: Study) -> list[Plot]:
     plots = []
     for solver, rows in table[table["study"] == study.name].groupby("solver", sort=False):
         synthetic = results.study_is_synthetic(study, str(solver))
-        about = f"study {study.name}, solver {solver}"
-        given = (rows, f"Solver {solver}", synthetic)
-        alt = f"Residuals over the value of the polynomial, {about}"
+        about = tr("study {name}, solver {solver}", name=study.name, solver=solver)
+        given = (rows, tr("Residuals, {solver}", solver=solver), synthetic)
+        alt = tr("Residuals over the value of the polynomial, {about}", about=about)
         plots.append(plot(alt, synthetic, residuals_over_value, *given))
-        alt = f"Residuals against normal quantiles, {about}"
+        alt = tr("Residuals against normal quantiles, {about}", about=about)
         plots.append(plot(alt, synthetic, residual_quantiles, *given))
     return plots
 
 
-def _surface_plots(results: Results, study: Study, solver: str) -> list[Plot]:
+def _solved(results: Results, study: Study, solver: str) -> pd.DataFrame:
+    """Take the cases on which the surface of a solver rests."""
+    cases, factors = results.table(Cases), results.surfaces[study.name][solver].factors
+    return solved_cases(cases[cases["study"] == study.name], solver, factors).table
+
+
+def _surface_plots(
+    results: Results, study: Study, solver: str, solved: pd.DataFrame, levels: Sequence[float]
+) -> list[Plot]:
     surface, labels = results.surfaces[study.name][solver], factor_labels(study)
-    cases = results.table(Cases)
-    solved = solved_cases(cases[cases["study"] == study.name], solver, surface.factors).table
     synthetic = results.study_is_synthetic(study, solver)
-    about = f"study {study.name}, solver {solver}"
+    about = tr("study {name}, solver {solver}", name=study.name, solver=solver)
     maps, lines = [], []
     for pair in pairs(surface):
-        alt = f"Vertical stiffness over {joined(labels[name].label for name in pair)}, {about}"
-        maps.append(plot(alt, synthetic, contours, surface, solved, pair, labels, synthetic))
+        alt = tr(
+            "Vertical stiffness over {names}, {about}",
+            names=joined(labels[name].label for name in pair),
+            about=about,
+        )
+        given = (surface, solved, pair, labels, synthetic, levels)
+        maps.append(plot(alt, synthetic, contours, *given))
     drawn: Sequence[tuple[str, ...]] = pairs(surface) or [surface.polynomial.factors]
     for varied in drawn:
         # the factor with more levels is drawn along the axis
         by_levels = sorted(varied, key=lambda name: -solved[name].nunique())
-        alt = f"Vertical stiffness over {labels[by_levels[0]].label} as lines, {about}"
-        given = (surface, solved, by_levels, labels, synthetic)
-        lines.append(plot(alt, synthetic, slices, *given))
+        alt = tr(
+            "Vertical stiffness over {label} as lines, {about}",
+            label=labels[by_levels[0]].label,
+            about=about,
+        )
+        lined = (surface, solved, by_levels, labels, synthetic, levels)
+        lines.append(plot(alt, synthetic, slices, *lined))
     return maps + lines
 
 
@@ -248,16 +301,21 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
     ]
     blocks: list[PageBlock] = [
         Text(
-            "Comprehensive impact value = average gradient × range of the factor (section 4.2.3 of "
-            "the paper). The paper does not state how it averages, and no single rule gives all "
-            "its numbers, so that every rule is given here. The ranking and the order of the bars "
-            f"are by {words(rules[0])}."
+            tr(
+                "Comprehensive impact value = average gradient × range of the factor "
+                "(section 4.2.3 of the paper). The paper does not state how it averages, "
+                "and no single rule gives all its numbers, so that every rule is given "
+                "here. The ranking and the order of the bars are by {rules}.",
+                rules=words(rules[0]),
+            )
         ),
-        Plots("Impact of each factor on the vertical stiffness.", tuple(plots)),
+        *ranking_facts(results),
+        Plots(tr("Impact of each factor on the vertical stiffness."), tuple(plots)),
+        *(block for study in results.config.studies for block in refused_blocks(study)),
         *ranking_blocks(results),
         sheet_view(sheet_of(sheets, Impact)),
     ]
-    return Section(ReportSection.SENSITIVITY, "Sensitivity", tuple(blocks))
+    return Section(ReportSection.SENSITIVITY, tr("Sensitivity"), tuple(blocks))
 
 
 def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:
@@ -268,6 +326,6 @@ def _impact_plot(results: Results, solver: str, rows: pd.DataFrame) -> Plot:
         for name, label in factor_labels(study).items()
     }
     synthetic = any(results.study_is_synthetic(study, solver) for study in studies)
-    alt = f"Impact values of solver {solver} by factor and rule"
+    alt = tr("Impact values of solver {solver} by factor and rule", solver=solver)
     given = (rows, labels, results.config.sensitivity.rules, synthetic)
     return plot(alt, synthetic, impact_bars, *given)

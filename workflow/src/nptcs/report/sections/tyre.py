@@ -2,58 +2,86 @@
 
 from __future__ import annotations
 
+import numpy as np
 import pandas as pd
 
+from nptcs.compare.conditions import PAPER_LOAD_N
+from nptcs.language import tr, translatable
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
-from nptcs.report.figures.tyre import PUBLISHED_STRESS_MPA, load_displacement, plate_faces
+from nptcs.report.figures.tyre import (
+    PUBLISHED_STRESS_MPA,
+    deformed_tyre,
+    load_displacement,
+    plate_faces,
+)
 from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
+from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
+from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES
 from nptcs.tables.cases import Cases
+from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.result_table import ReportSection
+from nptcs.tables.solver_names import PUBLISHED
 from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
-TITLE = "What the solved tyres do (section 4.1)"
-FIDUCIAL = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
-"""The paper's fiducial plates."""
+TITLE = translatable("What the solved tyres do (section 4.1)")
 
 
 def tyre_section(results: Results, sheets: Sheets) -> Section:
     """Build the section."""
     responses = results.table(TyreResponses)
     if responses.empty:
-        return Section(ReportSection.TYRE, TITLE, ())
+        return Section(ReportSection.TYRE, tr(TITLE), ())
     blocks: list[PageBlock] = [
         Text(
-            "Load–displacement curves and plate stress of the tyres that were solved. Plates are "
-            "looked at where they are loaded most: at their faces, in the few spokes that store "
-            "most energy, each solved again at its own motion in the tyre. Margins are factors by "
-            "which the stress may grow; the strengths are those of the laboratory's statistics. "
+            tr(
+                "Load–displacement curves and plate stress of the tyres that were "
+                "solved. Plates are looked at where they are loaded most: at their "
+                "faces, in the few spokes that store most energy, each solved again at "
+                "its own motion in the tyre. Margins are factors by which the stress may "
+                "grow; the strengths are those of the laboratory's statistics. "
+            )
             + ply_words(results)
         ),
-        *(Text(words) for words in published_stress(results)),
-        *(Text(words, "warn") for words in not_assessed(responses)),
+        *(Text(line) for line in published_stress(results)),
+        *(Text(line, "warn") for line in not_assessed(responses)),
         Plots(
-            "Load against vertical displacement, every tyre of a study (figure 10 b of the "
-            "paper, which has no numbers).",
+            tr(
+                "Load against vertical displacement, every tyre of a study (figure 10 b "
+                "of the paper, which has no numbers; crosses: displacement by tables 5 "
+                "and 7)."
+            ),
             tuple(_curve_plots(results)),
         ),
     ]
+    if deformed := _deformed_plots(results):
+        blocks.append(
+            Plots(
+                "Deformation of spokes and shear band under the load (figure 10 a of the paper): "
+                "the section through the middle of a plate, to scale, every spoke solved again "
+                "at its own motion. Dotted: before the load.",
+                tuple(deformed),
+            )
+        )
     stress = tuple(_stress_plots(results))
     if stress:
         blocks.append(
             Plots(
-                "Von Mises stress in the plane of the plates at both faces, in the most loaded "
-                "spoke of the tyre with the largest stress of each study, and of its fiducial "
-                "design (figure 10 a of the paper; dashed: its largest value, "
-                f"{PUBLISHED_STRESS_MPA:g} MPa). Full lines: element centres.",
+                tr(
+                    "Von Mises stress in the plane of the plates at both faces, in the most "
+                    "loaded spoke of the tyre with the largest stress of each study, and of "
+                    "its fiducial design (figure 10 a of the paper; dashed: its largest "
+                    "value, {published_stress_mpa:g} MPa). Full lines: element centres.",
+                    published_stress_mpa=PUBLISHED_STRESS_MPA,
+                ),
                 stress,
             )
         )
     return Section(
-        ReportSection.TYRE, TITLE, tuple(blocks), sheet_of(sheets, TyreResponses).synthetic
+        ReportSection.TYRE, tr(TITLE), tuple(blocks), sheet_of(sheets, TyreResponses).synthetic
     )
 
 
@@ -63,6 +91,7 @@ def published_stress(results: Results) -> list[str]:
     found = responses[
         responses["response"].eq("plate_largest_mises")
         & responses["status"].eq("ok")
+        & np.isclose(responses["load_n"].astype(float), PAPER_LOAD_N)
         & responses["case_id"].isin(fiducial)
     ]
     if found.empty:
@@ -74,22 +103,33 @@ def published_stress(results: Results) -> list[str]:
             parts.append(f"{low:.1f} MPa ({rows['case_id'].iloc[0]}, {solver})")
         else:
             parts.append(
-                f"{low:.1f} to {high:.1f} MPa ({len(rows)} tyres of the study {study}, {solver})"
+                tr(
+                    "{low:.1f} to {high:.1f} MPa ({count} tyres of the study {study}, {solver})",
+                    low=low,
+                    high=high,
+                    count=len(rows),
+                    study=study,
+                    solver=solver,
+                )
             )
     return [
-        f"The paper gives {PUBLISHED_STRESS_MPA:g} MPa as the largest stress of a plate at 5000 N; "
-        "it does not say for which plates and rubbers, nor of which measure. The largest von "
-        f"Mises stress here, at the faces of the fiducial plates, is {joined(parts)}. Nothing was "
-        "fitted to it."
+        tr(
+            "The paper gives {published_stress_mpa:g} MPa as the largest stress of a "
+            "plate at 5000 N; it does not say for which plates and rubbers, nor of "
+            "which measure. The largest von Mises stress here, at the faces of the "
+            "fiducial plates, is {names}. Nothing was fitted to it.",
+            published_stress_mpa=PUBLISHED_STRESS_MPA,
+            names=joined(parts),
+        )
     ]
 
 
 def fiducial_cases(results: Results) -> list[str]:
     """Name the cases with the paper's fiducial plates."""
     cases = results.table(Cases)
-    if not set(FIDUCIAL) <= set(cases):
+    if not set(FIDUCIAL_PLATES) <= set(cases):
         return []
-    mine = cases[(cases[list(FIDUCIAL)] == pd.Series(FIDUCIAL)).all(axis=1)]
+    mine = cases[(cases[list(FIDUCIAL_PLATES)] == pd.Series(FIDUCIAL_PLATES)).all(axis=1)]
     return list(mine["case_id"].unique())
 
 
@@ -98,8 +138,14 @@ def not_assessed(responses: pd.DataFrame) -> list[str]:
     missing = responses[responses["status"] != "ok"]
     groups = missing.groupby(["response", "at", "status"], sort=False)
     return [
-        f"{str(name).replace('_', ' ')}{f' at {at}' if at else ''}: {status} for {len(rows)} "
-        f"tyres; the first: {rows['note'].iloc[0]}."
+        tr(
+            "{response}{which}: {status} for {count} tyres; the first: {note}.",
+            response=words(str(name)),
+            which=tr(" at {at}", at=at) if at else "",
+            status=status,
+            count=len(rows),
+            note=rows["note"].iloc[0],
+        )
         for (name, at, status), rows in groups
     ]
 
@@ -114,9 +160,32 @@ def _curve_plots(results: Results) -> list[Plot]:
         ["study", "solver"], sort=False
     ):
         synthetic = _synthetic(results, study, solver)
-        given = (curves, f"{study}, {solver}", synthetic)
-        alt = f"Load against displacement, {study}, {solver}"
+        cases = results.table(Cases)
+        published = cases[cases["study"].eq(study) & cases["solver"].eq(PUBLISHED)]
+        columns = ["case_id", "load_n", "displacement_mm"]
+        given = (
+            curves,
+            published[columns],
+            tr("Loading, {study}, {solver}", study=study, solver=solver),
+            synthetic,
+        )
+        alt = tr("Load against displacement, {study}, {solver}", study=study, solver=solver)
         plots.append(plot(alt, synthetic, load_displacement, *given))
+    return plots
+
+
+def _deformed_plots(results: Results) -> list[Plot]:
+    outlines = results.table(DeformedTyre)
+    if outlines.empty:
+        return []
+    first = outlines.iloc[0]
+    synthetic = _synthetic(results, first["study"], first["solver"])
+    about = f"{first['case_id']}, {first['solver']}"
+    plots = []
+    for near in (False, True):
+        title = f"{'Spokes over the contact' if near else 'Loaded tyre'}, {about}"
+        alt = f"{title}: outlines at {first['load_n']:g} N and before the load"
+        plots.append(plot(alt, synthetic, deformed_tyre, outlines, title, near, synthetic))
     return plots
 
 
@@ -132,7 +201,13 @@ def _stress_plots(results: Results) -> list[Plot]:
         for case_id in [*(mine - {worst} if len(mine) == 1 else ()), worst]:
             rows = stress[stress["case_id"] == case_id]
             synthetic = _synthetic(results, study, solver)
-            given = (rows, f"{case_id}, {solver}, {rows['load_n'].iloc[0]:g} N", synthetic)
-            alt = f"Stress at the plates' faces, {case_id}, {solver}"
+            given = (
+                rows,
+                tr("Plate stress, {case_id}, {solver}", case_id=case_id, solver=solver),
+                synthetic,
+            )
+            alt = tr(
+                "Stress at the plates' faces, {case_id}, {solver}", case_id=case_id, solver=solver
+            )
             plots.append(plot(alt, synthetic, plate_faces, *given))
     return plots

@@ -7,6 +7,7 @@ from typing import Any
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.uncertainty import share_bars
@@ -26,22 +27,27 @@ def uncertainty_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the uncertainty of responses."""
     table, shares = results.table(ResponseUncertainty), results.table(UncertaintyShares)
     if table.empty:
-        return Section(ReportSection.UNCERTAINTY, "Uncertainty", ())
+        return Section(ReportSection.UNCERTAINTY, tr("Uncertainty"), ())
     blocks: list[PageBlock] = [
         Text(
-            "What is not known exactly is propagated through the surfaces: the tests behind the "
-            "material card, stated rubbers, tolerances of manufacture and the surface's own error. "
-            "A large share says which test to repeat or which tolerance to tighten. The difference "
-            "of the solver from the published stiffness (bias) is next to the interval and not "
-            "part of it."
+            tr(
+                "What is not known exactly is propagated through the surfaces: the tests "
+                "behind the material card, stated rubbers, tolerances of manufacture and "
+                "the surface's own error. A large share says which test to repeat or "
+                "which tolerance to tighten. The difference of the solver from the "
+                "published stiffness (bias) is next to the interval and not part of it."
+            )
         ),
-        Facts("How sure each response is", tuple(_facts(results, table, shares))),
-        Plots("Shares of the variance by source.", tuple(_plots(results, shares))),
+        Facts(tr("How sure each response is"), tuple(_facts(results, table, shares))),
+        Plots(tr("Shares of the variance by source."), tuple(_plots(results, shares))),
         sheet_view(sheet_of(sheets, ResponseUncertainty)),
         sheet_view(sheet_of(sheets, UncertaintyShares)),
     ]
     return Section(
-        ReportSection.UNCERTAINTY, "Uncertainty", tuple(blocks), results.table_is_synthetic(table)
+        ReportSection.UNCERTAINTY,
+        tr("Uncertainty"),
+        tuple(blocks),
+        results.table_is_synthetic(table),
     )
 
 
@@ -54,20 +60,33 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
             f"{_short(one)} {one['share_percent']:.0f} %"
             for one in rows.head(LARGEST).to_dict("records")
         )
-        text = (
-            f"{row['mean']:.5g} ± {row['sd']:.2g} {row['unit']} (SD), "
-            f"{row['confidence_percent']:.0f} % interval {row['low']:.5g} to {row['high']:.5g}; "
-            f"{largest}"
+        text = tr(
+            "{mean:.5g} ± {sd:.2g} {unit} (SD), {confidence_percent:.0f} % interval "
+            "{low:.5g} to {high:.5g}; {largest}",
+            mean=row["mean"],
+            sd=row["sd"],
+            unit=row["unit"],
+            confidence_percent=row["confidence_percent"],
+            low=row["low"],
+            high=row["high"],
+            largest=largest,
         )
         if pd.notna(row["bias_mean_percent"]):
-            text += (
-                f". Bias, not in the interval: {row['bias_mean_percent']:+.2f} % mean, "
-                f"{row['bias_largest_percent']:+.2f} % at most, {row['blind_cases']} blind cases"
+            text += tr(
+                ". Bias, not in the interval: {bias_mean_percent:+.2f} % mean, "
+                "{bias_largest_percent:+.2f} % at most, {blind_cases} blind cases",
+                bias_mean_percent=row["bias_mean_percent"],
+                bias_largest_percent=row["bias_largest_percent"],
+                blind_cases=row["blind_cases"],
             )
-        at = f" at {row['at']}" if row["at"] else ""
-        what = (
-            f"{words(row['response']).capitalize()}{at}, {row['design']}, study {row['study']}, "
-            f"solver {row['solver']}"
+        at = tr(" at {at}", at=row["at"]) if row["at"] else ""
+        what = tr(
+            "{capitalize}{at}, {design}, study {study}, solver {solver}",
+            capitalize=words(row["response"]).capitalize(),
+            at=at,
+            design=row["design"],
+            study=row["study"],
+            solver=row["solver"],
         )
         facts.append(Fact(what, text, "uncertainty.csv"))
     return facts
@@ -86,6 +105,12 @@ def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
         study, solver, design, _, at = map(str, key)
         synthetic = results.study_is_synthetic(results.config.study(study), solver)
         given = (rows, f"{design}, {at}\n{solver}", synthetic)
-        alt = f"Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}"
+        alt = tr(
+            "Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}",
+            at=at,
+            design=design,
+            study=study,
+            solver=solver,
+        )
         plots.append(plot(alt, synthetic, share_bars, *given))
     return plots

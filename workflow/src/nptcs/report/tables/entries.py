@@ -37,6 +37,8 @@ class Entry:
         Headings of columns whose names do not state the unit.
     contract : type of DataFrameModel, optional
         Contract of its columns, which says what they mean.
+    factors : mapping of str to Heading
+        How factors are written, in headings and in cells.
     """
 
     sheet: str
@@ -46,6 +48,11 @@ class Entry:
     source: str
     headings: Mapping[str, Heading] = field(default_factory=dict)
     contract: type[pa.DataFrameModel] | None = None
+    factors: Mapping[str, Heading] = field(default_factory=dict)
+
+    def with_factors(self, factors: Mapping[str, Heading]) -> Entry:
+        """Return the same entry with the names that the configuration gives the factors."""
+        return replace(self, headings={**factors, **self.headings}, factors=factors)
 
     def with_headings(self, headings: Mapping[str, Heading]) -> Entry:
         """Return the same entry for a view of it that has columns of its own."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
+from nptcs.language import tr
 from nptcs.tables.result_table import Heading
 
 UNITS = {
@@ -68,7 +69,8 @@ def heading(column: str, fixed: Mapping[str, Heading] | None = None) -> Heading:
         Such as ``Heading('vertical stiffness', 'N/mm')``.
     """
     if fixed and column in fixed:
-        return fixed[column]
+        given = fixed[column]
+        return Heading(tr(given.name), tr(given.unit))
     for ending, unit in UNITS.items():
         if column.endswith(ending):
             return Heading(words(column.removesuffix(ending)), unit)
@@ -78,4 +80,4 @@ def heading(column: str, fixed: Mapping[str, Heading] | None = None) -> Heading:
 def words(name: str) -> str:
     """Write ``leave_one_out_r_squared`` as ``leave one out R²``."""
     parts = [NAMES.get(part, part) for part in name.split("_")]
-    return " ".join(parts).replace("R ²", "R²").replace("θ c", "θc").replace("θ t", "θt")
+    return tr(" ".join(parts).replace("R ²", "R²").replace("θ c", "θc").replace("θ t", "θt"))

@@ -41,6 +41,8 @@ def row_class(mark: RowMark, left_out: Collection[str] = ()) -> RowClass:
             return by_outliers
         case RowMark.ORIGIN:
             return by_origin
+        case RowMark.DEVIATION:
+            return by_deviation
         case _:
             assert_never(mark)
 
@@ -94,6 +96,11 @@ def by_outliers(row: Row) -> str:
 def by_origin(row: Row) -> str:
     """Mark constants that are assumed."""
     return "out" if row["origin"] == "assumed" else ""
+
+
+def by_deviation(row: Row) -> str:
+    """Mark deviations from a standard."""
+    return "warn" if row["kind"] == "deviation" else ""
 
 
 def of_specimens(left_out: Collection[str]) -> RowClass:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import assert_never
 
 import pandas as pd
@@ -13,6 +13,7 @@ from nptcs.report.data import Results
 from nptcs.report.tables import entries
 from nptcs.report.tables.entries import Entry, result_entry
 from nptcs.report.tables.materials import ply_table, rubber_table
+from nptcs.report.tables.names import factor_headings
 from nptcs.report.tables.provenance import inputs_table, software_table
 from nptcs.report.tables.row_classes import RowClass, no_row, row_class
 from nptcs.report.tables.specimens import conditioning_table, sheet_table
@@ -23,7 +24,7 @@ from nptcs.tables.hyperelastic import ModelComparison
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.result_table import ReportSection, RowMark, SyntheticBy
 
-LONGEST_SHEET = 3000
+LONGEST_SHEET = 5000
 """Rows of the longest table that is a sheet of the workbook; a longer one is a CSV file only."""
 
 
@@ -43,6 +44,8 @@ class Sheet:
         Whether it rests on synthetic specimens.
     section : ReportSection, optional
         Section of the report that shows it by default; none for a table that a section names.
+    raw : bool
+        Whether it holds curves, shapes or fields point by point.
     """
 
     entry: Entry
@@ -50,11 +53,12 @@ class Sheet:
     mark: RowClass = no_row
     synthetic: bool = False
     section: ReportSection | None = None
+    raw: bool = False
 
     @property
     def in_workbook(self) -> bool:
-        """Tell whether the workbook has it; shapes and results in bulk are too long."""
-        return len(self.table) <= LONGEST_SHEET
+        """Tell whether the workbook has it; points of curves and shapes are CSV files beside it."""
+        return not self.raw and len(self.table) <= LONGEST_SHEET
 
 
 Sheets = Mapping[str, Sheet]
@@ -72,7 +76,7 @@ def sheets_of(results: Results) -> Sheets:
 
     A table that the report makes itself comes before the result table that it leads to.
     """
-    leading = _leading_sheets(results)
+    leading, factors = _leading_sheets(results), factor_headings(results.config.studies)
     sheets: list[Sheet] = []
     for file, row, study in result_files(results.surface_studies):
         table = results.tables[file]
@@ -84,11 +88,13 @@ def sheets_of(results: Results) -> Sheets:
                 row_class(row.mark, results.left_out()),
                 is_synthetic(results, row.synthetic, table, study),
                 row.section,
+                row.raw,
             )
         )
     sheets.append(Sheet(entries.INPUTS, inputs_table(results)))
     sheets.append(Sheet(entries.SOFTWARE, software_table(results)))
-    return {sheet.entry.sheet: sheet for sheet in sheets}
+    named = [replace(sheet, entry=sheet.entry.with_factors(factors)) for sheet in sheets]
+    return {sheet.entry.sheet: sheet for sheet in named}
 
 
 def is_synthetic(results: Results, by: SyntheticBy, table: pd.DataFrame, study: str = "") -> bool:

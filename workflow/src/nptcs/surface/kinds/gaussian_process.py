@@ -36,6 +36,29 @@ VARIANCE_BOUNDS = (1e-3, 1e3)
 
 
 @dataclass(frozen=True)
+class Weights:
+    """What the mean of a fitted process is made of.
+
+    Parameters
+    ----------
+    centre, half : ndarray of shape (n,)
+        Coding of the factors.
+    weights : ndarray of shape (m,)
+        Of the covariance with each case, in units of `scale`: K⁻¹ residual/scale.
+    scale : float
+        In the unit of the response.
+    inflation : float
+        Factor of the standard error.
+    """
+
+    centre: Array
+    half: Array
+    weights: Array
+    scale: float
+    inflation: float
+
+
+@dataclass(frozen=True)
 class GaussianProcess:
     """A Matérn 5/2 process in coded units that follows the residuals of its mean.
 
@@ -100,6 +123,11 @@ class GaussianProcess:
             "y": self.y.tolist(),
             "theta": self.theta.tolist(),
         }
+
+    def regressor(self) -> Weights:
+        """Return what a program needs that evaluates the process without this package."""
+        weights = np.ravel(self._process.alpha_)
+        return Weights(*coding(self.x), weights, self._scale, self._inflation)
 
     def _coded(self, x: Array) -> Array:
         centre, half = coding(self.x)

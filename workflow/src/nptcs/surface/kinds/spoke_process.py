@@ -44,6 +44,65 @@ NOISE_BOUNDS = (1e-12, 1e-2)
 
 
 @dataclass(frozen=True)
+class ComponentWeights:
+    """What one principal component of the spokes is predicted with.
+
+    Parameters
+    ----------
+    weights : ndarray of shape (g,)
+        Of the covariance with each spoke, in units of `spread`.
+    middle, spread : float
+        Mean and standard deviation of the component over the spokes.
+    inflation : float
+        Factor of its standard error.
+    nugget : float
+        Added to the diagonal of the covariance.
+    """
+
+    weights: Array
+    middle: float
+    spread: float
+    inflation: float
+    nugget: float
+
+
+@dataclass(frozen=True)
+class SpokeParts:
+    """What a fitted `SpokeProcess` predicts with; g spokes, k terms on one spoke, c components.
+
+    Parameters
+    ----------
+    ring_columns : sequence of int
+        Columns of the ring's factors.
+    exponents : sequence of tuple of int
+        Degrees of the Legendre products on one spoke.
+    low, high : ndarray
+        Logarithms that are coded to -1 and 1.
+    mean, directions : ndarray of shape (k,) and (c, k)
+        Of the coefficients on one spoke.
+    misfit : float
+        Root mean square misfit on the spokes.
+    middle, spread : ndarray of shape (f,)
+        Scaling of the spokes' features.
+    unit : ndarray of shape (g, f)
+        Scaled features of the spokes.
+    processes : tuple of ComponentWeights
+    """
+
+    ring_columns: Sequence[int]
+    exponents: Sequence[tuple[int, ...]]
+    low: Array
+    high: Array
+    mean: Array
+    directions: Array
+    misfit: float
+    middle: Array
+    spread: Array
+    unit: Array
+    processes: tuple[ComponentWeights, ...]
+
+
+@dataclass(frozen=True)
 class SpokeProcess:
     """A fitted surface of spokes and rings.
 
@@ -147,6 +206,35 @@ class SpokeProcess:
                     "of the factors until none fails",
                 )
         return self
+
+    def parts(self) -> SpokeParts:
+        """Return what a program needs that evaluates the surface without this package."""
+        logarithms = np.log(self.x[:, self._ring_columns])
+        mean, directions = self._components
+        middle, spread = self._scaling
+        processes = tuple(
+            ComponentWeights(
+                weights=np.ravel(process.alpha_),
+                middle=float(np.ravel(process._y_train_mean)[0]),
+                spread=float(np.ravel(process._y_train_std)[0]),
+                inflation=inflation,
+                nugget=float(process.alpha),
+            )
+            for process, inflation in zip(self._processes, self._inflation, strict=True)
+        )
+        return SpokeParts(
+            ring_columns=self._ring_columns,
+            exponents=self._exponents,
+            low=logarithms.min(axis=0),
+            high=logarithms.max(axis=0),
+            mean=mean,
+            directions=directions,
+            misfit=self._on_spokes[1],
+            middle=middle,
+            spread=spread,
+            unit=self._unit(self._spokes[0]),
+            processes=processes,
+        )
 
     def _columns(self, names: Sequence[str]) -> list[int]:
         return [self.factor_names.index(name) for name in names]

@@ -1,0 +1,108 @@
+"""Every figure of the page: no text covers another or leaves the figure, and it has its numbers."""
+
+from itertools import combinations
+
+import numpy as np
+import pandas as pd
+import pytest
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+from matplotlib.text import Text
+from matplotlib.transforms import Bbox
+
+from nptcs.report.figures.style import data_of, panel, styled
+from nptcs.report.html import render_report
+
+TOUCH_PT = 0.75
+"""Boxes of text have room around the letters: they may touch by this much (points)."""
+
+
+def boxes(figure):
+    """Text, box (points) and angle of every word that a figure shows."""
+    canvas = FigureCanvasAgg(figure)
+    figure.set_dpi(72)
+    figure.draw(canvas.get_renderer())
+    hidden = {id(label) for axes in figure.axes for label in labels_of_no_tick(axes)}
+    return [
+        (text.get_text(), text.get_window_extent(), text.get_rotation() % 90)
+        for text in figure.findobj(Text)
+        if text.get_visible() and text.get_text().strip() and id(text) not in hidden
+    ]
+
+
+def labels_of_no_tick(axes):
+    """List labels that lie beyond the ends of their axis: Matplotlib does not draw them."""
+    for axis in (axes.xaxis, axes.yaxis):
+        low, high = sorted(axis.get_view_interval())
+        margin = 1e-9 * (high - low)
+        for tick in axis.get_major_ticks():
+            if not low - margin <= tick.get_loc() <= high + margin:
+                yield from (tick.label1, tick.label2)
+
+
+def faults(figure):
+    """Name the texts of a figure that cover each other or leave it."""
+    found, page = boxes(figure), figure.bbox
+    outside = [
+        f"{words!r} leaves the figure"
+        for words, box, _ in found
+        if min(box.x0, box.y0) < -1 or box.x1 > page.x1 + 1 or box.y1 > page.y1 + 1
+    ]
+    covered = [
+        f"{one[0]!r} covers {other[0]!r}"
+        for one, other in combinations(found, 2)
+        if one[2] == other[2] == 0 and overlap(one[1], other[1])  # a turned box says little
+    ]
+    return outside + covered
+
+
+def overlap(one, other):
+    common = Bbox.intersection(one, other)
+    return common is not None and min(common.width, common.height) > TOUCH_PT
+
+
+@pytest.fixture
+def drawn(monkeypatch):
+    """Figures that a page draws, measured instead of written."""
+    figures = []
+
+    def keep(figure):
+        figures.append((faults(figure), data_of(figure), figure))
+        return "<svg/>"
+
+    monkeypatch.setattr("nptcs.report.plots.to_svg", styled(keep))
+    return figures
+
+
+def test_texts_that_cover_each_other_are_found():
+    @styled
+    def bad():
+        figure, axes = panel("title", "x", "y")
+        axes.text(0.5, 0.5, "one text", transform=axes.transAxes)
+        axes.text(0.52, 0.51, "another", transform=axes.transAxes)
+        far = axes.text(0.9, 0.2, "far too long to stay inside", transform=axes.transAxes)
+        far.set_in_layout(False)
+        return figure
+
+    assert sorted(faults(bad())) == [
+        "'far too long to stay inside' leaves the figure",
+        "'one text' covers 'another'",
+    ]
+
+
+@pytest.mark.parametrize("run", ["results", "compared"])
+def test_no_figure_of_the_page_has_text_over_text(run, request, drawn):
+    render_report(request.getfixturevalue(run))
+    assert len(drawn) > 15
+    found = {figure.axes[0].get_title(loc="left"): bad for bad, _, figure in drawn if bad}
+    assert found == {}
+
+
+def test_every_figure_carries_its_numbers(compared, drawn):
+    render_report(compared)
+    for _, data, figure in drawn:
+        title = figure.axes[0].get_title(loc="left")
+        assert isinstance(data, pd.DataFrame), title
+        assert len(data), title
+        assert not data.select_dtypes(float).apply(np.isinf).any().any(), title
+        assert all(axes.get_xlabel() or axes.get_ylabel() for axes in figure.axes), title
+        assert title, "a figure without a title"

@@ -1,0 +1,125 @@
+"""Figures saved in a real browser: SVG, PNG of 300 dots per inch, CSV with the table's values."""
+
+import base64
+import io
+import json
+import re
+import shutil
+import subprocess
+from xml.etree import ElementTree
+
+import numpy as np
+import pandas as pd
+import pytest
+from PIL import Image
+
+from nptcs.report.html import render_report
+from nptcs.report.plots import csv_of, packed
+from nptcs.report.svg import VARIABLES
+from nptcs.tables.lca_validation import LcaValidation
+
+CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
+QUIET = [
+    "--headless",
+    "--no-sandbox",
+    "--disable-gpu",
+    "--disable-quic",
+    "--no-first-run",
+    "--disable-background-networking",
+    "--disable-component-update",
+    "--disable-sync",
+    "--virtual-time-budget=30000",
+]
+PICKED = "displacement-against-load-lca-with-section-sandwich"
+CLICK = """<script>addEventListener("load", async () => {
+  const saved = {}, made = {}, faults = [];
+  addEventListener("error", (event) => faults.push(event.message));
+  URL.createObjectURL = ((before) => (blob) => {
+    const address = before.call(URL, blob);
+    made[address] = blob;
+    return address;
+  })(URL.createObjectURL);
+  HTMLAnchorElement.prototype.click = function () { saved[this.download] = made[this.href]; };
+  const plot = document.querySelector('.plot[data-name="NAME"]');
+  for (const button of plot.querySelectorAll("button")) button.click();
+  for (let turn = 0; turn < 200 && Object.keys(saved).length < 3; turn++)
+    await new Promise((done) => setTimeout(done, 50));
+  const told = { faults };
+  for (const [name, blob] of Object.entries(saved)) {
+    const bytes = new Uint8Array(await blob.arrayBuffer());
+    let text = "";
+    for (const byte of bytes) text += String.fromCharCode(byte);
+    told[name] = btoa(text);
+  }
+  document.body.innerHTML = "<pre id=told>" + JSON.stringify(told) + "</pre>";
+});</script>""".replace("NAME", PICKED)
+
+pytestmark = pytest.mark.skipif(
+    CHROMIUM is None, reason="Chromium is not installed (Debian: chromium)"
+)
+
+
+def one_figure(page):
+    """Keep styles, one figure and the scripts of a page: a browser has it at once."""
+    styles = re.findall(r"<style.*?</style>", page, re.S)
+    plot = re.search(rf'<div class="plot" data-name="{PICKED}".*?</svg></div>', page, re.S)
+    scripts = re.findall(r"<script>.*?</script>", page, re.S)
+    return "<!doctype html><meta charset=utf-8>" + "".join([*styles, plot[0], *scripts, CLICK])
+
+
+@pytest.fixture(scope="module")
+def saved(results, tmp_path_factory):
+    folder = tmp_path_factory.mktemp("saved")
+    page = folder / "page.html"
+    page.write_text(one_figure(render_report(results)), encoding="utf-8")
+    told = subprocess.run(
+        [CHROMIUM, *QUIET, f"--user-data-dir={folder / 'profile'}", "--dump-dom", page.as_uri()],
+        capture_output=True,
+        text=True,
+        timeout=120,
+        check=True,
+    ).stdout
+    found = json.loads(re.search(r'<pre id="told">(.*?)</pre>', told, re.S)[1])
+    assert found.pop("faults") == []
+    return {name.rsplit(".", 1)[1]: base64.b64decode(text) for name, text in found.items()}
+
+
+def test_a_click_saves_each_kind(saved):
+    assert set(saved) == {"svg", "png", "csv"}
+
+
+def test_the_png_has_300_dots_per_inch_and_shows_the_figure(saved):
+    image = Image.open(io.BytesIO(saved["png"]))
+    assert image.info["dpi"] == pytest.approx((300, 300), abs=0.1)
+    assert image.size[0] == pytest.approx(4.3 * 300, abs=3)
+    pixels = np.asarray(image.convert("RGB")).reshape(-1, 3)
+    assert (pixels[0] == 255).all()  # on a white ground
+    assert len(np.unique(pixels, axis=0)) > 50
+
+
+def test_the_svg_stands_alone(saved):
+    text = saved["svg"].decode()
+    root = ElementTree.fromstring(text)
+    assert "var(" not in text
+    assert any(colour in text for colour in VARIABLES)
+    assert "vertical load [N]" in "".join(root.itertext())
+
+
+def test_the_csv_is_the_table(saved, results):
+    assert saved["csv"].startswith(b"\xef\xbb\xbf")  # spreadsheets read it as UTF-8
+    table = pd.read_csv(io.BytesIO(saved["csv"]))
+    mine = results.table(LcaValidation)
+    mine = mine[mine["section"] == "sandwich"].reset_index(drop=True)
+    for name, column in {
+        "load_n": "load_n",
+        "spoke_c10_mpa": "spoke_c10_mpa",
+        "lca_displacement_mm": "displacement_mm",
+        "published_lca_displacement_mm": "published_displacement_mm",
+    }.items():
+        np.testing.assert_allclose(table[name], mine[column], rtol=1e-5)
+
+
+def test_numbers_are_packed_small():
+    table = pd.DataFrame({"x_mm": np.linspace(0, 1, 500), "force_n": np.arange(500.0)})
+    assert len(packed(csv_of(table))) < 0.6 * len(csv_of(table))
+    assert packed("") == ""

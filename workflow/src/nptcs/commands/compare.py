@@ -1,0 +1,262 @@
+"""``nptcs compare``: what differs between two finished runs, and whether it matters."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+from contextlib import ExitStack
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+if TYPE_CHECKING:
+    from nptcs.runs.compare import ComparedRuns
+    from nptcs.runs.finished import FinishedRun
+    from nptcs.runs.part import Part
+
+EXAMPLE = """examples:
+  nptcs compare ../march .                         two project folders
+  nptcs compare march.zip april.zip                two archives of 'nptcs archive'
+  nptcs compare march.zip . --page changes.html --workbook changes.xlsx
+
+Exit code: 0 no difference, 1 the runs differ, 2 they cannot be compared."""
+MOST_ROWS = 12
+"""Rows of a table that the terminal shows; page, workbook and JSON have them all."""
+
+SHOWN = {
+    "inputs": ("file", "result"),
+    "constants": (
+        "material",
+        "constant",
+        "a",
+        "b",
+        "unit",
+        "difference_percent",
+        "difference_over_error",
+        "beyond_uncertainty",
+        "data",
+        "result",
+    ),
+    "stiffness_summary": (
+        "study",
+        "solver",
+        "cases",
+        "compared",
+        "mean_percent",
+        "largest_percent",
+        "largest_case",
+        "result",
+    ),
+    "ranking": (
+        "study",
+        "solver",
+        "response",
+        "factor",
+        "impact_a",
+        "impact_b",
+        "rank_a",
+        "rank_b",
+        "note",
+        "result",
+    ),
+    "decisions": ("decision", "what", "a", "b", "result"),
+    "configuration": ("key", "a", "b", "result"),
+    "software": ("software", "a", "b", "result"),
+}
+"""Columns that the terminal shows; the cases and the tables have lines of their own."""
+
+
+def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
+    """Declare the command."""
+    parser = subparsers.add_parser(
+        "compare",
+        help="compare two finished runs: two campaigns, configurations or versions",
+        description="Compares inputs, material constants, stiffness, ranking, decisions, "
+        "configuration, software and every table of two finished runs.",
+        epilog=EXAMPLE,
+        formatter_class=argparse.RawDescriptionHelpFormatter,
+    )
+    what = "project folder, folder of results, or archive of 'nptcs archive'"
+    parser.add_argument("a", metavar="A", help=f"the first run: {what}")
+    parser.add_argument("b", metavar="B", help="the second run, likewise")
+    parser.add_argument("--page", type=Path, metavar="FILE", help="write an HTML page")
+    parser.add_argument("--workbook", type=Path, metavar="FILE", help="write a workbook (.xlsx)")
+    parser.add_argument("--json", action="store_true", help="print JSON for programs")
+    parser.add_argument(
+        "--k",
+        type=float,
+        default=2.0,
+        help="coverage factor: a constant differs by more than its uncertainty if |B - A| > k "
+        "times the combined standard error; default: %(default)g",
+    )
+    parser.add_argument(
+        "--within",
+        type=float,
+        default=1e-9,
+        help="relative difference up to which numbers are the same; default: %(default)g",
+    )
+    parser.set_defaults(run=run)
+
+
+def run(arguments: argparse.Namespace) -> int:
+    """Print the comparison; 1 if anything differs or could not be compared."""
+    refuse_arguments(arguments)
+    from nptcs.runs.compare import compare_runs
+
+    with ExitStack() as stack:
+        a, b = (open_run(Path(given), stack) for given in (arguments.a, arguments.b))
+        done = compare_runs(a, b, arguments.k, arguments.within)
+    print(as_json(done) if arguments.json else as_text(done))
+    write_outputs(done, arguments)
+    return 0 if done.same else 1
+
+
+def refuse_arguments(arguments: argparse.Namespace) -> None:
+    """Refuse what is wrong before anything is read."""
+    from nptcs.errors import InputError
+
+    if not arguments.k > 0:
+        raise InputError("must be more than 0", "give 2 or 3", column="--k", value=arguments.k)
+    if not 0 <= arguments.within < 1:
+        remedy = "give a relative difference such as 1e-9"
+        raise InputError("must be from 0 to 1", remedy, column="--within", value=arguments.within)
+    for name, ending in (("page", ".html"), ("workbook", ".xlsx")):
+        file = getattr(arguments, name)
+        if file is not None and file.suffix != ending:
+            remedy = f"name a file that ends in {ending}"
+            raise InputError("is another kind of file", remedy, column=f"--{name}", value=file)
+    for given in (arguments.a, arguments.b):
+        if not Path(given).exists():
+            raise InputError(
+                "this run does not exist", "name a folder or an archive of 'nptcs archive'", given
+            )
+
+
+def open_run(given: Path, stack: ExitStack) -> FinishedRun:
+    """Read a run from a folder, or from an archive, which must be as it was packed.
+
+    Raises
+    ------
+    InputError
+        For something else, an archive that was damaged or edited, and as
+        `nptcs.runs.finished.read_run`.
+    """
+    from nptcs.archive.verify import packed_faults, packed_software, unpack
+    from nptcs.errors import InputError
+    from nptcs.runs.finished import read_run
+
+    if given.is_dir():
+        return read_run(given, str(given))
+    folder = Path(stack.enter_context(tempfile.TemporaryDirectory(prefix="nptcs-compare-")))
+    unpack(given, folder)
+    if faults := packed_faults(folder):
+        more = f" and {len(faults) - 1} more" if len(faults) > 1 else ""
+        raise InputError(
+            f"this archive is not as it was packed: {faults[0]}{more}",
+            "'nptcs verify' lists every fault; copy the archive again from where it was written",
+            given,
+        )
+    return read_run(folder, str(given), packed_software(folder))
+
+
+def write_outputs(done: ComparedRuns, arguments: argparse.Namespace) -> None:
+    """Write the page and the workbook, where asked for."""
+    import sys
+
+    from nptcs.files import atomic_path, write_text
+    from nptcs.report.comparison.page import comparison_page
+    from nptcs.report.comparison.workbook import comparison_workbook
+
+    if arguments.page is not None:
+        write_text(arguments.page, comparison_page(done))
+        print(f"page: {arguments.page}", file=sys.stderr)
+    if arguments.workbook is not None:
+        with atomic_path(arguments.workbook) as temporary:
+            temporary.write_bytes(comparison_workbook(done))
+        print(f"workbook: {arguments.workbook}", file=sys.stderr)
+
+
+def as_text(done: ComparedRuns) -> str:
+    """Write a comparison for a reader."""
+    lines = [f"A = {done.a}", f"B = {done.b}"]
+    if done.synthetic:
+        lines.append("SYNTHETIC example data are among the materials of these runs.")
+    if done.same_identity:
+        lines.append("Both runs have the same identity.")
+    lines += ["", done.verdict()]
+    lines += [f"  {sentence}" for sentence in done.sentences()]
+    for part in done.parts:
+        if part.name != "stiffness":
+            lines += _part_lines(part)
+    return "\n".join(lines)
+
+
+def _part_lines(part: Part) -> list[str]:
+    """Write one part: its headline, what could not be compared, and the rows that differ."""
+    from nptcs.runs.all_tables import described
+
+    lines = ["", f"{part.title}: {part.headline()}"]
+    lines += [f"  note: {remark}" for remark in part.remarks]
+    changed = part.differences
+    if part.name not in SHOWN:
+        lines += [f"  {file}: {words}" for file, words in described(part).items()]
+        return lines
+    columns = [
+        name
+        for name in SHOWN[part.name]
+        if name == "result" or not changed[name].map(_cell).eq("").all()
+    ]
+    if not changed.empty:
+        rows = [[_cell(row[name]) for name in columns] for row in _rows(part)[:MOST_ROWS]]
+        lines += _table([[name.replace("_", " ") for name in columns], *rows])
+    if len(changed) > MOST_ROWS:
+        lines.append(f"  … and {len(changed) - MOST_ROWS} more")
+    return lines
+
+
+def _rows(part: Part) -> list[dict[str, Any]]:
+    records = part.differences.to_dict("records")
+    return [{str(key): value for key, value in row.items()} for row in records]
+
+
+def _table(rows: list[list[str]]) -> list[str]:
+    widths = [max(len(row[place]) for row in rows) for place in range(len(rows[0]))]
+    return [
+        "  "
+        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        for row in rows
+    ]
+
+
+def _cell(value: object) -> str:
+    """Write one value to five digits; nothing for no value."""
+    if value is None or value != value:
+        return ""
+    text = f"{value:.5g}" if isinstance(value, float) else str(value)
+    return text if len(text) <= 60 else f"{text[:57]}..."
+
+
+def as_json(done: ComparedRuns) -> str:
+    """Write a comparison for a program: every row of every part."""
+    content = {
+        "a": done.a,
+        "b": done.b,
+        "same": done.same,
+        "same_identity": done.same_identity,
+        "synthetic": done.synthetic,
+        "k": done.k,
+        "within": done.within,
+        "verdict": done.verdict(),
+        "sentences": done.sentences(),
+        "parts": {
+            part.name: {
+                "title": part.title,
+                "about": part.about,
+                "same": part.same,
+                "remarks": part.remarks,
+                "rows": json.loads(part.table.to_json(orient="records", double_precision=15)),
+            }
+            for part in done.parts
+        },
+    }
+    return json.dumps(content, indent=1, ensure_ascii=False)

@@ -1,0 +1,61 @@
+"""The comparison of two runs as one HTML page that needs no network and no other file."""
+
+from __future__ import annotations
+
+from importlib import resources
+
+from jinja2 import Environment, PackageLoader, StrictUndefined
+from markupsafe import Markup
+
+from nptcs.report.blocks import TableView
+from nptcs.report.comparison.parts import TITLE, mark_row, part_sheet
+from nptcs.report.table_view import table_view
+from nptcs.runs.compare import ComparedRuns
+from nptcs.runs.part import Part
+
+MOST_ROWS = 200
+"""Rows of a table that the page shows."""
+
+
+def comparison_page(done: ComparedRuns) -> str:
+    """Write the comparison of two runs as one HTML page.
+
+    Parameters
+    ----------
+    done : ComparedRuns
+
+    Returns
+    -------
+    str
+        HTML text in the style of the report; the same comparison gives the same page.
+    """
+    environment = Environment(
+        loader=PackageLoader("nptcs.report"),
+        autoescape=True,
+        undefined=StrictUndefined,
+        trim_blocks=True,
+        lstrip_blocks=True,
+    )
+    return environment.get_template("comparison.html.j2").render(
+        title=TITLE,
+        done=done,
+        parts=[(part, differing(part, done.synthetic)) for part in done.parts],
+        style=_resource("report.css"),
+        script=_resource("page.js"),
+    )
+
+
+def differing(part: Part, synthetic: bool) -> TableView | None:
+    """Return the rows of a part that differ; none if there are none."""
+    sheet = part_sheet(part, synthetic)
+    rows = sheet.table[part.table.index.isin(part.differences.index)]
+    if rows.empty:
+        return None
+    view = table_view(rows.iloc[:MOST_ROWS], sheet.entry, mark=mark_row, whole=True)
+    return TableView(
+        view.entry, view.caption, view.headings, view.numeric, view.rows, synthetic, len(rows)
+    )
+
+
+def _resource(name: str) -> Markup:
+    return Markup(resources.files("nptcs.report").joinpath("templates", name).read_text("utf-8"))

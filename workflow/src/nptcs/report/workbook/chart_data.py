@@ -1,0 +1,211 @@
+"""What the workbook's charts draw: lines of the result tables and curves, thinned for the eye.
+
+Nothing is computed: each line is a selection of rows of a table or of a specimen's curve.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+import pandas as pd
+
+from nptcs.arrays import Array
+from nptcs.report.data import Results
+from nptcs.report.factor_labels import factor_labels
+from nptcs.tables.hyperelastic import RangeTable
+from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.published_stiffness import StiffnessAgainstPublished
+from nptcs.tables.sobol import MainEffects
+from nptcs.tables.spoke_stiffness import SpokeCurves
+from nptcs.tables.tyre_responses import TyreCurves
+
+MOST_POINTS = 120
+"""Points of a line that a chart draws; a curve of a specimen has thousands."""
+
+MOST_LINES = 7
+"""Lines of a chart that colours tell apart."""
+
+
+@dataclass(frozen=True)
+class Line:
+    """One line of a chart: its name, points of shape (m,) each, and whether it only guides."""
+
+    name: str
+    x: Array
+    y: Array
+    guide: bool = False
+
+
+@dataclass(frozen=True)
+class ChartData:
+    """One chart.
+
+    Parameters
+    ----------
+    title, x_title, y_title : str
+        The axes with their units.
+    lines : tuple of Line
+    source : str
+        File that the lines are rows of.
+    points : bool
+        Marks only, without lines between them.
+    synthetic : bool
+        Whether it rests on synthetic specimens.
+    """
+
+    title: str
+    x_title: str
+    y_title: str
+    lines: tuple[Line, ...]
+    source: str
+    points: bool = False
+    synthetic: bool = False
+
+
+def charts_of(results: Results) -> list[ChartData]:
+    """Return the charts of a run, from material to tyre; those without lines are left out."""
+    found = [
+        *_specimens(results),
+        *_rubber_ranges(results),
+        *_spokes(results),
+        *_tyres(results),
+        *_main_effects(results),
+        *_against_published(results),
+        *_neutral_lines(results),
+    ]
+    return [chart for chart in found if chart.lines]
+
+
+def _specimens(results: Results) -> Iterator[ChartData]:
+    for series, specimens in results.series().items():
+        shown = [s for s in specimens if s.include and s.specimen in results.curves][:MOST_LINES]
+        lines = [
+            _line(s.specimen, results.curves[s.specimen], "strain_axial", "stress_mpa")
+            for s in shown
+        ]
+        yield ChartData(
+            f"Specimens {series}: stress against strain",
+            "nominal strain [1]",
+            "nominal stress [MPa]",
+            tuple(line for line in lines if len(line.x)),
+            "results/1_ingest/*.csv",
+            synthetic=any(s.origin == "synthetic" for s in shown),
+        )
+
+
+def _rubber_ranges(results: Results) -> Iterator[ChartData]:
+    table = results.table(RangeTable)
+    all_specimens = table[table["specimen"] == "all"]
+    lines = [
+        _line(str(name), rows, "strain_high", "c10_mpa")
+        for name, rows in all_specimens.groupby("rubber", sort=False)
+    ]
+    yield ChartData(
+        "C10 against the strain range of the fit, all specimens",
+        "strain range of the fit from 0 to [1]",
+        "C10 [MPa]",
+        tuple(lines[:MOST_LINES]),
+        "c10_against_range.csv",
+        synthetic=results.rubbers_synthetic,
+    )
+
+
+def _spokes(results: Results) -> Iterator[ChartData]:
+    for (study, solver), rows in results.table(SpokeCurves).groupby(["study", "solver"]):
+        lines = [
+            _line(f"spoke C10 {c10:g} MPa", curve, "displacement_mm", "force_n")
+            for c10, curve in rows.groupby("spoke_c10_mpa")
+        ]
+        yield ChartData(
+            f"Single spokes: force against displacement ({study}, {solver})",
+            "displacement [mm]",
+            "force [N]",
+            tuple(lines[:MOST_LINES]),
+            "spoke_curves.csv",
+            synthetic=results.study_is_synthetic(results.config.study(str(study)), str(solver)),
+        )
+
+
+def _tyres(results: Results) -> Iterator[ChartData]:
+    """Softest, middle and stiffest tyre of each study and solver."""
+    for (study, solver), rows in results.table(TyreCurves).groupby(["study", "solver"], sort=False):
+        lines = [
+            _line(str(case), curve, "displacement_mm", "force_n")
+            for case, curve in rows.groupby("case_id", sort=False)
+        ]
+        lines.sort(key=lambda line: line.y[-1] / line.x[-1])
+        chosen = [lines[place] for place in sorted({0, len(lines) // 2, len(lines) - 1})]
+        yield ChartData(
+            f"Tyres {study}, {solver}: softest, middle and stiffest of {len(lines)}",
+            "vertical displacement [mm]",
+            "vertical load [N]",
+            tuple(chosen),
+            "tyre_curves.csv",
+            synthetic=results.study_is_synthetic(results.config.study(str(study)), str(solver)),
+        )
+
+
+def _main_effects(results: Results) -> Iterator[ChartData]:
+    table = results.table(MainEffects)
+    labels = {
+        (study.name, name): str(label)
+        for study in results.config.studies
+        for name, label in factor_labels(study).items()
+    }
+    table = table[(table["surface"] == "polynomial") & (table["inputs"] == "uniform")]
+    for (study, factor), rows in table.groupby(["study", "factor"], sort=False):
+        solvers = rows.groupby("solver", sort=False)
+        lines = [_line(str(name), one, "value", "effect_n_per_mm") for name, one in solvers]
+        yield ChartData(
+            f"Main effect on the vertical stiffness ({study})",
+            labels[str(study), str(factor)],
+            "effect [N/mm]",
+            tuple(lines[:MOST_LINES]),
+            "main_effects.csv",
+            synthetic=results.table_is_synthetic(rows),
+        )
+
+
+def _against_published(results: Results) -> Iterator[ChartData]:
+    table = results.table(StiffnessAgainstPublished)
+    x, y = "published_stiffness_n_per_mm", "computed_stiffness_n_per_mm"
+    for study, rows in table.dropna(subset=[x, y]).groupby("study", sort=False):
+        lines = [_line(str(name), one.sort_values(x), x, y) for name, one in rows.groupby("solver")]
+        ends = np.array([rows[x].min(), rows[x].max()])
+        yield ChartData(
+            f"Computed against published stiffness ({study})",
+            "published [N/mm]",
+            "computed [N/mm]",
+            (*lines[: MOST_LINES - 1], Line("equal", ends, ends, guide=True)),
+            "stiffness_against_published.csv",
+            points=True,
+            synthetic=results.table_is_synthetic(rows),
+        )
+
+
+def _neutral_lines(results: Results) -> Iterator[ChartData]:
+    groups = results.table(NeutralLine).groupby(["study", "case_id"], sort=False)
+    for (study, case), rows in groups:
+        lines = [
+            _line(str(solver), one, "theta_deg", "radial_mm")
+            for solver, one in rows.groupby("solver", sort=False)
+        ]
+        yield ChartData(
+            f"Radial displacement of the band's neutral line ({case})",
+            "angle from the contact [°]",
+            "radial displacement [mm]",
+            tuple(lines[:MOST_LINES]),
+            "neutral_line.csv",
+            synthetic=results.study_is_synthetic(results.config.study(str(study))),
+        )
+
+
+def _line(name: str, table: pd.DataFrame, x: str, y: str) -> Line:
+    """Take two columns, rows without either left out, at most `MOST_POINTS` of them."""
+    kept = table[[x, y]].dropna()
+    if len(kept) > MOST_POINTS:
+        places = np.unique(np.linspace(0, len(kept) - 1, MOST_POINTS).round().astype(int))
+        kept = kept.iloc[places]
+    return Line(name, kept[x].to_numpy(float), kept[y].to_numpy(float))

@@ -1,0 +1,80 @@
+"""Widths, frozen panes, filters and pages for print, the same on every sheet."""
+
+from __future__ import annotations
+
+from textwrap import wrap
+
+from openpyxl.cell import Cell
+from openpyxl.styles import Font, PatternFill
+from openpyxl.utils import get_column_letter
+from openpyxl.worksheet.worksheet import Worksheet
+
+from nptcs.report.workbook.cells import FONT, HEADER, SYNTHETIC, WRAPPED
+from nptcs.report.workbook.number_formats import shown_number
+
+WIDEST = 60
+LINE_HEIGHT = 15.0
+
+
+def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
+    """Style a sheet that is one table: header in the first row, frozen, with a filter."""
+    for cell in worksheet[1]:
+        cell.fill, cell.font, cell.alignment = fill, Font(name=FONT, bold=True), WRAPPED
+    worksheet.freeze_panes = worksheet.cell(2, 2)
+    worksheet.auto_filter.ref = worksheet.dimensions
+    fit_widths(worksheet, 1)
+    page_for_print(worksheet, header=1)
+    if fill is SYNTHETIC:
+        mark_synthetic(worksheet)
+
+
+def fit_widths(worksheet: Worksheet, header: int) -> None:
+    """Make each column as wide as what it shows from its header on, and the header high enough."""
+    lines = 1
+    for column in range(1, worksheet.max_column + 1):
+        cells = [worksheet.cell(row, column) for row in range(header, worksheet.max_row + 1)]
+        width = min(WIDEST, max(map(_width, cells)) + 2)
+        worksheet.column_dimensions[get_column_letter(column)].width = width
+        lines = max(lines, len(wrap(str(cells[0].value or ""), width - 1)))
+    worksheet.row_dimensions[header].height = LINE_HEIGHT * lines
+
+
+def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
+    """Make rows high enough for their wrapped cells; programs do it only when one is edited."""
+    for row in worksheet.iter_rows(min_row=first, max_row=last):
+        lines = 1
+        for cell in row:
+            if cell.value is not None and cell.alignment.wrap_text:
+                width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
+                lines = max(lines, len(wrap(str(cell.value), width)))
+        worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * lines
+
+
+def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:
+    """Set the pages of a sheet: landscape, as wide as one page, its header on each of them."""
+    worksheet.print_area = area or worksheet.dimensions
+    worksheet.page_setup.orientation = "landscape"
+    worksheet.page_setup.paperSize = worksheet.PAPERSIZE_A4
+    worksheet.page_setup.fitToHeight = 0
+    worksheet.sheet_properties.pageSetUpPr.fitToPage = True
+    if header is not None:
+        worksheet.print_title_rows = f"{header}:{header}"
+    worksheet.oddFooter.left.text = "&A"
+    worksheet.oddFooter.right.text = "&P / &N"
+
+
+def mark_synthetic(worksheet: Worksheet) -> None:
+    """Say on the tab and on each printed page that a sheet rests on synthetic data."""
+    worksheet.sheet_properties.tabColor = "FFD699"
+    worksheet.oddHeader.center.text = "SYNTHETIC DATA"
+
+
+def _width(cell: Cell) -> int:
+    """Estimate the characters that a cell shows; headers may wrap at spaces."""
+    if cell.value is None:
+        return 0
+    if cell.font.bold:
+        return max(len(part) for part in str(cell.value).split())
+    if cell.data_type == "n":
+        return len(shown_number(float(cell.value), cell.number_format))
+    return len(str(cell.value))

@@ -1,0 +1,70 @@
+"""One solved tyre once more, for the outlines of its spokes: figure 10 a of the paper."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from typing import Any
+
+import pandas as pd
+
+from nptcs.campaign.record import CaseRecord
+from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
+from nptcs.fe.energy_cache import shared_table
+from nptcs.fe.output.outlines import tyre_outlines
+from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.tyre.equilibrium import TyreError
+from nptcs.solvers.contract import SolverOptions
+from nptcs.solvers.fe_tyre import FeTyreOptions
+from nptcs.tables.deformed_tyre import DeformedTyre
+
+
+def deformed_tyre(
+    records: Sequence[CaseRecord],
+    case_ids: Sequence[str],
+    options: SolverOptions,
+    tyre: TyreGeometry,
+    ply: Mapping[str, float],
+) -> pd.DataFrame:
+    """Draw the outlines of the first of some cases that was solved, as `DeformedTyre`.
+
+    Records hold no motions of the spokes: the case is solved again, from the same inputs.
+
+    Parameters
+    ----------
+    records : sequence of CaseRecord
+        Of one study and FE solver.
+    case_ids : sequence of str
+        Cases that may be drawn, the preferred one first.
+    options : SolverOptions
+        The solver's options; a solver that has no `FeTyreOptions` gives no outlines.
+    tyre : TyreGeometry
+    ply : mapping
+        The nine ply constants.
+
+    Returns
+    -------
+    DataFrame
+        No rows where none of the cases was solved.
+    """
+    columns = list(DeformedTyre.to_schema().columns)
+    solved = {r.case_id: r for r in records if r.result.displacement_mm is not None and r.load_n}
+    named = [solved[case_id] for case_id in case_ids if case_id in solved]
+    if not named or not isinstance(options, FeTyreOptions):
+        return pd.DataFrame(columns=columns)
+    record = named[0]
+    load_n = float(record.load_n or 0.0)
+    design = spoke_design(options, tyre, ply, record.values)
+    try:
+        table = shared_table(options, design, options.spoke_cache)
+        model = tyre_model(options, tyre, table, record.values["shear_band_c10_mpa"])
+        rows = tyre_outlines(model, loaded_tyre(model, options, load_n), SpokeModel(design))
+    except (SpokeError, TyreError):
+        return pd.DataFrame(columns=columns)
+    about: dict[str, Any] = {
+        "study": record.study,
+        "case_id": record.case_id,
+        "solver": record.solver,
+        "load_n": load_n,
+    }
+    return rows.assign(**about)[columns].reset_index(drop=True)

@@ -1,0 +1,114 @@
+"""One part of a comparison: a table with one row per thing compared, and what is said of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from enum import StrEnum
+
+import numpy as np
+import pandas as pd
+
+from nptcs.tables.result_table import Heading
+
+RESULT = "result"
+"""Column that says of each row what was found."""
+
+
+class Found(StrEnum):
+    """What was found of one thing in two runs."""
+
+    SAME = "same"
+    DIFFERENT = "different"
+    ONLY_A = "only in A"
+    ONLY_B = "only in B"
+    NOT_COMPARED = "not comparable"
+
+
+@dataclass(frozen=True)
+class Part:
+    """One part of a comparison.
+
+    Parameters
+    ----------
+    name, title : str
+        Name of its sheet, and its heading.
+    about : str
+        How it was compared: the rule, and what the columns mean.
+    table : DataFrame
+        One row per thing compared; the column `RESULT` holds a `Found`.
+    remarks : tuple of str
+        What could not be compared, and why.
+    headings : mapping of str to Heading
+        Headings of columns whose names do not state the unit.
+    """
+
+    name: str
+    title: str
+    about: str
+    table: pd.DataFrame
+    remarks: tuple[str, ...] = ()
+    headings: dict[str, Heading] = field(default_factory=dict)
+
+    @property
+    def differences(self) -> pd.DataFrame:
+        """The rows that are not the same in both runs."""
+        return self.table[self.table[RESULT] != Found.SAME]
+
+    @property
+    def same(self) -> bool:
+        """True if everything could be compared and nothing differs."""
+        return self.differences.empty and not self.remarks
+
+    def headline(self) -> str:
+        """Say in a few words what was found."""
+        if self.table.empty:
+            return "nothing to compare"
+        counts = self.table[RESULT].value_counts()
+        words = [f"{counts[one]} {one}" for one in Found if one in counts.index]
+        return ", ".join(words)
+
+
+def presence(in_a: bool, in_b: bool) -> Found | None:
+    """Tell of a thing that only one run has; None if both have it."""
+    if in_a and in_b:
+        return None
+    return Found.ONLY_A if in_a else Found.ONLY_B
+
+
+def numbers_equal(one: float, two: float, within: float) -> bool:
+    """Tell whether two numbers are the same within a relative difference; no number is a value too.
+
+    Examples
+    --------
+    >>> nan = float("nan")
+    >>> numbers_equal(1.0, 1.0 + 1e-12, 1e-9), numbers_equal(nan, nan, 1e-9)
+    (True, True)
+    >>> numbers_equal(nan, 1.0, 1e-9), numbers_equal(0.0, 1e-300, 1e-9)
+    (False, False)
+    """
+    if np.isnan(one) or np.isnan(two):
+        return bool(np.isnan(one) and np.isnan(two))
+    return bool(one == two or abs(one - two) <= within * max(abs(one), abs(two)))
+
+
+def compared(one: float, two: float, within: float) -> Found:
+    """Say whether two numbers are the same."""
+    return Found.SAME if numbers_equal(one, two, within) else Found.DIFFERENT
+
+
+def percent(one: float, two: float) -> float:
+    """Return the difference two - one in percent of one; NaN where there is none."""
+    if not (np.isfinite(one) and np.isfinite(two)) or one == 0:
+        return float("nan")
+    return float((two - one) / abs(one) * 100.0)
+
+
+def as_number(value: object) -> float:
+    """Return a number; NaN for nothing."""
+    return float("nan") if value is None or pd.isna(value) else float(str(value))
+
+
+def part_table(rows: Sequence[dict[str, object]], columns: Sequence[str]) -> pd.DataFrame:
+    """Make the table of a part; a part without rows has its columns."""
+    return pd.DataFrame(list(rows), columns=[*columns, RESULT])

@@ -1,0 +1,92 @@
+"""What each factor does to each response, and its rank, in two runs."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from nptcs.runs.finished import FinishedRun
+from nptcs.runs.part import RESULT, Found, Part, as_number, compared, part_table, percent, presence
+from nptcs.tables.result_table import Heading
+
+FILE = "response_impact.csv"
+KEY = ("study", "solver", "response", "at", "factor")
+COLUMNS = (
+    *KEY,
+    "unit",
+    "impact_a",
+    "impact_b",
+    "difference_percent",
+    "rank_a",
+    "rank_b",
+    "note",
+)
+HEADINGS = {
+    "impact_a": Heading("impact A", "unit of the row"),
+    "impact_b": Heading("impact B", "unit of the row"),
+    "difference_percent": Heading("B − A", "%"),
+    "rank_a": Heading("rank A"),
+    "rank_b": Heading("rank B"),
+}
+
+
+def compare_ranking(a: FinishedRun, b: FinishedRun, within: float) -> Part:
+    """Compare impact and rank of each factor, one row per response and factor."""
+    found, remarks = {}, []
+    for letter, run in (("A", a), ("B", b)):
+        table = run.table(FILE)
+        if table is None:
+            remarks.append(f"run {letter} has no {FILE}")
+        else:
+            missing = [name for name in (*KEY, "impact", "rank", "unit") if name not in table]
+            if missing:
+                remarks.append(f"{FILE} of run {letter} has no column {', '.join(missing)}")
+                table = None
+        records = [] if table is None else table.to_dict("records")
+        found[letter] = {
+            tuple("" if row[key] != row[key] else str(row[key]) for key in KEY): row
+            for row in records
+        }
+    keys = list(dict.fromkeys([*found["A"], *found["B"]]))
+    rows = [
+        {
+            **dict(zip(KEY, key, strict=True)),
+            **_row(found["A"].get(key), found["B"].get(key), within),
+        }
+        for key in keys
+    ]
+    return Part(
+        "ranking",
+        "Ranking of the factors by impact",
+        "Impact: mean |slope| × range of the surface that predicts left-out cases best; 1 is the "
+        "first rank. Factors in a near tie have no settled order.",
+        part_table(rows, COLUMNS),
+        tuple(remarks),
+        dict(HEADINGS),
+    )
+
+
+def _row(one: Any, two: Any, within: float) -> dict[str, object]:
+    row: dict[str, object] = {"unit": (one or two)["unit"]}
+    for letter, side in (("a", one), ("b", two)):
+        row[f"impact_{letter}"] = as_number(side["impact"]) if side else float("nan")
+        row[f"rank_{letter}"] = as_number(side["rank"]) if side else float("nan")
+    if one is None or two is None:
+        return {**row, RESULT: presence(one is not None, two is not None)}
+    if one["unit"] != two["unit"]:
+        row["note"] = f"the unit is {one['unit']} in A and {two['unit']} in B"
+        return {**row, RESULT: Found.NOT_COMPARED}
+    notes = []
+    if one["rank"] != two["rank"]:
+        notes.append("the rank changed")
+    if one.get("surface") != two.get("surface"):
+        notes.append(f"surface in A: {one.get('surface')}, in B: {two.get('surface')}")
+    ties = {side.get("near_tie_with") for side in (one, two)}
+    named = sorted(str(tie) for tie in ties if isinstance(tie, str) and tie)
+    if named:
+        notes.append(f"near tie with {'; '.join(named)}")
+    impact = as_number(one["impact"]), as_number(two["impact"])
+    result = compared(*impact, within)
+    if one["rank"] != two["rank"]:
+        result = Found.DIFFERENT
+    difference = percent(*impact)
+    return {**row, "difference_percent": difference, "note": "; ".join(notes), RESULT: result}
