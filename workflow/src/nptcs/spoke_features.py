@@ -29,9 +29,9 @@ def spoke_features(designs: Array, ply: Mapping[str, float]) -> Array:
     Returns
     -------
     array (n, 6)
-        Log plates, log T, A, log C10, log(T³ E_free/C10) with the modulus of the ply that may contract
-        and shear, log(T E_held/C10) with that of the ply that may not (lamination theory: 1/S̄11 and
-        Q̄11).
+        Log plates, log T, A, log C10, log(T³ E_free/C10) with the modulus of the ply that may
+        contract and shear, log(T E_held/C10) with that of the ply that may not (lamination
+        theory: 1/S̄11 and Q̄11).
     """
     plates, thickness, angle, c10 = designs.T
     stiffness = np.array([rotated_stiffness(ply, degrees) for degrees in angle])
