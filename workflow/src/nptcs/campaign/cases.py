@@ -111,8 +111,9 @@ def _tyres(table: pd.DataFrame) -> Iterator[CaseRecord]:
     results = [name for name in names[load + 1 : end] if not name.startswith(CURVE)]
     realised = [name for name in results if name.startswith(realised_column(""))]
     extra = [name for name in results if name not in (*RESPONSES, *realised)]
-    for row in table[has_result(table["status"])].to_dict("records"):
-        curve = curve_of(row)
+    for values in table[has_result(table["status"])].to_numpy(dtype=object):
+        row = dict(zip(names, values, strict=True))
+        curve = curve_of({name: row[name] for name in names if name.startswith(CURVE)})
         if curve is None:
             continue
         given = {name: row[name] for name in names if pd.notna(row[name])}
