@@ -143,7 +143,7 @@ def deformed_tyre(
         axes.autoscale_view()
     axes.grid(visible=False)
     handles = [
-        Patch(fc=RANGE, ec=GREY, label=tr("spoke's rubber")),
+        Patch(fc=RANGE, ec=GREY, label=tr("rubber of a spoke")),
         Patch(fc=COLOURS[1], label=tr("plates")),
         Line2D([], [], color=COLOURS[0], label=tr("band and tread")),
         Line2D([], [], color=INK, label=tr("rim, ground")),
