@@ -16,6 +16,7 @@ from nptcs.report.blocks import (
     Folded,
     Interactive,
     Listing,
+    MoreTables,
     PageBlock,
     ParagraphKind,
     Plots,
@@ -23,7 +24,7 @@ from nptcs.report.blocks import (
     Text,
     macro_of,
 )
-from nptcs.report.html import page_environment
+from nptcs.report.page_templates import page_environment
 from nptcs.tables.result_table import ReportSection
 
 TEMPLATES = resources.files("nptcs.report") / "templates"
@@ -36,6 +37,7 @@ BLOCKS = [
     Facts("words of the block", ()),
     Folded("words of the block", ""),
     Interactive("<p>words of the block</p>"),
+    MoreTables("words of the block", (Text("in it"),)),
     Findings((Finding("q", "a", "words of the block", "a.csv", ReportSection.CASES),)),
 ]
 

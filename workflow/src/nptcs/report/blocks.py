@@ -189,9 +189,19 @@ class Interactive:
     markup: str
 
 
-PageBlock = TableView | Plots | Text | Listing | Facts | Folded | Findings | Interactive
+@dataclass(frozen=True)
+class MoreTables:
+    """Tables that open on demand: they are behind what the section says, not part of it."""
+
+    title: str
+    tables: tuple[TableView | Text, ...]
+
+
+PageBlock = (
+    TableView | Plots | Text | Listing | Facts | Folded | Findings | Interactive | MoreTables
+)
 BlockMacro = Literal[
-    "table", "plots", "text", "listing", "facts", "folded", "findings", "interactive"
+    "table", "plots", "text", "listing", "facts", "folded", "findings", "interactive", "more"
 ]
 
 
@@ -212,6 +222,8 @@ def macro_of(block: PageBlock) -> BlockMacro:
             return "folded"
         case Interactive():
             return "interactive"
+        case MoreTables():
+            return "more"
         case Findings():
             return "findings"
         case _:

@@ -143,7 +143,7 @@ def deformed_tyre(
         axes.autoscale_view()
     axes.grid(visible=False)
     handles = [
-        Patch(fc=RANGE, ec=GREY, label=tr("spoke's rubber")),
+        Patch(fc=RANGE, ec=GREY, label=tr("rubber of a spoke")),
         Patch(fc=COLOURS[1], label=tr("plates")),
         Line2D([], [], color=COLOURS[0], label=tr("band and tread")),
         Line2D([], [], color=INK, label=tr("rim, ground")),
@@ -194,8 +194,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
     ]
     if compared:
-        paper: dict[str, Any] = {"color": INK, "linestyle": "--", "linewidth": 0.9}
-        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
+        line = Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest"))
+        handles.append(line)
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

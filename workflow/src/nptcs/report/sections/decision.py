@@ -12,6 +12,7 @@ from nptcs.report.data import Results
 from nptcs.report.figures.decision import goal_intervals
 from nptcs.report.plots import plot
 from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.tables.decisions import (
     DecisionConfirmation,
@@ -32,7 +33,7 @@ def decision_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = []
     for row in table.to_dict("records"):
         blocks.append(Text(_title(results, row), "heading"))
-        blocks.append(Text(_answer(row), "ok" if row["status"] == "feasible" else "bad"))
+        blocks.append(Text(_answer(results, row), "ok" if row["status"] == "feasible" else "bad"))
         blocks += _confirmation(results, str(row["decision"]))
         blocks += _figures(results, row)
     shown = (Decisions, DecisionDesigns, DecisionFront, DecisionConfirmation)
@@ -50,12 +51,14 @@ def _title(results: Results, row: Row) -> str:
     return tr(_decision(results, str(row["decision"])).title) or str(row["goals"])
 
 
-def _answer(row: Row) -> str:
+def _answer(results: Results, row: Row) -> str:
+    names = factor_headings([results.config.study(str(row["study"]))])
+    design = in_words(str(row["design"]), names)
     asked = tr(
         "Asked of study {study}, solver {solver}: {goals}",
         study=row["study"],
         solver=row["solver"],
-        goals=row["goals"],
+        goals=in_words(str(row["goals"]), names),
     )
     if row["status"] == "refused":
         return tr("{asked}. No answer: {message}", asked=asked, message=row["message"])
@@ -68,7 +71,7 @@ def _answer(row: Row) -> str:
             asked=asked,
             probability=probability,
             message=row["message"],
-            design=row["design"],
+            design=design,
         )
     return tr(
         "{asked}, {probability}. Chosen: {design}; it meets all targets and "
@@ -76,7 +79,7 @@ def _answer(row: Row) -> str:
         "of {candidates} candidates do.",
         asked=asked,
         probability=probability,
-        design=row["design"],
+        design=design,
         probability_2=row["probability"],
         feasible_percent=row["feasible_percent"],
         candidates=row["candidates"],
@@ -86,15 +89,16 @@ def _answer(row: Row) -> str:
 def _confirmation(results: Results, decision: str) -> list[PageBlock]:
     """Say how the solved designs came out."""
     rows = results.table(DecisionConfirmation)
+    names = factor_headings([results.config.study(_decision(results, decision).study)])
     facts = []
     for row in rows[rows["decision"] == decision].to_dict("records"):
         at = tr(" at {at}", at=row["at"]) if row["at"] else ""
         what = tr(
             "Round {round}: {response}{at} of {design}",
             round=row["round"],
-            response=row["response"],
+            response=in_words(str(row["response"]), names),
             at=at,
-            design=row["design"],
+            design=in_words(str(row["design"]), names),
         )
         if row["result"] == "not solved":
             text = tr("not solved: {message}", message=row["message"])

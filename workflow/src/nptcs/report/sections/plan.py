@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import pandera.pandas as pa
 
-from nptcs.language import tr
-from nptcs.report.blocks import PageBlock, Section, TableView, Text
+from nptcs.language import tr, tr_count
+from nptcs.report.blocks import MoreTables, PageBlock, Section, TableView, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.decision import decision_section
 from nptcs.report.sections.explorer import explorer_section
@@ -85,7 +85,7 @@ def build_sections(results: Results, sheets: Sheets) -> list[Section]:
     """Build all sections; a section without content is left out.
 
     A result table with rows that belongs to a section and that the section neither shows nor
-    draws is added at its end.
+    draws is added at its end, folded where the section has something to say before it.
     """
     sections = []
     for name, plan in PLANS.items():
@@ -100,12 +100,27 @@ def build_sections(results: Results, sheets: Sheets) -> list[Section]:
             and sheet.entry.contract not in plan.drawn
         ]
         if section.blocks or rest:
-            blocks = (*section.blocks, *map(_shown, rest))
+            blocks = (*section.blocks, *_further_tables(rest, folded=bool(section.blocks)))
             sections.append(replace(section, blocks=blocks))
     return sections
 
 
-def _shown(sheet: Sheet) -> PageBlock:
+def _further_tables(sheets: Sequence[Sheet], *, folded: bool) -> tuple[PageBlock, ...]:
+    """Show tables, or fold them under a line that names them."""
+    tables = tuple(map(_shown, sheets))
+    if not folded or not tables:
+        return tables
+    titles = "; ".join(tr(sheet.entry.title) for sheet in sheets)
+    title = tr_count(
+        "{count} more table: {titles}",
+        "{count} more tables: {titles}",
+        len(tables),
+        titles=titles,
+    )
+    return (MoreTables(title, tables),)
+
+
+def _shown(sheet: Sheet) -> TableView | Text:
     """Show a table, or say where it is if it is too long for a page."""
     if len(sheet.table) <= MOST_ROWS:
         return sheet_view(sheet)

@@ -11,6 +11,7 @@ from nptcs.report.factor_labels import factor_labels
 from nptcs.report.table_view import table_view
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import Heading, words
+from nptcs.report.tables.names import factor_headings
 from nptcs.tables.impact import Impact
 
 FILE = "results/tables/impact.csv"
@@ -29,7 +30,7 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
         "sensitivity",
         tr("impact.csv, factors that table 9 prints; a rank is among these"),
         headings,
-    )
+    ).with_factors(factor_headings(results.config.studies))
     synthetic = any(
         results.study_is_synthetic(results.config.study(str(study)), str(solver))
         for solver, study in compared[["solver", "study"]].drop_duplicates().to_numpy()

@@ -9,6 +9,7 @@ import pandas as pd
 from nptcs.language import tr, translatable
 from nptcs.report.blocks import Fact, Facts, Listing, PageBlock, Text
 from nptcs.report.data import Results
+from nptcs.report.tables.names import in_words
 from nptcs.report.text import joined
 from nptcs.tables.published_stiffness import StiffnessErrors, StiffnessExponents
 
@@ -166,4 +167,4 @@ def _numbers(values: pd.Series) -> str:
 
 
 def _held(rows: pd.DataFrame) -> str:
-    return "; ".join(rows["held"])
+    return in_words("; ".join(rows["held"]), {})

@@ -61,9 +61,10 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
         blocks.append(
             Plots(
                 tr(
-                    "Deformation of spokes and shear band under the load (figure 10 a of the "
-                    "paper): the section through the middle of a plate, to scale, every "
-                    "spoke solved again at its own motion. Dotted: before the load."
+                    "Deformation of spokes and shear band by {solver} (figure 10 a of the paper): "
+                    "the section through the middle of a plate, to scale, every spoke solved "
+                    "again at its own motion. Dotted: before the load.",
+                    solver=results.table(DeformedTyre)["solver"].iloc[0],
                 ),
                 tuple(deformed),
             )
@@ -182,14 +183,28 @@ def _deformed_plots(results: Results) -> list[Plot]:
         return []
     first = outlines.iloc[0]
     synthetic = _synthetic(results, first["study"], first["solver"])
+    case, solver, load = first["case_id"], first["solver"], f"{first['load_n']:g}"
     plots = []
     for near in (False, True):
-        what = tr("Spokes over the contact") if near else tr("Loaded tyre")
-        title = f"{what}, {first['case_id']}"
-        alt = tr(
-            "{title}: outlines at {load_n:g} N and before the load",
-            title=f"{title}, {first['solver']}",
-            load_n=first["load_n"],
+        title = (
+            tr("Spokes at the contact, {case}", case=case)
+            if near
+            else tr("Loaded tyre, {case}", case=case)
+        )
+        alt = (
+            tr(
+                "Outlines of the spokes at the contact under {load} N, {case}, {solver}",
+                load=load,
+                case=case,
+                solver=solver,
+            )
+            if near
+            else tr(
+                "Outlines of the tyre under {load} N, {case}, {solver}",
+                load=load,
+                case=case,
+                solver=solver,
+            )
         )
         plots.append(plot(alt, synthetic, deformed_tyre, outlines, title, near, synthetic))
     return plots

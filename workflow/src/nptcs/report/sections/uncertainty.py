@@ -14,8 +14,9 @@ from nptcs.report.figures.uncertainty import share_bars
 from nptcs.report.plots import plot
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.headings import words
+from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
-from nptcs.tables.result_table import ReportSection
+from nptcs.tables.result_table import Heading, ReportSection
 from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
 
 KEYS = ["study", "solver", "design", "response", "at"]
@@ -53,11 +54,12 @@ def uncertainty_section(results: Results, sheets: Sheets) -> Section:
 
 def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[Fact]:
     facts = []
+    factors = factor_headings(results.config.studies)
     parts = {key: rows for key, rows in shares.groupby(KEYS, sort=False)}
     for row in table.to_dict("records"):
         rows = parts[tuple(row[key] for key in KEYS)].dropna(subset=["share_percent"])
         largest = "; ".join(
-            f"{_short(one)} {one['share_percent']:.0f} %"
+            f"{_short(one, factors)} {one['share_percent']:.0f} %"
             for one in rows.head(LARGEST).to_dict("records")
         )
         text = tr(
@@ -84,7 +86,7 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
             "{capitalize}{at}, {design}, study {study}, solver {solver}",
             capitalize=words(row["response"]).capitalize(),
             at=at,
-            design=row["design"],
+            design=tr(row["design"]),
             study=row["study"],
             solver=row["solver"],
         )
@@ -92,9 +94,9 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
     return facts
 
 
-def _short(row: Mapping[Hashable, Any]) -> str:
+def _short(row: Mapping[Hashable, Any], factors: Mapping[str, Heading]) -> str:
     """Name a source without its standard deviation."""
-    return str(row["quantities"]).split(" ± ")[0]
+    return in_words(str(row["quantities"]).split(" ± ")[0], factors)
 
 
 def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
@@ -104,11 +106,11 @@ def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
     for key, rows in stiffness.dropna(subset=["share_percent"]).groupby(KEYS, sort=False):
         study, solver, design, _, at = map(str, key)
         synthetic = results.study_is_synthetic(results.config.study(study), solver)
-        given = (rows, f"{design}, {at}\n{solver}", synthetic)
+        given = (rows, f"{tr(design)}, {at}\n{solver}", synthetic)
         alt = tr(
             "Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}",
             at=at,
-            design=design,
+            design=tr(design),
             study=study,
             solver=solver,
         )
