@@ -30,7 +30,7 @@ QUIET = [
     "--disable-sync",
     "--virtual-time-budget=30000",
 ]
-PICKED = "displacement-against-load-lca-with-section-sandwich"
+PICKED = "displacement-against-load-lca-with-section-sandwich-section"
 CLICK = """<script>addEventListener("load", async () => {
   const saved = {}, made = {}, faults = [];
   addEventListener("error", (event) => faults.push(event.message));
