@@ -84,8 +84,8 @@ class Change:
     cases : int
         Cases that are solved, in all studies.
     after : str
-        What else runs: nothing, only pages (report, identity, account of the files, problems, verdict),
-        or tables of results as well.
+        What else runs: nothing, only pages (report, identity, account of the files, problems,
+        verdict), or tables of results as well.
     solves : bool
         The cases are known only after materials were calibrated: the run is made, not planned.
     """

@@ -41,8 +41,6 @@ NOT_RUN = {
     "nptcs new-sheet raw_data/my_lab --fill 'T90: test=tension material=cfrp' --fill "
     "'S45: test=shear material=cfrp orientation_deg=45'": "the tutorial runs it with all series",
     "pip install snakemake-executor-plugin-cluster-generic": "changes the environment of the tests",
-    "nptcs compare ../march .": "tests/unit/runs/test_compare_runs.py compares runs",
-    "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx": "the same",
     "nptcs run": DEFAULT_STUDY,
     "nptcs run --cores 4 --configfile config/joint.yaml": DEFAULT_STUDY,
     "nptcs run --dry-run": "tests/unit/commands/test_run_command.py tests it",
