@@ -153,7 +153,8 @@ def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
     ]
     if chords.empty or first.test.is_rubber:
         return None
-    symbol, published = PUBLISHED_MODULI.get((first.test, first.orientation_deg), ("E", math.nan))
+    angle = math.nan if first.orientation_deg is None else first.orientation_deg
+    symbol, published = PUBLISHED_MODULI.get((first.test, angle), ("E", math.nan))
     if first.material not in results.card.plies:
         published = math.nan
     groups = results.table(StatisticsTable)
@@ -162,7 +163,7 @@ def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
         & groups["material"].eq(first.material)
         & groups["property"].eq(name)
         & groups["scope"].eq("group")
-        & groups["orientation_deg"].fillna(math.nan).eq(first.orientation_deg)
+        & groups["orientation_deg"].eq(angle)
     ]
     mean = float(groups["mean"].iloc[0]) if len(groups) == 1 else math.nan
     sign = -1 if first.test is TestType.COMPRESSION else 1

@@ -24,6 +24,7 @@ PHRASES = {
     re.compile(r" at (?P<at>\d[\d.]* \w+)"): translatable(" at {at}"),
     re.compile(r"\bminimise\b"): translatable("minimise"),
     re.compile(r"\bmaximise\b"): translatable("maximise"),
+    re.compile("the surface's own error"): translatable("the surface's own error"),
 }
 """Words around the names in designs and goals."""
 
