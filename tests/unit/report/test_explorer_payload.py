@@ -16,6 +16,7 @@ from nptcs.report.explorer import markup
 from nptcs.report.explorer.markup import SCRIPTS, asset, explorer_markup, scripts
 from nptcs.report.explorer.models import WRITERS
 from nptcs.report.explorer.payload import explorer_payload
+from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
 from nptcs.report.sections.explorer import explorer_section
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
@@ -132,3 +133,14 @@ def test_the_config_block_is_a_further_case_of_the_study():
     study = read_config(yaml.safe_load(head + block + "    load_n: 5000\n" + rest)).study("plate")
     assert study.number_of_cases() == 64
     assert np.array(list(study.further_cases[0].values())).tolist() == [12.0, 2.0, 30.0]
+
+
+def test_equal_covariances_are_written_once_in_units_of_the_variance():
+    one = {"covariance": [4.0, 2.0, 8.0], "sd": 2.0}
+    other = {"deep": [{"covariance": [9.0, 4.5, 18.0], "sd": 3.0}]}
+    exact = {"covariance": [0.0, 0.0, 0.0], "sd": 0.0}
+    shared = []
+    share_covariances([one, other, exact], shared)
+    assert shared == [[1.0, 0.5, 2.0]]
+    assert one["covariance"] == other["deep"][0]["covariance"] == 0
+    assert exact["covariance"] == [0.0, 0.0, 0.0]

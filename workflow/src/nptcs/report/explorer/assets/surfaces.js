@@ -284,7 +284,7 @@ function spokeFeatures(ply, [spacing, thickness, angle, c10]) {
   const stiffness = rotatedStiffness(ply, angle);
   const free = 1 / solveLinear(stiffness, [[1], [0], [0]])[0][0];
   return [
-    1 / spacing,
+    Math.log(1 / spacing),
     Math.log(thickness),
     angle,
     Math.log(c10),
