@@ -3,12 +3,28 @@
 from __future__ import annotations
 
 import ast
+import re
 from collections.abc import Iterator
 from pathlib import Path
+from typing import get_args
 
+import yaml
 from jinja2 import Environment, nodes
 
 import nptcs
+from nptcs.config.response import RESPONSE_KINDS
+from nptcs.config.sensitivity import AveragingRule
+from nptcs.mechanical_tests import TestType
+from nptcs.report.figures.lca import REGIONS
+from nptcs.report.figures.uncertainty import KINDS
+from nptcs.report.tables import entries
+from nptcs.report.tables.headings import UNITS, heading, words
+from nptcs.solvers.registry import MODULES, load
+from nptcs.tables.catalogue import TABLES
+from nptcs.tables.files import FileStatus
+from nptcs.tables.flags import FLAG_KINDS
+from nptcs.tables.spoke_stiffness import DIRECTIONS
+from nptcs.tables.status import Status
 
 ROOT = Path(nptcs.__file__).parent
 FUNCTIONS = {"tr": 1, "translatable": 1, "tr_count": 2}
@@ -35,6 +51,42 @@ def texts_in_template(source: str) -> Iterator[tuple[str, ...]]:
                 yield tuple(part.value for part in given)  # type: ignore[attr-defined]
 
 
+def closed_texts() -> Iterator[str]:
+    """Yield the texts that the report gives to `tr` from lists elsewhere in the package."""
+    for table in TABLES.values():
+        yield from (table.title, table.source)
+        for column in table.contract.to_schema().columns:
+            written = heading(column, table.headings)
+            yield from (written.name, written.unit)
+    for entry in (value for value in vars(entries).values() if isinstance(value, entries.Entry)):
+        yield from (entry.title, entry.source, entry.file)
+        yield from (part for head in entry.headings.values() for part in (head.name, head.unit))
+    yield from (load(module).about for module in MODULES.values())
+    yield from map(words, RESPONSE_KINDS)
+    yield from map(words, get_args(AveragingRule))
+    yield from (test.value.removeprefix("rubber_").replace("_", " ") for test in TestType)
+    yield from (status.value for status in (*Status, *FileStatus))
+    yield from (*FLAG_KINDS, *KINDS, *REGIONS, *DIRECTIONS)
+    yield from texts_of_configurations()
+
+
+def texts_of_configurations() -> Iterator[str]:
+    """Yield titles and labels of the configurations that are shipped."""
+    for file in sorted((ROOT.parents[2] / "config").glob("*.yaml")):
+        waiting = [yaml.safe_load(file.read_text(encoding="utf-8"))]
+        while waiting:
+            node = waiting.pop()
+            if isinstance(node, dict):
+                yield from (node[key] for key in ("title", "label") if key in node)
+                waiting += node.values()
+            elif isinstance(node, list):
+                waiting += node
+
+
+SAME = re.compile(r"[\W\d_]*|[A-Z]{1,2}\d*|[xyn]|k B|MNR|PRESS|SHA-256|(results|config)/.*")
+"""Symbols, abbreviations and file names, which are the same in every language."""
+
+
 def texts_of_package() -> dict[tuple[str, ...], str]:
     """Return every text of code and templates, and the first file that has it."""
     found: dict[tuple[str, ...], str] = {}
@@ -42,6 +94,9 @@ def texts_of_package() -> dict[tuple[str, ...], str]:
         for file in sorted(ROOT.rglob(pattern)):
             for texts in read(file.read_text(encoding="utf-8")):
                 found.setdefault(texts, str(file.relative_to(ROOT)))
+    for text in closed_texts():
+        if not SAME.fullmatch(text) and text not in UNITS.values():
+            found.setdefault((text,), "closed lists")
     return found
 
 

@@ -15,6 +15,7 @@ from nptcs.language.translate import catalogue_file
 sys.path.insert(0, str(Path(__file__).parent))
 from messages import as_entry, texts_in_code, texts_in_template, texts_of_package
 
+PROBLEMS = ("{count} problem: {counts}", "{count} problems: {counts}")
 OTHERS = [code for code in get_args(Language) if code != ENGLISH]
 
 
@@ -68,10 +69,11 @@ def test_a_text_is_written_in_the_language_of_the_block():
     assert tr("yes") == "yes"
     with language("zh"):
         assert tr("yes") == "是"
-        assert tr_count("{count} problem", "{count} problems", 2) == "2 个问题"
+        assert tr_count(*PROBLEMS, 2, counts="a") == "2 个问题：a"
         with language("en"):
             assert tr("yes") == "yes"
-    assert tr_count("{count} problem", "{count} problems", 2) == "2 problems"
+    assert tr_count(*PROBLEMS, 1, counts="a") == "1 problem: a"
+    assert tr_count(*PROBLEMS, 2, counts="a") == "2 problems: a"
 
 
 def test_a_text_that_no_catalogue_holds_stays_as_it_is():

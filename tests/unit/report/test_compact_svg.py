@@ -7,7 +7,10 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from matplotlib.figure import Figure
+from matplotlib.font_manager import FontProperties
 
+from nptcs.report.figures.canvas import WideCanvas
 from nptcs.report.figures.style import mark_synthetic, panel, styled, to_svg
 from nptcs.report.figures.theme import DARK, LIGHT
 from nptcs.report.svg import compact
@@ -143,3 +146,29 @@ def test_colours_have_contrast_on_their_ground(theme):
         assert contrast(colour, theme["--f-paper"]) >= least, name
         if name == "--f-ink":
             assert contrast(colour, theme["--f-range"]) >= 4.5
+
+
+def width(words, **more):
+    canvas = WideCanvas(Figure())
+    size = canvas.get_renderer().get_text_width_height_descent
+    return size(words, FontProperties(family="DejaVu Sans", size=10, **more), False)[0]
+
+
+def test_chinese_characters_are_measured_as_wide_as_they_are_high():
+    assert width("垂直刚度") == pytest.approx(4 * 10, rel=0.05)
+    assert width("abc") == pytest.approx(width("abc垂") - width("垂"), rel=0.02)
+
+
+@styled
+def in_chinese():
+    figure, axes = panel("垂直刚度与角度", "载荷 [N]", "刚度 [N/mm]")
+    axes.barh([0, 1], [1, 2])
+    axes.set_yticks([0, 1], ["辐条橡胶的弹性常数", "间距"])
+    return figure
+
+
+def test_chinese_labels_have_room_and_stay_text():
+    svg = compact(to_svg(in_chinese()))  # a missing glyph would be a warning, so an error
+    assert {"辐条橡胶的弹性常数", "垂直刚度与角度"} <= set(words(svg))
+    place = re.search(r'x="([\d.]+)"[^>]*>辐条橡胶的弹性常数', svg)
+    assert float(place[1]) > 9 * 9.5  # it ends there: nine characters fit to its left

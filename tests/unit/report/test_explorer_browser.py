@@ -2,11 +2,13 @@
 
 import json
 from dataclasses import replace
+from importlib import resources
 
 import numpy as np
 import pandas as pd
 import pytest
-from chromium import CHROMIUM, MISSING, browser
+from axe_check import chromium, violations
+from chromium import CHROMIUM, MISSING, Tab
 
 from nptcs import lca
 from nptcs.config.surface import (
@@ -91,9 +93,14 @@ def payload(explored):
 
 
 @pytest.fixture(scope="module")
-def tab(tmp_path_factory):
-    with browser(tmp_path_factory.mktemp("profile")) as tab:
-        yield tab
+def started():
+    with chromium() as browser:
+        yield browser
+
+
+@pytest.fixture(scope="module")
+def tab(started):
+    return Tab(started)
 
 
 @pytest.fixture(scope="module")
@@ -101,6 +108,9 @@ def address(payload, tmp_path_factory):
     page = tmp_path_factory.mktemp("page") / "page.html"
     markup = explorer_markup(payload, "needs scripts")
     head = '<!doctype html><html lang="en"><meta charset="utf-8"><title>t</title><main>'
+    head += "<h1>Report</h1><h2>Explore</h2>"
+    style = resources.files("nptcs.report").joinpath("templates", "report.css").read_text("utf-8")
+    head += f"<style>{style}</style>"
     head += '<meta name="viewport" content="width=device-width, initial-scale=1">'
     page.write_text(f"{head}{markup}</main></html>", encoding="utf-8")
     return page.as_uri()
@@ -110,7 +120,7 @@ def address(payload, tmp_path_factory):
 def functions(tab, tmp_path_factory):
     """A page that has the functions only; returns how to open it."""
     page = tmp_path_factory.mktemp("functions") / "page.html"
-    scripts = asset("surfaces.js") + asset("lca.js")
+    scripts = asset("surfaces.js") + asset("lca.js") + asset("wheel.js")
     page.write_text(f"<!doctype html><meta charset=utf-8><script>{scripts}</script>", "utf-8")
     return lambda: tab.open(page.as_uri())
 
@@ -212,8 +222,8 @@ def test_the_page_shows_the_value_of_the_model_and_asks_for_nothing(explored, ta
     displacement = float(value_of(tab, "displacement").split()[0])
     assert displacement == pytest.approx(3000 / expected, rel=1e-3)
     assert f"{plates} plates at a pitch of {215 / plates:.3f} mm" in tab.text("#ex-plates")
-    assert tab.complaints() == []
-    assert tab.requests() == []
+    assert tab.complaints == []
+    assert tab.requests == []
 
 
 def test_outside_the_cases_there_is_a_warning_and_no_number_where_a_model_is_refused(tab, address):
@@ -225,7 +235,7 @@ def test_outside_the_cases_there_is_a_warning_and_no_number_where_a_model_is_ref
     assert value_of(tab, "secant_stiffness@5000 N").endswith("N/mm")
     row = tab.text('[data-row="secant_stiffness@5000 N"]')
     assert "value without an interval" in row
-    assert tab.complaints() == []
+    assert tab.complaints == []
 
 
 def test_the_state_goes_into_the_address_and_comes_back(tab, address):
@@ -245,7 +255,7 @@ def test_the_state_goes_into_the_address_and_comes_back(tab, address):
 def test_an_address_with_nonsense_gives_the_reference_design(tab, address):
     tab.open(address + "#s=-3&t=x&study=none&model=%&band=9..1&x=q&tilt=900&load=77")
     assert tab.value("document.querySelector('[data-factor=s] input[type=number]').value") == "15"
-    assert tab.complaints() == []
+    assert tab.complaints == []
     tab.open(address + "#specimens")
     assert tab.value("location.hash") == "#specimens"
 
@@ -270,24 +280,22 @@ def test_the_keyboard_alone_moves_sliders_and_copies_commands(tab, address):
     command = tab.value("document.getElementById('ex-text').value")
     assert command.startswith("nptcs design --study plate --solver published --surface ")
     assert command.endswith("--hold spacing_mm=15 --hold thickness_mm=1.8 --hold angle_deg=55")
-    assert tab.complaints() == []
+    assert tab.complaints == []
 
 
-def test_a_finger_on_a_profile_sets_the_factor_on_a_phone(tab, address):
-    tab.screen(390)
-    try:
-        tab.open(address + "#s=15&t=1.8&a=45")
-        assert tab.value("document.documentElement.scrollWidth") <= 390
-        tab.value("document.querySelectorAll('.ex-profile')[2].scrollIntoView({block: 'center'})")
-        place = tab.value(
-            "(() => { const b = document.querySelectorAll('.ex-profile')[2]"
-            ".getBoundingClientRect(); return [b.right - 12, b.top + b.height / 2]; })()"
-        )
-        tab.touch(*place)
-        angle = float(tab.value("new URLSearchParams(location.hash.slice(1)).get('a')"))
-        assert angle > 80
-    finally:
-        tab.screen(1280)
+def test_a_finger_on_a_profile_sets_the_factor_on_a_phone(started, address):
+    phone = Tab(started, 390)
+    phone.open(address + "#s=15&t=1.8&a=45")
+    assert phone.value("document.documentElement.scrollWidth") <= 390
+    phone.value("document.querySelectorAll('.ex-profile')[2].scrollIntoView({block: 'center'})")
+    place = phone.value(
+        "(() => { const b = document.querySelectorAll('.ex-profile')[2]"
+        ".getBoundingClientRect(); return [b.right - 12, b.top + b.height / 2]; })()"
+    )
+    phone.touch(*place)
+    angle = float(phone.value("new URLSearchParams(location.hash.slice(1)).get('a')"))
+    assert angle > 80
+    phone.close()
 
 
 def test_factors_that_a_study_holds_cannot_be_moved(tab, address):
@@ -300,12 +308,12 @@ def test_factors_that_a_study_holds_cannot_be_moved(tab, address):
     assert "Held at 5 MPa" in tab.text("#ex-note-tc")
 
 
-def test_dark_and_light_have_their_own_colours(tab, address):
-    colour = "getComputedStyle(document.getElementById('explorer')).getPropertyValue('--ex-paper')"
-    found = []
-    for dark in (False, True):
-        tab.screen(1280, dark=dark)
-        tab.open(address)
-        found.append(tab.value(colour).strip())
-    tab.screen(1280)
-    assert found[0] != found[1]
+@pytest.mark.parametrize("dark", [False, True])
+@pytest.mark.parametrize("width", [390, 1280])
+def test_axe_finds_no_barrier_on_any_screen_in_any_light(started, address, width, dark):
+    screen = Tab(started, width, dark=dark)
+    screen.open(address + "#t=2.7&model=lamination%207")
+    assert violations(screen.page) == []
+    paper = "getComputedStyle(document.getElementById('explorer')).getPropertyValue('--ex-paper')"
+    assert screen.value(paper).strip() == ("#15181b" if dark else "#ffffff")
+    screen.close()

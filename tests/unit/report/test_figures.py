@@ -84,7 +84,7 @@ def test_contours_show_the_cases_at_the_middle_level(plate):
     figure = contours(surface, cases, ("spacing_mm", "thickness_mm"), labels)
     points = figure.axes[0].collections[-1].get_offsets()
     assert len(points) == 9
-    assert figure.axes[0].get_title(loc="left") == "Stiffness, published\nat fibre angle A 45 deg"
+    assert figure.axes[0].get_title(loc="left") == "Stiffness, published\nat fibre angle A 45°"
     assert figure.axes[0].get_xlabel() == "plate spacing S [mm]"
     shown = figure.axes[0].collections[-1].get_array()
     expected = cases[cases["angle_deg"] == 45][STIFFNESS]

@@ -123,3 +123,11 @@ def test_numbers_are_packed_small():
     table = pd.DataFrame({"x_mm": np.linspace(0, 1, 500), "force_n": np.arange(500.0)})
     assert len(packed(csv_of(table))) < 0.6 * len(csv_of(table))
     assert packed("") == ""
+
+
+def test_figures_of_a_page_are_small(results):
+    page = render_report(results)
+    figures = re.findall(r'<div class="plot".*?</svg></div>', page, re.S)
+    assert len(figures) > 15
+    assert max(map(len, figures)) < 40_000
+    assert sum(map(len, figures)) / len(figures) < 15_000

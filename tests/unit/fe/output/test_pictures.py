@@ -5,6 +5,7 @@ import pytest
 
 from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
 from nptcs.config.tyre import TyreGeometry
+from nptcs.fe.output.outlines import tyre_outlines
 from nptcs.fe.output.spoke_picture import section_stress, spoke_figure
 from nptcs.fe.output.tyre_picture import FINE, ring_stress, tyre_figure
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
@@ -72,14 +73,44 @@ def test_the_spoke_is_drawn_pulled_and_pressed(spoke):
     ]
 
 
-def test_the_tyre_is_drawn_with_all_its_spokes(spoke):
-    dimensions = TyreGeometry(spoke_count=12)
+def tyre_of(dimensions):
     nothing = SpokeEnergyTable(
         84.1, np.full(3, -9.0), np.full(3, 9.0), np.zeros((1, 3), dtype=int), np.zeros(1), 1, 0
     )
-    tyre = TyreModel(
+    return TyreModel(
         dimensions, nothing, 7.0, 5.0, 2000.0, TyreMesh(gap_elements=1), GroundContact()
     )
+
+
+def test_outlines_of_a_band_that_is_shifted(spoke):
+    """The feet of all spokes go with the band, their heads stay at the rim."""
+    tyre = tyre_of(TyreGeometry(spoke_count=6))
+    shift = np.array([0.2, -0.4])
+    moved = np.zeros_like(tyre.mesh.positions) + shift
+    rows = tyre_outlines(tyre, TyreState(moved, 0.0, tyre.spoke_motion(moved), LoadPath()), spoke)
+    after = rows[["x_mm", "y_mm"]].to_numpy()
+    before = rows[["x_undeformed_mm", "y_undeformed_mm"]].to_numpy()
+    radius, step = np.hypot(*before.T), after - before
+    of_spokes = (rows["part"] == "spoke").to_numpy()
+    feet = of_spokes & (radius > radius[of_spokes].max() - 0.2)
+    heads = of_spokes & (radius < radius[of_spokes].min() + 0.2)
+    assert feet.sum() >= 12
+    np.testing.assert_allclose(step[feet], np.tile(shift, (feet.sum(), 1)), atol=0.01)
+    np.testing.assert_allclose(step[heads], 0.0, atol=0.002)
+    np.testing.assert_allclose(
+        step[rows["part"] == "band"], [shift] * (rows["part"] == "band").sum()
+    )
+    assert rows.groupby("part")["outline"].nunique().to_dict() == {
+        "band": 2,
+        "plate": 12,
+        "rim": 1,
+        "spoke": rows.loc[of_spokes, "outline"].nunique(),
+    }
+
+
+def test_the_tyre_is_drawn_with_all_its_spokes(spoke):
+    dimensions = TyreGeometry(spoke_count=12)
+    tyre = tyre_of(dimensions)
     still = np.zeros_like(tyre.mesh.positions)
     state = TyreState(still, 0.0, tyre.spoke_motion(still), LoadPath())
     figure = tyre_figure(tyre, state, spoke)

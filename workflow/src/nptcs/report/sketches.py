@@ -8,6 +8,8 @@ from typing import Literal
 
 from markupsafe import Markup, escape
 
+from nptcs.report.text import text_width
+
 WIDTH = 360.0
 """Width of a sketch, in pixels of a page of usual size."""
 CHARACTER, GAP = 6.9, 9.0
@@ -71,7 +73,7 @@ class Columns:
     def beside(cls, rows: Sequence[IntervalRow | BarRow]) -> Columns:
         """Leave room for the longest name and the longest value."""
         left, right = (
-            GAP + CHARACTER * max((len(text) for text in texts), default=0)
+            GAP + CHARACTER * max(map(text_width, texts), default=0)
             for texts in ([row.name for row in rows], [row.text for row in rows])
         )
         left = min(left, WIDTH - right - LEAST_SPAN)

@@ -38,7 +38,8 @@ class Stroke:
 def read_path(text: str) -> list[Stroke]:
     """Read the attribute ``d`` of a path with absolute commands, as Matplotlib writes it."""
     strokes: list[Stroke] = []
-    commands, points = "", []
+    commands = ""
+    points: list[Array] = []
     for command, numbers in COMMAND.findall(text):
         if command in "Zz":
             strokes.append(Stroke(commands, tuple(points), True))

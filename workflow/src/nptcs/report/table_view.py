@@ -40,6 +40,13 @@ PERCENTS = ("difference_percent", "change_percent")
 """Endings of the names of further columns that get three digits."""
 
 
+WORDS = frozenset(
+    {"status", "origin", "include", "synthetic", "result", "confirmation", "group", "kind", "test"}
+    | {"scope", "reported_statistic", "region", "goal_met", "drucker_stable", "outside_the_box"}
+    | {"failed", "values_used", "model"}
+)
+"""Columns that hold words of closed sets: the page writes them in its own language."""
+
 UNCERTAIN_BY = {
     "standard_error": ("value",),
     "standard_error_mpa": ("c10_mpa",),
@@ -106,7 +113,12 @@ def table_view(
         cells = tuple(
             _named(record[name], entry)
             if name in WITH_NAMES and not is_number
-            else _cell(record[name], digits.get(name, DIGITS), is_number, record.get(errors[name]))
+            else _cell(
+                _word(name, record[name]),
+                digits.get(name, DIGITS),
+                is_number,
+                record.get(errors[name]),
+            )
             for name, is_number in zip(shown, numeric, strict=True)
         )
         rows.append((mark({str(key): value for key, value in record.items()}), cells))
@@ -158,6 +170,11 @@ def sheet_view(
         synthetic=sheet.synthetic,
         whole=whole,
     )
+
+
+def _word(column: str, value: object) -> object:
+    """Write a word of a closed set in the language of the run; other values stay as they are."""
+    return tr(value) if column in WORDS and isinstance(value, str) else value
 
 
 def _is_numeric(column: pd.Series) -> bool:

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+import unicodedata
 from collections.abc import Iterable
 
 from nptcs.language import tr
@@ -48,6 +50,53 @@ def rounded(value: float, error: float | None) -> str:
         return number_text(value)
     decimals = decimals_by(error)
     return f"{round(value, decimals):.{max(0, decimals)}f}"
+
+
+WIDE = 1.75
+"""Width of a Chinese character, in characters of Latin text."""
+
+
+PIECE = re.compile(r"\s*(?:[\u2e80-\u9fff]|[^\s\u2e80-\u9fff]+)")
+"""A blank with what follows it: a Chinese character, or what stands together without one."""
+
+CLOSING = "，。；：）、"
+"""Signs that begin no line."""
+
+
+def is_wide(character: str) -> bool:
+    """Tell whether a character is as wide as it is high, as Chinese ones are."""
+    return unicodedata.east_asian_width(character) in "WF"
+
+
+def text_width(text: str) -> float:
+    """Return the width of a text in characters of Latin text.
+
+    Examples
+    --------
+    >>> text_width("T 1.8 mm"), text_width("板厚 T")
+    (8.0, 5.5)
+    """
+    return float(sum(WIDE if is_wide(character) else 1 for character in text))
+
+
+def wrapped(text: str, width: int) -> str:
+    r"""Break a text into lines: at blanks, and next to a Chinese character anywhere.
+
+    Examples
+    --------
+    >>> wrapped("Impact of each factor", 12)
+    'Impact of\neach factor'
+    >>> wrapped("各因子对刚度的影响", 10)
+    '各因子对刚\n度的影响'
+    """
+    pieces = PIECE.findall(text)
+    lines: list[str] = [""]
+    for piece in pieces:
+        if lines[-1] and text_width(lines[-1] + piece) > width and piece[:1] not in CLOSING:
+            lines.append(piece.lstrip())
+        else:
+            lines[-1] += piece
+    return "\n".join(lines)
 
 
 def joined(words: Iterable[str]) -> str:

@@ -82,8 +82,9 @@ def same_tyres(
         return cases.iloc[:0].reindex(columns=["solver", "case_id", "spoke_c10_mpa", "load_n"])
     same = np.isclose(cases[list(wanted)], list(wanted.values())).all(axis=1)
     drawn = cases.merge(curves[["solver", "case_id"]].drop_duplicates(), how="left", indicator=True)
-    with_plates = cases["realised_spacing_mm"].notna() if "realised_spacing_mm" in cases else False
-    return cases[same & with_plates & drawn["_merge"].eq("both").to_numpy()]
+    # a solver without plates, such as the load-bearing model, uses no whole number of them
+    realised = cases.reindex(columns=["realised_spacing_mm"]).notna().to_numpy().ravel()
+    return cases[same & realised & drawn["_merge"].eq("both").to_numpy()]
 
 
 def displacement(curve: pd.DataFrame | None, load_n: float) -> tuple[str, str, float]:

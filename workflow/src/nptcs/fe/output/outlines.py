@@ -21,7 +21,7 @@ SAME_MM = 1e-6
 RIM_POINTS = 180
 
 
-def outlines(cells: Array) -> list[Array]:
+def outlines(cells: Array) -> list[list[int]]:
     """Find the closed lines around a set of cells: the edges that belong to one cell only.
 
     Parameters
@@ -31,7 +31,7 @@ def outlines(cells: Array) -> list[Array]:
 
     Returns
     -------
-    list of arrays (points,)
+    list of lists of int
         Places of each line's points in the flattened corners, in order along it.
 
     Examples
@@ -50,7 +50,7 @@ def outlines(cells: Array) -> list[Array]:
     edges = np.stack([loops, np.roll(loops, -1, axis=1)], axis=-1).reshape(-1, 2)
     often = Counter(tuple(sorted(edge)) for edge in edges.tolist())
     outer = [edge for edge in edges.tolist() if often[tuple(sorted(edge))] == 1]
-    return [first[line] for line in _chained(outer)]
+    return [first[line].tolist() for line in _chained(outer)]
 
 
 def _chained(edges: list[list[int]]) -> list[list[int]]:
@@ -66,11 +66,11 @@ def _chained(edges: list[list[int]]) -> list[list[int]]:
         line = [start]
         while here != start:
             line.append(here)
-            number = next((number for number in at[here] if number in left), None)
-            if number is None:
+            onward = [number for number in at[here] if number in left]
+            if not onward:
                 break
-            left.discard(number)
-            here = sum(edges[number]) - here
+            left.discard(onward[0])
+            here = sum(edges[onward[0]]) - here
         lines.append(line)
     return lines
 

@@ -45,7 +45,7 @@ def _question() -> str:
 def _finding(results: Results, row: Row) -> Finding:
     study = results.config.study(str(row["study"]))
     labels = factor_headings([study])
-    asked = _decision(results, row).title or in_words(str(row["goals"]), labels)
+    asked = tr(_decision(results, row).title) or in_words(str(row["goals"]), labels)
     design = in_words(str(row["design"]), labels)
     match row["status"]:
         case "feasible":

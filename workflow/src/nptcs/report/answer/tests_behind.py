@@ -88,7 +88,7 @@ def _group(row: dict[object, object]) -> str:
     """Name a group of specimens: test, material and orientation."""
     test = str(row["test"]).replace("_", " ")
     angle = row["orientation_deg"]
-    return f"{test} {row['material']}" + (f" {angle:g}°" if angle == angle else "")
+    return f"{tr(test)} {row['material']}" + (f" {angle:g}°" if angle == angle else "")
 
 
 def _origin(results: Results) -> str:

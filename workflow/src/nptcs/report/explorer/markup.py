@@ -6,7 +6,25 @@ import json
 from importlib import resources
 from typing import Any
 
-SCRIPTS = ("surfaces.js", "lca.js", "model.js", "plots.js", "ring.js", "page.js")
+SCRIPTS = (
+    "surfaces.js",
+    "lca.js",
+    "wheel.js",
+    "model.js",
+    "address.js",
+    "copy.js",
+    "plots.js",
+    "map.js",
+    "space.js",
+    "ring.js",
+    "controls.js",
+    "layout.js",
+    "results.js",
+    "profiles.js",
+    "plane.js",
+    "models.js",
+    "page.js",
+)
 """In the order in which they build on each other; together they are one module."""
 
 

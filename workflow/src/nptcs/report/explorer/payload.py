@@ -14,6 +14,7 @@ from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
+from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.cases import Cases
@@ -65,15 +66,19 @@ def explorer_payload(results: Results) -> Plain:
     """
     config = results.config
     tyre = config.tyre
+    studies = [
+        _study(results, study, results.models[study.name])
+        for study in config.studies
+        if study.name in results.models and results.models[study.name].surfaces
+    ]
+    covariances: list[list[float]] = []
+    share_covariances(studies, covariances)
     return {
         "confidence": CONFIDENCE,
         "factors": _factors(config.studies),
         "tyre": {"width_mm": tyre.tread_width_mm, "plate_width_mm": tyre.plate_width_mm},
-        "studies": [
-            _study(results, study, results.models[study.name])
-            for study in config.studies
-            if study.name in results.models and results.models[study.name].surfaces
-        ],
+        "studies": studies,
+        "covariances": covariances,
         "ring": ring_payload(results),
         "words": page_words(),
     }

@@ -60,7 +60,7 @@ def page_words() -> dict[str, str]:
         ),
         "displacement": tr("displacement"),
         "derived": tr("load divided by the stiffness of the same model"),
-        "exact": tr("follows the cases exactly"),
+        "exact": tr("exact"),
         "unbounded": tr("no bound"),
         "refused": tr("no number: outside the cases, where this model is refused"),
         "flagged": tr("outside the cases: value without an interval"),

@@ -7,9 +7,10 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.language import tr
-from nptcs.report.figures.style import mark_synthetic, panel, styled
+from nptcs.report.figures.style import BESIDE_LABELS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
+from nptcs.report.tables.names import in_words
 
 
 @styled
@@ -27,7 +28,11 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     at = tr(" at {at}", at=first["at"]) if first["at"] else ""
     unit = f" [{first['unit']}]" if first["unit"] not in ("", "1") else ""
     figure, axes = panel(
-        str(first["goal"]), f"{words(str(first['response']))}{at}{unit}", "", (4.3, 2.6)
+        in_words(str(first["goal"]), {}),
+        f"{words(str(first['response']))}{at}{unit}",
+        "",
+        (4.3, 2.6),
+        BESIDE_LABELS,
     )
     place = np.arange(len(designs))[::-1]
     mean = designs["mean"].to_numpy()

@@ -9,7 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.language import tr
-from nptcs.report.figures.style import HATCHES, mark_synthetic, panel, styled
+from nptcs.report.figures.style import BESIDE_LABELS, HATCHES, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.report.tables.headings import words
 
@@ -42,6 +42,7 @@ def impact_bars(
         tr("impact on the vertical stiffness [N/mm]"),
         "",
         (4.3, height),
+        BESIDE_LABELS,
     )
     place = np.arange(len(order))[::-1].astype(float)
     width = 0.8 / len(rules)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -11,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.lines import Line2D
 
 from nptcs.language import tr, translatable
-from nptcs.report.figures.style import HATCHES, line_look, mark_synthetic, panel, styled
+from nptcs.report.figures.style import HATCHES, Chart, line_look, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
 
 SECTION_NAMES = {
@@ -39,7 +40,7 @@ RING_MARKS = 60
 """Points of a finite element ring that are marked; its numbers hold all."""
 
 
-def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Figure, Axes]:
+def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Chart, Axes]:
     """Make a panel titled with the section of the band to which its rows belong."""
     return panel(f"LCA, {tr(SECTION_NAMES[table['section'].iloc[0]])}", x_label, y_label)
 
@@ -79,7 +80,7 @@ def load_displacement(
     solver = "".join(tr(" and {solver}", solver=name) for name in first)
     title = f"LCA, {tr(SECTION_NAMES[table['section'].iloc[0]])},{solver}"
     figure, axes = panel(title.rstrip(","), LOAD, tr("displacement [mm]"), (4.3, 3.7))
-    printed = {"mfc": "none", "mec": INK, "linestyle": "", "zorder": 6}
+    printed: dict[str, Any] = {"mfc": "none", "mec": INK, "linestyle": "", "zorder": 6}
     for number, (c10, rows) in enumerate(table.groupby("spoke_c10_mpa")):
         look, rows = line_look(number), rows.sort_values("load_n")
         fe = finite_elements[finite_elements["spoke_c10_mpa"] == c10].sort_values("load_n")
@@ -323,7 +324,7 @@ def deformed_ring(
         points = on_circle(finite_elements, radius)
         solver = finite_elements["solver"].iloc[0]
         few = points.iloc[:: max(len(points) // RING_MARKS, 1)]
-        look = {"marker": "o", "ms": 4.5, "mfc": "none", "mec": INK, "mew": 0.9}
+        look: dict[str, Any] = {"marker": "o", "ms": 4.5, "mfc": "none", "mec": INK, "mew": 0.9}
         axes.plot(few["x_mm"], few["y_mm"], linestyle="", zorder=5, label=solver, **look)
         parts.append(points.assign(what=solver))
     axes.axhline(line["y_mm"].min(), color=INK, linewidth=0.8)

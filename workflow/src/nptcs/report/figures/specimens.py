@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -176,9 +177,13 @@ def _draw_moduli(
     for row in moduli.chords.to_dict("records"):
         if row["specimen"] not in colours:
             continue
-        ends = chord_ends(curves[row["specimen"]], row, axis, sign)
+        ends = chord_ends(curves[str(row["specimen"])], row, axis, sign)
         strain, stress = ends[axis.strain], ends[axis.stress]
-        look = {"color": colours[row["specimen"]], "linewidth": 3.2, "solid_capstyle": "butt"}
+        look: dict[str, Any] = {
+            "color": colours[row["specimen"]],
+            "linewidth": 3.2,
+            "solid_capstyle": "butt",
+        }
         axes.plot(100 * strain, stress, zorder=4, **look)
         parts.append(ends.assign(specimen=row["specimen"], what="chord"))
     lines = axes.get_lines()
@@ -190,15 +195,15 @@ def _draw_moduli(
         if np.isfinite(value):
             end = sign * np.array([0.0, 0.62 * largest])
             label = f"{tr(words)}: {moduli.symbol} {value / 1000:.4g} GPa"
-            look = {"color": INK, "linewidth": 1.1, "linestyle": dash, "zorder": 5}
-            axes.plot(100 * end / value, end, label=label, **look)
+            line: dict[str, Any] = {"color": INK, "linewidth": 1.1, "linestyle": dash, "zorder": 5}
+            axes.plot(100 * end / value, end, label=label, **line)
             ends = pd.DataFrame({axis.strain: end / value, axis.stress: end})
             parts.append(ends.assign(specimen="", what=words))
     return parts
 
 
 def chord_ends(
-    curve: pd.DataFrame, chord: Mapping[str, float], axis: Axis, sign: int = 1
+    curve: pd.DataFrame, chord: Mapping[Hashable, Any], axis: Axis, sign: int = 1
 ) -> pd.DataFrame:
     """Return the ends of a chord: its slope through the middle of the curve over its range."""
     known = curve[[axis.strain, axis.stress]].dropna().sort_values(axis.strain)
@@ -241,7 +246,7 @@ def rubber_curves(
     axes.set_xlim(left=0)
     axes.set_ylim(bottom=0)
     axes.legend(loc="upper left")
-    columns = ["rubber", "specimen", "strain_axial", "stress_mpa"]
-    figure.data = pd.concat(parts, ignore_index=True)[columns]
+    names = ["rubber", "specimen", "strain_axial", "stress_mpa"]
+    figure.data = pd.concat(parts, ignore_index=True)[names]
     mark_synthetic(figure, synthetic)
     return figure

@@ -7,7 +7,6 @@ it at its own size. A figure carries the numbers that it shows, which the page o
 from __future__ import annotations
 
 import io
-import textwrap
 from collections.abc import Callable
 from functools import wraps
 from typing import Any, ParamSpec, TypeVar
@@ -18,12 +17,13 @@ import pandas as pd
 from cycler import cycler
 from matplotlib.axes import Axes
 from matplotlib.axis import Axis
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from nptcs.language import tr
+from nptcs.report.figures.canvas import WideCanvas
 from nptcs.report.figures.theme import COLOURS, GREY, GRID, WARNING
+from nptcs.report.text import text_width, wrapped
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.5, 1.5)), (0, (6, 1.5, 1.5, 1.5)))
@@ -34,6 +34,9 @@ PANEL = (4.3, 3.3)
 
 TITLE_CHARACTERS = 36
 """Characters of a title that fit on one line above the axes of a panel."""
+
+BESIDE_LABELS = 24
+"""The same where long labels at the left leave less room."""
 
 BESIDE_SYNTHETIC = 22
 """Characters of a title that leave room on its line for the label of synthetic data."""
@@ -61,7 +64,7 @@ STYLE: Any = {
     "legend.title_fontsize": 8,
     "lines.linewidth": 1.3,
     "lines.markersize": 4.5,
-    "savefig.facecolor": "none",
+    "figure.facecolor": "none",
     "svg.fonttype": "none",
     "svg.hashsalt": "nptcs",
 }
@@ -93,13 +96,25 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
 
 
 def panel(
-    title: str, x_label: str, y_label: str, size: tuple[float, float] = PANEL
+    title: str,
+    x_label: str,
+    y_label: str,
+    size: tuple[float, float] = PANEL,
+    fitting: int = TITLE_CHARACTERS,
 ) -> tuple[Chart, Axes]:
-    """Make one figure with one pair of axes, with round numbers on both."""
+    """Make one figure with one pair of axes, with round numbers on both.
+
+    Parameters
+    ----------
+    title, x_label, y_label : str
+    size : tuple of float
+        Width and height in inches.
+    fitting : int
+        Characters of the title that fit on one line.
+    """
     figure = Chart(figsize=size, layout="constrained")
     axes = figure.add_subplot()
-    fitting = round(TITLE_CHARACTERS * size[0] / PANEL[0])
-    lines = [textwrap.fill(line, fitting) for line in title.split("\n")]
+    lines = [wrapped(line, fitting) for line in title.split("\n")]
     axes.set(title="\n".join(lines), xlabel=tr(x_label), ylabel=tr(y_label))
     for axis in (axes.xaxis, axes.yaxis):
         round_ticks(axis)
@@ -129,7 +144,7 @@ def mark_synthetic(figure: Figure, synthetic: bool) -> None:
         return
     axes = figure.axes[0]
     lines = axes.get_title(loc="left").split("\n")
-    above = len(lines) if len(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
+    above = len(lines) if text_width(lines[-1]) > BESIDE_SYNTHETIC or len(lines) > 1 else 0
     axes.annotate(
         tr("SYNTHETIC DATA"),
         (1, 1),
@@ -169,12 +184,6 @@ def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
 @styled
 def to_svg(figure: Figure) -> str:
     """Draw a figure as Matplotlib writes SVG, without a date; words stay text."""
-    FigureCanvasSVG(figure)
-    layout = figure.get_layout_engine()
-    if layout is not None:
-        # savefig would draw the whole figure once more to find the same layout
-        layout.execute(figure)
-        figure.set_layout_engine("none")
     stream = io.StringIO()
-    figure.savefig(stream, format="svg", metadata={"Date": None, "Creator": None})
+    WideCanvas(figure).write(stream)
     return stream.getvalue()

@@ -111,7 +111,8 @@ def at_middle(
 def _title(solver: str, held: Mapping[str, float], labels: Mapping[str, FactorLabel]) -> str:
     """Name the solver and the levels of the factors that stay fixed."""
     levels = [
-        f"{labels[name].label} {level:.4g} {labels[name].unit}" for name, level in held.items()
+        f"{labels[name].label} {level:.4g} {labels[name].unit}".replace(" °", "°")
+        for name, level in held.items()
     ]
     if not levels:
         return tr("Stiffness, {solver}", solver=solver)

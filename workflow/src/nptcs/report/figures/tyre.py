@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 import pandas as pd
 from matplotlib.collections import PolyCollection
@@ -53,15 +55,19 @@ def load_displacement(
     cases = {str(name): curve for name, curve in curves.groupby("case_id", sort=False)}
     ends = pd.DataFrame({name: curve.iloc[-1] for name, curve in cases.items()}).T
     stiffness = ends["force_n"].astype(float) / ends["displacement_mm"].astype(float)
-    looks = {stiffness.idxmax(): (COLOURS[1], "s"), stiffness.idxmin(): (COLOURS[0], "o")}
+    looks = {
+        str(stiffness.idxmax()): (COLOURS[1], "s"),
+        str(stiffness.idxmin()): (COLOURS[0], "o"),
+    }
     drawn = {*sampled(ends)["case_id"], *looks}
-    for name in drawn - set(looks):
-        curve = cases[name]
+    for name, curve in cases.items():
+        if name not in drawn or name in looks:
+            continue
         axes.plot(
             curve["displacement_mm"], curve["force_n"] / 1000, color=GREY, linewidth=0.6, alpha=0.6
         )
     for name, (colour, marker) in looks.items():
-        curve = cases[str(name)]
+        curve = cases[name]
         axes.plot(
             curve["displacement_mm"],
             curve["force_n"] / 1000,
@@ -116,7 +122,7 @@ def deformed_tyre(
         outlines = outlines[outlines["outline"].isin(kept)]
         axes.set_xlim(-WINDOW_MM, WINDOW_MM)
         axes.set_ylim(ground - 5, ground + 1.25 * WINDOW_MM)
-    looks = {
+    looks: dict[str, dict[str, Any]] = {
         "spoke": {"facecolor": RANGE, "edgecolor": GREY, "linewidth": 0.5},
         "plate": {"facecolor": COLOURS[1], "edgecolor": "none"},
         "band": {"facecolor": "none", "edgecolor": COLOURS[0], "linewidth": 1.3},
@@ -129,7 +135,7 @@ def deformed_tyre(
         if near and part in ("spoke", "band"):
             columns = ["x_undeformed_mm", "y_undeformed_mm"]
             before = [line[columns].to_numpy() for _, line in rows.groupby("outline")]
-            dotted = {"edgecolor": GREY, "linewidth": 0.6, "linestyle": ":"}
+            dotted: dict[str, Any] = {"edgecolor": GREY, "linewidth": 0.6, "linestyle": ":"}
             axes.add_collection(PolyCollection(before, facecolor="none", zorder=1, **dotted))
     axes.axhline(ground, color=INK, linewidth=0.8)
     axes.set_aspect("equal")
@@ -137,13 +143,13 @@ def deformed_tyre(
         axes.autoscale_view()
     axes.grid(visible=False)
     handles = [
-        Patch(fc=RANGE, ec=GREY, label="spoke's rubber"),
-        Patch(fc=COLOURS[1], label="plates"),
-        Line2D([], [], color=COLOURS[0], label="band and tread"),
-        Line2D([], [], color=INK, label="rim, ground"),
+        Patch(fc=RANGE, ec=GREY, label=tr("rubber of a spoke")),
+        Patch(fc=COLOURS[1], label=tr("plates")),
+        Line2D([], [], color=COLOURS[0], label=tr("band and tread")),
+        Line2D([], [], color=INK, label=tr("rim, ground")),
     ]
     if near:
-        handles.append(Line2D([], [], color=GREY, linestyle=":", label="before the load"))
+        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before the load")))
     figure.legend(handles=handles, ncols=3, loc="outside lower center")
     places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
     figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))

@@ -7,7 +7,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.language import tr
-from nptcs.report.figures.style import mark_synthetic, panel, styled
+from nptcs.report.figures.style import BESIDE_LABELS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, PAPER
 from nptcs.report.tables.headings import heading
 
@@ -35,7 +35,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     names = [in_lines(str(text)) for text in shares["quantities"]]
     lines = max(name.count("\n") + 1 for name in names)
     height = 1.3 + (0.15 + 0.13 * lines) * len(names)
-    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, height))
+    figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, height), BESIDE_LABELS)
     place = np.arange(len(shares))[::-1]
     for kind, colour in KINDS.items():
         mine = (shares["kind"] == kind).to_numpy()

@@ -126,9 +126,14 @@ def series_title(specimen: Specimen) -> str:
     """Name a series for a reader, such as "cfrp, tension at 90°"."""
     test = specimen.test.value.removeprefix("rubber_").replace("_", " ")
     if specimen.orientation_deg is None:
-        return f"{specimen.material}, {test}"
+        return tr("{material}, {test}", material=specimen.material, test=tr(test))
     sign = "±" if specimen.test is TestType.SHEAR else ""
-    return f"{specimen.material}, {test} at {sign}{specimen.orientation_deg:g}°"
+    return tr(
+        "{material}, {test} at {angle}°",
+        material=specimen.material,
+        test=tr(test),
+        angle=f"{sign}{specimen.orientation_deg:g}",
+    )
 
 
 def with_shear(curve: pd.DataFrame) -> pd.DataFrame:
@@ -148,7 +153,8 @@ def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
     ]
     if chords.empty or first.test.is_rubber:
         return None
-    symbol, published = PUBLISHED_MODULI.get((first.test, first.orientation_deg), ("E", math.nan))
+    angle = math.nan if first.orientation_deg is None else first.orientation_deg
+    symbol, published = PUBLISHED_MODULI.get((first.test, angle), ("E", math.nan))
     if first.material not in results.card.plies:
         published = math.nan
     groups = results.table(StatisticsTable)
@@ -157,7 +163,7 @@ def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
         & groups["material"].eq(first.material)
         & groups["property"].eq(name)
         & groups["scope"].eq("group")
-        & groups["orientation_deg"].fillna(math.nan).eq(first.orientation_deg)
+        & groups["orientation_deg"].eq(angle)
     ]
     mean = float(groups["mean"].iloc[0]) if len(groups) == 1 else math.nan
     sign = -1 if first.test is TestType.COMPRESSION else 1

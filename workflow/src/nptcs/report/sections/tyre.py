@@ -7,7 +7,7 @@ import pandas as pd
 
 from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr, translatable
-from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section, Text
+from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.tyre import (
     PUBLISHED_STRESS_MPA,
@@ -47,7 +47,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
             + ply_words(results)
         ),
         *(Text(line) for line in published_stress(results)),
-        *_without_value(responses),
+        *(Text(line, "warn") for line in not_assessed(responses)),
         Plots(
             tr(
                 "Load against vertical displacement, every tyre of a study (figure 10 b "
@@ -60,9 +60,12 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
     if deformed := _deformed_plots(results):
         blocks.append(
             Plots(
-                "Deformation of spokes and shear band under the load (figure 10 a of the paper): "
-                "the section through the middle of a plate, to scale, every spoke solved again "
-                "at its own motion. Dotted: before the load.",
+                tr(
+                    "Deformation of spokes and shear band by {solver} (figure 10 a of the paper): "
+                    "the section through the middle of a plate, to scale, every spoke solved "
+                    "again at its own motion. Dotted: before the load.",
+                    solver=results.table(DeformedTyre)["solver"].iloc[0],
+                ),
                 tuple(deformed),
             )
         )
@@ -136,27 +139,18 @@ def fiducial_cases(results: Results) -> list[str]:
 def not_assessed(responses: pd.DataFrame) -> list[str]:
     """Say how many responses have no value, and why, one sentence for each reason."""
     missing = responses[responses["status"] != "ok"]
-    said: dict[tuple[str, int, str], list[str]] = {}
-    for (name, at, status), rows in missing.groupby(["response", "at", "status"], sort=False):
-        reason = (str(status), len(rows), str(rows["note"].iloc[0]))
-        place = tr(" at {at}", at=at) if at else ""
-        said.setdefault(reason, []).append(words(str(name)) + place)
+    groups = missing.groupby(["response", "at", "status"], sort=False)
     return [
         tr(
-            "{responses}: {status} for {count} tyres; the first: {note}.",
-            responses=", ".join(names),
+            "{response}{which}: {status} for {count} tyres; the first: {note}.",
+            response=words(str(name)),
+            which=tr(" at {at}", at=at) if at else "",
             status=status,
-            count=count,
-            note=note,
+            count=len(rows),
+            note=rows["note"].iloc[0],
         )
-        for (status, count, note), names in said.items()
+        for (name, at, status), rows in groups
     ]
-
-
-def _without_value(responses: pd.DataFrame) -> list[PageBlock]:
-    """List the responses without a value; nothing where all have one."""
-    lines = not_assessed(responses)
-    return [Listing(tr("What has no value, and why"), tuple(lines), "warn")] if lines else []
 
 
 def _synthetic(results: Results, study: object, solver: object) -> bool:
@@ -170,7 +164,7 @@ def _curve_plots(results: Results) -> list[Plot]:
     ):
         synthetic = _synthetic(results, study, solver)
         cases = results.table(Cases)
-        published = cases[cases["study"].eq(study) & cases["solver"].eq(PUBLISHED)]
+        published = cases[cases["study"].eq(str(study)) & cases["solver"].eq(PUBLISHED)]
         columns = ["case_id", "load_n", "displacement_mm"]
         given = (
             curves,
@@ -189,11 +183,29 @@ def _deformed_plots(results: Results) -> list[Plot]:
         return []
     first = outlines.iloc[0]
     synthetic = _synthetic(results, first["study"], first["solver"])
-    about = f"{first['case_id']}, {first['solver']}"
+    case, solver, load = first["case_id"], first["solver"], f"{first['load_n']:g}"
     plots = []
     for near in (False, True):
-        title = f"{'Spokes over the contact' if near else 'Loaded tyre'}, {about}"
-        alt = f"{title}: outlines at {first['load_n']:g} N and before the load"
+        title = (
+            tr("Spokes at the contact, {case}", case=case)
+            if near
+            else tr("Loaded tyre, {case}", case=case)
+        )
+        alt = (
+            tr(
+                "Outlines of the spokes at the contact under {load} N, {case}, {solver}",
+                load=load,
+                case=case,
+                solver=solver,
+            )
+            if near
+            else tr(
+                "Outlines of the tyre under {load} N, {case}, {solver}",
+                load=load,
+                case=case,
+                solver=solver,
+            )
+        )
         plots.append(plot(alt, synthetic, deformed_tyre, outlines, title, near, synthetic))
     return plots
 

@@ -86,7 +86,7 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
             "{capitalize}{at}, {design}, study {study}, solver {solver}",
             capitalize=words(row["response"]).capitalize(),
             at=at,
-            design=row["design"],
+            design=tr(row["design"]),
             study=row["study"],
             solver=row["solver"],
         )
@@ -106,11 +106,11 @@ def _plots(results: Results, shares: pd.DataFrame) -> list[Plot]:
     for key, rows in stiffness.dropna(subset=["share_percent"]).groupby(KEYS, sort=False):
         study, solver, design, _, at = map(str, key)
         synthetic = results.study_is_synthetic(results.config.study(study), solver)
-        given = (rows, f"{design}, {at}\n{solver}", synthetic)
+        given = (rows, f"{tr(design)}, {at}\n{solver}", synthetic)
         alt = tr(
             "Shares of the variance of the stiffness at {at}, {design} of {study}, {solver}",
             at=at,
-            design=design,
+            design=tr(design),
             study=study,
             solver=solver,
         )

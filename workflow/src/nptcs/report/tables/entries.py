@@ -11,6 +11,7 @@ from dataclasses import dataclass, field, replace
 
 import pandera.pandas as pa
 
+from nptcs.language import tr
 from nptcs.tables.result_table import PER_STUDY, Heading, ResultTable
 
 SHEET_NAME_LENGTH = 31
@@ -64,7 +65,7 @@ def result_entry(file: str, table: ResultTable, study: str = "") -> Entry:
     sheet = table.sheet.replace(PER_STUDY, study) or file.removesuffix(".csv")
     return Entry(
         sheet[:SHEET_NAME_LENGTH],
-        table.title.replace(PER_STUDY, study),
+        tr(table.title).replace(PER_STUDY, study),
         f"results/tables/{file}",
         table.rule,
         table.source,
@@ -125,7 +126,7 @@ def design_entry(study: str) -> Entry:
     """Return the entry of a study's design table."""
     return Entry(
         f"design_{study}"[:SHEET_NAME_LENGTH],
-        f"Design table of the study {study}",
+        tr("Design table of the study {study}", study=study),
         f"results/4_design/{study}.csv",
         "design",
         "factors and levels of the configuration, full factorial",

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
+from functools import partial
 
 from nptcs.config.study import Study
+from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.tables.headings import heading
 from nptcs.report.text import number_text
@@ -16,6 +18,15 @@ NAME = re.compile(
     r"(?: (?P<error>± )?(?P<number>[-+]?[\d.]+(?:e[-+]?\d+)?))?"
 )
 """A name of a column or a response, and the number that follows it."""
+
+PHRASES = {
+    re.compile(r"\b(?P<plates>\d+) plates\b"): translatable("{plates} plates"),
+    re.compile(r" at (?P<at>\d[\d.]* \w+)"): translatable(" at {at}"),
+    re.compile(r"\bminimise\b"): translatable("minimise"),
+    re.compile(r"\bmaximise\b"): translatable("maximise"),
+    re.compile("the surface's own error"): translatable("the surface's own error"),
+}
+"""Words around the names in designs and goals."""
 
 
 def in_words(text: str, labels: Mapping[str, Heading]) -> str:
@@ -28,7 +39,13 @@ def in_words(text: str, labels: Mapping[str, Heading]) -> str:
     >>> in_words("e1_mpa ± 76.2, nu12", {})
     'E1\xa0± 76.2\xa0MPa, ν12'
     """
+    for phrase, words in PHRASES.items():
+        text = phrase.sub(partial(_phrase, words), text)
     return NAME.sub(lambda found: _in_words(found, labels), text)
+
+
+def _phrase(words: str, found: re.Match[str]) -> str:
+    return tr(words, **found.groupdict())
 
 
 def _in_words(found: re.Match[str], labels: Mapping[str, Heading]) -> str:

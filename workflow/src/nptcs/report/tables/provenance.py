@@ -5,6 +5,7 @@ from __future__ import annotations
 import pandas as pd
 import yaml
 
+from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.tables.entries import Entry
 from nptcs.tables.cases import Cases
@@ -12,7 +13,7 @@ from nptcs.tables.cases import Cases
 
 def entries_table(entries: list[Entry]) -> pd.DataFrame:
     """Write the catalogue as a table, one row per table."""
-    rows = [(e.sheet, e.title, e.file, e.rule, e.source) for e in entries]
+    rows = [(e.sheet, tr(e.title), tr(e.file), e.rule, tr(e.source)) for e in entries]
     return pd.DataFrame(rows, columns=["sheet", "what_it_says", "file", "rule", "made_from"])
 
 
@@ -25,7 +26,10 @@ def software_table(results: Results) -> pd.DataFrame:
     """List the versions of the software and of the solvers that the cases name."""
     solvers = results.table(Cases).drop_duplicates(["solver", "solver_version"])
     rows = list(results.software.items())
-    rows += [(f"solver {row.solver}", str(row.solver_version)) for row in solvers.itertuples()]
+    rows += [
+        (tr("solver {solver}", solver=row.solver), str(row.solver_version))
+        for row in solvers.itertuples()
+    ]
     return pd.DataFrame(rows, columns=["software", "version"])
 
 

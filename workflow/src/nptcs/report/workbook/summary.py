@@ -12,6 +12,7 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.report.cover import cover_lines
 from nptcs.report.data import Results
 from nptcs.report.sections.summary import findings
 from nptcs.report.tables.sheets import Sheet
@@ -170,7 +171,10 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
     """Write title, verdict and identity; return the row after them."""
     sound, line = results.verdict()
     settings, identity = results.config.report, results.identity
-    lines = [settings.title, results.config.laboratory.name, line]
+    laboratory = results.config.laboratory
+    lines = [settings.title, laboratory.name, *laboratory.address.splitlines()]
+    lines += [f"{name}: {text}" for name, text in cover_lines(laboratory)]
+    lines.append(line)
     if identity is not None:
         lines.append(f"Run {identity.short}, tables complete {identity.made_text}")
     if results.any_synthetic:

@@ -11,6 +11,16 @@ function symmetric(upper, size) {
   return full;
 }
 
+// Give each surface its covariance back: polynomials of the same cases and terms share one, in units
+// of their own residual variance.
+function restoreCovariances(part, shared) {
+  if (part === null || typeof part !== "object") return;
+  if (typeof part.covariance === "number") {
+    part.covariance = shared[part.covariance].map((value) => value * part.sd * part.sd);
+  }
+  for (const inner of Object.values(part)) restoreCovariances(inner, shared);
+}
+
 // x' C x
 function quadratic(matrix, x) {
   let sum = 0;

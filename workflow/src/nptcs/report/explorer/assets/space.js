@@ -1,0 +1,81 @@
+// The same plane in space.
+
+// The grid as a surface in space, turned and tilted; far faces first.
+function drawSpace(canvas, grid, turn, tilt) {
+  const { context, width, height } = prepared(canvas);
+  const [a, e] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
+  const scale = Math.min(width / 3.1, height / 2.5);
+  const [low, high] = grid.range;
+  const project = (u, v, w) => {
+    const [px, py] = [u * Math.cos(a) - v * Math.sin(a), u * Math.sin(a) + v * Math.cos(a)];
+    return [width / 2 + scale * px, height * 0.52 - scale * (w * Math.cos(e) + py * Math.sin(e)), py * Math.cos(e) - w * Math.sin(e)];
+  };
+  const size = grid.xs.length;
+  const unit = (i) => (2 * i) / (size - 1) - 1;
+  const up = (value) => 1.1 * ((value - low) / (high - low || 1)) - 0.55;
+  const faces = [];
+  for (let j = 0; j + 1 < size; j++) {
+    for (let i = 0; i + 1 < size; i++) {
+      const cells = [[i, j], [i + 1, j], [i + 1, j + 1], [i, j + 1]];
+      const values = cells.map(([p, q]) => grid.cells[q][p].value);
+      if (values.some((value) => value === undefined)) continue;
+      const corners = cells.map(([p, q], k) => project(unit(p), unit(q), up(values[k])));
+      const mean = values.reduce((sum, value) => sum + value, 0) / 4;
+      const feasible = cells.filter(([p, q]) => grid.cells[q][p].feasible).length >= 2;
+      faces.push({ corners, depth: corners.reduce((sum, c) => sum + c[2], 0), mean, feasible });
+    }
+  }
+  faces.sort((p, q) => q.depth - p.depth);
+  base(context, project);
+  for (const face of faces) {
+    context.fillStyle = rgb(rampColour((face.mean - low) / (high - low || 1)));
+    context.strokeStyle = face.feasible ? COLOURS.band : context.fillStyle;
+    context.lineWidth = face.feasible ? 1.4 : 0.7;
+    context.beginPath();
+    face.corners.forEach(([px, py], k) => (k ? context.lineTo(px, py) : context.moveTo(px, py)));
+    context.closePath();
+    context.fill();
+    context.stroke();
+  }
+  baseLabels(context, project, grid);
+  if (grid.hereValue !== undefined) {
+    const share = (value, [from, to]) => (2 * (value - from)) / (to - from) - 1;
+    const at = [share(grid.here[0], grid.xRange), share(grid.here[1], grid.yRange)];
+    const [foot, top] = [project(...at, -0.55), project(...at, up(grid.hereValue))];
+    context.strokeStyle = COLOURS.mark;
+    context.lineWidth = 1.2;
+    line(context, [foot, top]);
+    context.fillStyle = COLOURS.mark;
+    disc(context, top[0], top[1], 5);
+  }
+}
+
+// Foot and edges of the box.
+function base(context, project) {
+  const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
+  context.strokeStyle = COLOURS.soft;
+  context.lineWidth = 1;
+  line(context, [...corners, corners[0]].map(([u, v]) => project(u, v, -0.55)));
+  for (const [u, v] of corners) line(context, [project(u, v, -0.55), project(u, v, 0.55)]);
+}
+
+// Names and ends of the two factors, on the sides that face the reader.
+function baseLabels(context, project, grid) {
+  context.textAlign = "center";
+  context.textBaseline = "middle";
+  const front = (first, second) => (project(...first, -0.55)[2] < project(...second, -0.55)[2] ? -1 : 1);
+  const v = front([0, -1], [0, 1]);
+  const u = front([-1, 0], [1, 0]);
+  const put = (text, p, q, out) => {
+    const [px, py] = project(p * out, q * out, -0.55);
+    context.fillText(text, px, py + 8);
+  };
+  context.fillStyle = COLOURS.ink;
+  put(grid.xLabel, 0, v, 1.22);
+  put(grid.yLabel, u, 0, 1.22);
+  context.fillStyle = COLOURS.soft;
+  put(shortNumber(grid.xRange[0]), -0.92, v, 1.1);
+  put(shortNumber(grid.xRange[1]), 0.92, v, 1.1);
+  put(shortNumber(grid.yRange[0]), u, -0.92, 1.1);
+  put(shortNumber(grid.yRange[1]), u, 0.92, 1.1);
+}

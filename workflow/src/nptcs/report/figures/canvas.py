@@ -1,0 +1,57 @@
+"""Canvas for SVG with real text in any script: wide characters are measured as wide.
+
+The SVG names fonts and leaves the glyphs to the reader's system. The font that measures the layout
+has no Chinese characters; the square in their place is narrower than they are, and texts would
+run into each other.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from typing import Any, TextIO
+
+from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
+from matplotlib.font_manager import FontProperties
+
+WIDE = re.compile("[\u2e80-\u9fff\uac00-\ud7af\uf900-\ufaff\uff00-\uffef]")
+"""Characters as wide as they are high: Chinese, Japanese and Korean, with their punctuation."""
+
+AS_WIDE = "W"
+"""A letter of that width in the font of the layout."""
+
+POINTS_PER_INCH = 72.0
+
+
+class WideRenderer(RendererSVG):
+    """Measures wide characters as one em; draws them as they are."""
+
+    def get_text_width_height_descent(
+        self, s: str, prop: FontProperties, ismath: Any
+    ) -> tuple[float, float, float]:
+        """Return width, height and descent of a text, in points."""
+        measured: tuple[float, float, float] = super().get_text_width_height_descent(
+            WIDE.sub(AS_WIDE, s), prop, ismath
+        )
+        return measured
+
+
+class WideCanvas(FigureCanvasSVG):
+    """Lays a figure out and writes it with `WideRenderer`."""
+
+    def get_renderer(self) -> WideRenderer:
+        """Return what the layout is measured with; what it writes is lost."""
+        return self._renderer(io.StringIO())
+
+    def write(self, stream: TextIO) -> None:
+        """Write the figure as SVG without metadata."""
+        self.figure.dpi = POINTS_PER_INCH
+        renderer = self._renderer(stream)
+        self.figure.draw(renderer)
+        renderer.finalize()
+
+    def _renderer(self, stream: TextIO) -> WideRenderer:
+        self.figure.dpi = POINTS_PER_INCH
+        width, height = (POINTS_PER_INCH * side for side in self.figure.get_size_inches())
+        nothing = dict.fromkeys(("Date", "Creator", "Format", "Type"))
+        return WideRenderer(width, height, stream, image_dpi=POINTS_PER_INCH, metadata=nothing)
