@@ -190,6 +190,7 @@ def as_text(done: ComparedRuns) -> str:
 def _part_lines(part: Part) -> list[str]:
     """Write one part: its headline, what could not be compared, and the rows that differ."""
     from nptcs.runs.all_tables import described
+    from nptcs.runs.part import RESULT
 
     lines = ["", f"{part.title}: {part.headline()}"]
     lines += [f"  note: {remark}" for remark in part.remarks]
@@ -200,7 +201,7 @@ def _part_lines(part: Part) -> list[str]:
     columns = [
         name
         for name in SHOWN[part.name]
-        if name == "result" or not changed[name].map(_cell).eq("").all()
+        if name == RESULT or not changed[name].map(_cell).eq("").all()
     ]
     if not changed.empty:
         rows = _rows(part)[:MOST_ROWS]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import assert_never
+
 import pandas as pd
 
 from nptcs.report.tables.entries import Entry
@@ -60,3 +62,5 @@ def mark_row(row: Row) -> str:
             return "bad" if row.get("beyond_uncertainty") == "yes" else "warn"
         case Found.ONLY_A | Found.ONLY_B | Found.NOT_COMPARED:
             return "out"
+        case found:
+            assert_never(found)
