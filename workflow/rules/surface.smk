@@ -2,7 +2,6 @@
 
 from nptcs.compare.conditions import surface_faults
 
-
 FITTED = (
     "name",
     "title",

@@ -7,7 +7,7 @@ import pandas as pd
 
 from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr, translatable
-from nptcs.report.blocks import PageBlock, Plot, Plots, Section, Text
+from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.tyre import (
     PUBLISHED_STRESS_MPA,
@@ -47,7 +47,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
             + ply_words(results)
         ),
         *(Text(line) for line in published_stress(results)),
-        *(Text(line, "warn") for line in not_assessed(responses)),
+        *_without_value(responses),
         Plots(
             tr(
                 "Load against vertical displacement, every tyre of a study (figure 10 b "
@@ -151,6 +151,12 @@ def not_assessed(responses: pd.DataFrame) -> list[str]:
         )
         for (name, at, status), rows in groups
     ]
+
+
+def _without_value(responses: pd.DataFrame) -> list[PageBlock]:
+    """List the responses without a value; nothing where all have one."""
+    lines = tuple(not_assessed(responses))
+    return [Listing(tr("Not assessed"), lines, "warn")] if lines else []
 
 
 def _synthetic(results: Results, study: object, solver: object) -> bool:
