@@ -7,9 +7,9 @@ instant are known: one file or machine and camera, with random rates, units, noi
 Up to three events happen to it: a break or none, cycles, an extensometer that is taken off, stands
 still or slides back, a strain record that ends early, a load cell with the wrong sign, a part in
 compression before the pull, slack, a unit that is wrong by a thousand, a channel that is away for
-some readings, the same data in another file. A test may be refused. A failure is an exception other
-than InputError, or a curve whose strength, modulus or strain at the largest force is not the truth
-(a strain that is empty is allowed: it is not assessed).
+some readings, the same data in another file. A test may be refused. A failure is an exception
+other than InputError, or a curve whose strength, modulus or strain at the largest force is not the
+truth (a strain that is empty is allowed: it is not assessed).
 """
 
 from __future__ import annotations

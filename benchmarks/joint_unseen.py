@@ -1,17 +1,18 @@
 """The joint study's surfaces at spokes that were never solved.
 
     python benchmarks/joint_unseen.py [--models results/6_surface/models/joint.json]
-        [--spokes results/5_solve/spokes] [--points 5] [--fe]
+        [--card results/material_card.json] [--spokes results/5_solve/spokes] [--points 5] [--fe]
 
 Takes points inside the box of the joint study (Latin hypercube, whole plates), computes their
 spokes and solves them by `ring`, and with ``--fe`` by `fe_tyre` too. Prints the stiffness that each
-load's surface predicts with its 95 % interval, what the solver says, and the difference in per
-cent. Run ``make joint`` first.
+load's surface predicts with its 95 % interval, what the solver says with the plies of the study's
+card, and the difference in per cent. Run ``make joint`` first.
 """
 
 from __future__ import annotations
 
 import argparse
+from collections.abc import Mapping
 from pathlib import Path
 
 import numpy as np
@@ -20,13 +21,14 @@ import pandas as pd
 from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.points import space_filling
 from nptcs.doe.whole_plates import whole_plates
+from nptcs.files import read_model
 from nptcs.responses.curve import LoadCurve
 from nptcs.solvers import fe_tyre, ring
 from nptcs.solvers.contract import CaseInputs, SolverResult, Status
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.surface.stored import read_registry
 from nptcs.surface.study import RESPONSE
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.material_card import MaterialCard
 
 TYRE = TyreGeometry()
 LOAD_N = 5000.0
@@ -42,16 +44,24 @@ def unseen_points(registry: SurfaceRegistry, count: int) -> pd.DataFrame:
     return pd.DataFrame(moved, columns=list(fitted.factors))
 
 
-def solved(values: dict[str, float], spokes: Path, finite: bool) -> SolverResult:
+def solved(
+    values: dict[str, float], ply: Mapping[str, float], spokes: Path, finite: bool
+) -> SolverResult:
     """Solve a point on its computed spoke."""
     if finite:
         options = fe_tyre.FeTyreOptions(spoke_cache=spokes, plate_stress="off")
-        return fe_tyre.solve(CaseInputs("", values, LOAD_N, TYRE, options, ply=PUBLISHED_PLY))
+        return fe_tyre.solve(CaseInputs("", values, LOAD_N, TYRE, options, ply=ply))
     own = ring.RingSolverOptions(spoke_cache=spokes)
-    return ring.solve(CaseInputs("", values, LOAD_N, TYRE, own, ply=PUBLISHED_PLY))
+    return ring.solve(CaseInputs("", values, LOAD_N, TYRE, own, ply=ply))
 
 
-def report(registry: SurfaceRegistry, points: pd.DataFrame, spokes: Path, finite: bool) -> None:
+def report(
+    registry: SurfaceRegistry,
+    points: pd.DataFrame,
+    ply: Mapping[str, float],
+    spokes: Path,
+    finite: bool,
+) -> None:
     """Print each point and the largest difference by load."""
     loads = {
         response.load_n: registry.find(response)
@@ -62,7 +72,7 @@ def report(registry: SurfaceRegistry, points: pd.DataFrame, spokes: Path, finite
     for values in points.to_dict("records"):
         print(", ".join(f"{name} {value:.4g}" for name, value in values.items()))
         for name in ("ring", "fe_tyre") if finite else ("ring",):
-            result = solved(values, spokes, name == "fe_tyre")
+            result = solved(values, ply, spokes, name == "fe_tyre")
             if result.status is not Status.OK or result.curve is None:
                 print(f"  {name}: {result.status}: {result.message}")
                 continue
@@ -90,13 +100,15 @@ def main() -> None:
     """Read the arguments and print the comparison."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--models", type=Path, default=Path("results/6_surface/models/joint.json"))
+    parser.add_argument("--card", type=Path, default=Path("results/material_card.json"))
     parser.add_argument("--spokes", type=Path, default=Path("results/5_solve/spokes"))
     parser.add_argument("--points", type=int, default=5)
     parser.add_argument("--fe", action="store_true", help="solve by fe_tyre too")
     arguments = parser.parse_args()
     registry = read_registry(arguments.models)
     points = unseen_points(registry, arguments.points)
-    report(registry, points, arguments.spokes, arguments.fe)
+    (ply,) = read_model(arguments.card, MaterialCard).plies.values()
+    report(registry, points, ply.values(), arguments.spokes, arguments.fe)
 
 
 if __name__ == "__main__":

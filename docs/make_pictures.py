@@ -30,14 +30,15 @@ OPTIONS = [
     "--virtual-time-budget=10000",
 ]
 ONLY = """<style>
-section:not(#{section}), nav, header, footer {{ display: none !important }}
+section:not(#{section}), h1, nav, header, footer {{ display: none !important }}
 </style>"""
 FIGURES = """<style>
-section *:not(:has(figure), figure, figure *, h2) { display: none !important }
+section *:not(:has(.plots), .plots, .plots *, h2) { display: none !important }
 </style>"""
 WIDTH = 1000
 TUTORIAL = {
     "first-screen": ("", 760),
+    "explorer": ("explore", 900),
     "curves": ("specimens figures", 640),
     "materials": ("materials", 760),
     "surface": ("surfaces figures", 640),

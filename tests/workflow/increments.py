@@ -84,8 +84,8 @@ class Change:
     cases : int
         Cases that are solved, in all studies.
     after : str
-        What else runs: nothing, only pages (report, account of the files, problems, verdict), or
-        tables of results as well.
+        What else runs: nothing, only pages (report, identity, account of the files, problems,
+        verdict), or tables of results as well.
     solves : bool
         The cases are known only after materials were calibrated: the run is made, not planned.
     """
@@ -128,7 +128,7 @@ HEAD = (
 
 MEASURE = ("ingest_", "reduce", "calibrate_")
 """Beginnings of the rules' names; ingest has a rule for each batch of specimens."""
-PAGES = {"account", "configuration", "problems", "report", "verdict"}
+PAGES = {"account", "configuration", "identity", "problems", "report", "verdict"}
 
 
 def summary(jobs: dict[str, int], cases: int) -> dict[str, Any]:

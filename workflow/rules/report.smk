@@ -1,6 +1,8 @@
 # All results → the list of problems, the report and the workbook, and the verdict on the run.
 from importlib.resources import files as package_files
 
+from nptcs.runs.identity import WORDS_ONLY
+
 from nptcs.language import catalogue_digest
 
 
@@ -96,7 +98,7 @@ rule identity:
         "results/logs/identity.log",
     params:
         job={
-            "config": plain(CONFIG),
+            "config": CONFIG.model_dump(mode="json", exclude=set(WORDS_ONLY)),
             "inputs": contents(configured_inputs()),
             "code_of_tables": code_of_tables(),
             "folder": SHEET.parent.as_posix(),

@@ -7,6 +7,7 @@ Makefile, the files and options of a script.
 
 from __future__ import annotations
 
+import argparse
 import contextlib
 import io
 import re
@@ -21,7 +22,7 @@ SH_BLOCK = re.compile(
 ANY_BLOCK = re.compile(r"^```.*?^```$", re.MULTILINE | re.DOTALL)
 SPAN = re.compile(r"`((?:nptcs|snakemake|make|python|pip) [^`]+)`")
 EXAMPLE = re.compile(r"^ +(nptcs .*?)(?:  .*)?$", re.MULTILINE)
-PLACEHOLDER = re.compile(r"…|\bCOMMAND\b|\.\.\.")
+PLACEHOLDER = re.compile(r"…|\bCOMMAND\b|\.\.\.|-jN\b")
 
 
 def in_blocks(text: str, only_run: bool = False) -> list[str]:
@@ -52,10 +53,30 @@ def fault(command: str) -> str | None:
 
 
 def nptcs(arguments: list[str]) -> str | None:
-    """Ask the parser of the command line."""
+    """Ask the parser of the command line, but not whether files exist."""
+    from nptcs.errors import InputError
+
+    try:
+        return _refusal(_parser().parse_args, arguments)
+    except InputError as error:
+        return str(error)
+
+
+def _parser() -> argparse.ArgumentParser:
+    """Return the parser of the command line, which takes the names of files as they are."""
     from nptcs.cli import build_parser
 
-    return _refusal(build_parser().parse_args, arguments)
+    parser = build_parser()
+    waiting: list[argparse.ArgumentParser] = [parser]
+    while waiting:
+        for action in waiting.pop()._actions:
+            if isinstance(action, argparse._SubParsersAction):
+                waiting += action.choices.values()
+            elif "nptcs.arguments" in getattr(action.type, "__module__", "") and re.match(
+                r"existing_|output_|_card", action.type.__qualname__
+            ):
+                action.type = str
+    return parser
 
 
 def fault_of_name(command: str) -> str | None:
@@ -63,10 +84,8 @@ def fault_of_name(command: str) -> str | None:
     why = fault(command)
     if why is None or not re.search(r"arguments are required|expected one argument", why):
         return why
-    from nptcs.cli import build_parser
-
     _, name, *arguments = shlex.split(command)
-    (subparsers,) = build_parser()._subparsers._group_actions
+    (subparsers,) = _parser()._subparsers._group_actions
     options = subparsers.choices[name]._option_string_actions
     unknown = [word for word in arguments if word.startswith("-") and word not in options]
     return f"nptcs {name} has no option {unknown}" if unknown else None

@@ -41,6 +41,10 @@ NOT_RUN = {
     "nptcs new-sheet raw_data/my_lab --fill 'T90: test=tension material=cfrp' --fill "
     "'S45: test=shear material=cfrp orientation_deg=45'": "the tutorial runs it with all series",
     "pip install snakemake-executor-plugin-cluster-generic": "changes the environment of the tests",
+    "nptcs run": DEFAULT_STUDY,
+    "nptcs run --cores 4 --configfile config/joint.yaml": DEFAULT_STUDY,
+    "nptcs run --dry-run": "tests/unit/commands/test_run_command.py tests it",
+    "nptcs run --configfile config/mine.yaml": "needs the laboratory's own files",
     "pip install pre-commit": "changes the environment that runs the tests",
     "pre-commit install": "writes into the repository",
     "nptcs deck results/4_design/rubber.csv rubber_013 --solver abaqus --card "
@@ -51,6 +55,8 @@ NOT_RUN = {
     "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
     "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "an hour of finite elements",
     "nptcs design --target 'K=300±5@5000' --minimise plate_mass --confirm": DEFAULT_STUDY,
+    "nptcs compare ../march .": "tests/unit/runs/test_compare_runs.py runs it on runs of its own",
+    "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx": "as above",
     "nptcs verify study.zip --rerun again": "tests/workflow/test_elsewhere.py runs it",
     "pip install -c constraints.txt 'nptcs[slurm]'": "changes the environment that runs the tests",
     "snakemake --workflow-profile profiles/slurm": "needs Slurm: tests/slurm/cluster.py runs it",

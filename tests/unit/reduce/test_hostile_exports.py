@@ -105,6 +105,9 @@ EARLY = slice(60, LOADED + AFTER)
         ("the same, turned by the sheet",
          one(**{"Transverse strain [%]": 30 * STRAIN}), {"transverse_factor": -1},
          ALL | {"poisson_ratio": 0.3}, "multiplied by -1"),
+        ("a transverse gauge that comes off",
+         one(**{"Transverse strain [%]": np.where(STRAIN < 0.0048, -30 * STRAIN, 0.0)}), {},
+         ALL | {"poisson_ratio": 0.3}, ""),
         ("a camera whose second strain grows, too",
          both({"Time_0 [s]": FRAMES, "exx [1]": SEEN, "eyy [1]": 0.3 * SEEN}),
          {"strain_file": "b.csv"}, ALL | {"poisson_ratio": None}, "left out"),
@@ -134,6 +137,23 @@ EARLY = slice(60, LOADED + AFTER)
         ("units in the head only",
          {"a.csv": text_of({"Time": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN},
                            ["Force unit: kN", "Unit of strain: %", "Einheit Time: s"])},
+         {}, ALL, ""),
+        ("a strain next to a travel, in a format that names only the travel",
+         {"a.csv": text_of({"Name": ["1_1"] * len(TIME), "Time": TIME, "Force": FORCE / 1000,
+                            "Stroke": 0.02 * TIME, "Strain_Ext": 100 * STRAIN})
+          .replace("Strain_Ext\n", "Strain_Ext\n,Sec,kN,mm,%\n")}, {}, ALL, ""),
+        ("a strain that no name tells next to a travel",
+         {"a.csv": text_of({"Time [s]": TIME, "Load [N]": FORCE, "Crosshead [mm]": 0.02 * TIME,
+                            "Strainmaster 7 [%]": 100 * STRAIN})},
+         {"gauge_length_mm": 100}, {"strength": ALL["strength"]}, "not read as a strain"),
+        ("units in a row of LabVIEW's head",
+         {"a.csv": "LabVIEW Measurement\nSeparator\tTab\n***End_of_Header***\n\n"
+          "Y_Unit_Label\tKilonewtons\tpercent\nDelta_X\t0.1\t0.1\n***End_of_Header***\t\t\n"
+          + text_of({"X_Value": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN}, by="\t")},
+         {}, ALL, ""),
+        ("a row of units with a word before it",
+         {"a.csv": "Test 7\nUnits,s,kN,%\nOperator,Ada\n"
+          + text_of({"Time": TIME, "Force": FORCE / 1000, "Strain": 100 * STRAIN})},
          {}, ALL, ""),
         ("Fortran's exponents",
          {"a.csv": "Time [s],Force [N],Strain [%]\n"

@@ -138,11 +138,20 @@ def test_a_column_has_the_format_of_its_unit(workbook):
 
     assert shown("vertical stiffness [N/mm]") == "#,##0.00"
     assert shown("load [N]") == "#,##0"
-    assert shown("thickness [mm]") == "#,##0.0"
+    assert shown("plate thickness T [mm]") == "#,##0.0"
     surface = workbook["surface_plate"]
     named = {cell.value: cell.column for cell in surface[1]}
     column = named["coefficient, natural [N/mm per unit of the term]"]
     assert surface.cell(2, column).number_format == "0.0000000000E+00"
+
+
+def test_a_number_whose_unit_is_in_its_row_is_shown_by_its_size(workbook):
+    sheet = workbook["ply_constants"]
+    names = [cell.value for cell in sheet[1]]
+    shown = [row[names.index("value")].number_format for row in sheet.iter_rows(min_row=2)]
+    assert shown == ["#,##0", "#,##0"]  # 127742.123 and 2300 MPa
+    rubber = workbook["rubber_constants"]
+    assert rubber.cell(2, names.index("value") + 2).number_format == "#,##0.00"  # 1.25 MPa
 
 
 def test_a_heading_says_rule_and_range(workbook):

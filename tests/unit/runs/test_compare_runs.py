@@ -239,6 +239,11 @@ def test_wrong_arguments_are_refused_before_anything_is_read(options, tmp_path, 
     assert options[0] in capsys.readouterr().err
 
 
+def test_a_run_that_does_not_exist_is_refused(march, tmp_path, capsys):
+    assert main(["compare", str(march), str(tmp_path / "none")]) == 2
+    assert "this run does not exist" in capsys.readouterr().err
+
+
 def test_a_run_without_identity_is_compared_and_that_is_said(march, tmp_path):
     older = write_run(tmp_path, C10, MARKS, identified=False)
     done = both(march, older)
@@ -336,6 +341,8 @@ def test_another_code_or_configuration_is_another_identity(march, tmp_path):
     assert again.identity == one.identity
     assert again.made != one.made
     assert other.identity != one.identity
+    named = {**configuration(), "report": {"title": "Another title"}}
+    assert identify_run(tmp_path / "run" / "results", named).identity == one.identity
 
 
 def test_identities_of_two_campaigns_differ(march, april):

@@ -2,7 +2,8 @@
 
 A spoke's energy divided by its rubber's C10 depends on the number of its plates and on their
 stiffness divided by C10. For the laminate [+A/-A] that stiffness is T E(A) in stretch and T³ E(A)
-in bending; the process takes both as logarithms, next to the four design variables.
+in bending; the process takes both as logarithms, next to the four design variables. The number of
+plates and the thickness enter as powers, and so as logarithms, too.
 """
 
 from __future__ import annotations
@@ -28,16 +29,16 @@ def spoke_features(designs: Array, ply: Mapping[str, float]) -> Array:
     Returns
     -------
     array (n, 6)
-        Plates, log T, A, log C10, log(T³ E_free/C10) with the modulus of the ply that may contract
-        and shear, log(T E_held/C10) with that of the ply that may not (lamination theory: 1/S̄11 and
-        Q̄11).
+        Log plates, log T, A, log C10, log(T³ E_free/C10) with the modulus of the ply that may
+        contract and shear, log(T E_held/C10) with that of the ply that may not (lamination
+        theory: 1/S̄11 and Q̄11).
     """
     plates, thickness, angle, c10 = designs.T
     stiffness = np.array([rotated_stiffness(ply, degrees) for degrees in angle])
     held, free = stiffness[:, 0, 0], 1.0 / np.linalg.inv(stiffness)[:, 0, 0]
     return np.stack(
         [
-            plates,
+            np.log(plates),
             np.log(thickness),
             angle,
             np.log(c10),

@@ -13,6 +13,9 @@ TEXTS = {
     "cp1252": "Prüfzeit (s)\tKraft (N)\tDehnung (%)",
     "cp1250": "Czas (s)\tSiła (N)\tOdkształcenie (%)",
     "gb18030": "时间(s)\t力(N)\t应变(%)",
+    "cp1251": "Время (s)\tНагрузка (N)\tДеформация (%)",
+    "cp932": "時間 (s)\t荷重 (N)\tひずみ (%)",
+    "cp949": "시간 (s)\t하중 (N)\t변형률 (%)",
 }
 
 

@@ -9,17 +9,15 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from nptcs.arguments import add_command, number, output_file
+from nptcs.ranges import Range
+from nptcs.text_table import text_table
+
 if TYPE_CHECKING:
     from nptcs.runs.compare import ComparedRuns
     from nptcs.runs.finished import FinishedRun
     from nptcs.runs.part import Part
 
-EXAMPLE = """examples:
-  nptcs compare ../march .                         two project folders
-  nptcs compare march.zip april.zip                two archives of 'nptcs archive'
-  nptcs compare march.zip . --page changes.html --workbook changes.xlsx
-
-Exit code: 0 no difference, 1 the runs differ, 2 they cannot be compared."""
 MOST_ROWS = 12
 """Rows of a table that the terminal shows; page, workbook and JSON have them all."""
 
@@ -68,30 +66,37 @@ SHOWN = {
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
     """Declare the command."""
-    parser = subparsers.add_parser(
+    parser = add_command(
+        subparsers,
         "compare",
-        help="compare two finished runs: two campaigns, configurations or versions",
-        description="Compares inputs, material constants, stiffness, ranking, decisions, "
-        "configuration, software and every table of two finished runs.",
-        epilog=EXAMPLE,
-        formatter_class=argparse.RawDescriptionHelpFormatter,
+        "compare two finished runs: two campaigns, configurations or versions",
+        "Compares inputs, material constants, stiffness, ranking, decisions, configuration, "
+        "software and every table of two finished runs. Exit code: 0 no difference, 1 the runs "
+        "differ or something could not be compared, 2 they cannot be compared.",
+        "nptcs compare ../march .",
+        "nptcs compare march.zip april.zip",
+        "nptcs compare march.zip . --page changes.html --workbook changes.xlsx",
     )
     what = "project folder, folder of results, or archive of 'nptcs archive'"
     parser.add_argument("a", metavar="A", help=f"the first run: {what}")
     parser.add_argument("b", metavar="B", help="the second run, likewise")
-    parser.add_argument("--page", type=Path, metavar="FILE", help="write an HTML page")
-    parser.add_argument("--workbook", type=Path, metavar="FILE", help="write a workbook (.xlsx)")
+    parser.add_argument(
+        "--page", type=output_file(".html"), metavar="FILE.html", help="write an HTML page"
+    )
+    parser.add_argument(
+        "--workbook", type=output_file(".xlsx"), metavar="FILE.xlsx", help="write a workbook"
+    )
     parser.add_argument("--json", action="store_true", help="print JSON for programs")
     parser.add_argument(
         "--k",
-        type=float,
+        type=number(Range(0, open_low=True)),
         default=2.0,
         help="coverage factor: a constant differs by more than its uncertainty if |B - A| > k "
         "times the combined standard error; default: %(default)g",
     )
     parser.add_argument(
         "--within",
-        type=float,
+        type=number(Range(0, 1)),
         default=1e-9,
         help="relative difference up to which numbers are the same; default: %(default)g",
     )
@@ -100,8 +105,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the comparison; 1 if anything differs or could not be compared."""
-    refuse_arguments(arguments)
     from nptcs.runs.compare import compare_runs
+
+    for given in (arguments.a, arguments.b):
+        refuse_missing(given)
 
     with ExitStack() as stack:
         a, b = (open_run(Path(given), stack) for given in (arguments.a, arguments.b))
@@ -111,25 +118,14 @@ def run(arguments: argparse.Namespace) -> int:
     return 0 if done.same else 1
 
 
-def refuse_arguments(arguments: argparse.Namespace) -> None:
-    """Refuse what is wrong before anything is read."""
+def refuse_missing(given: str) -> None:
+    """Refuse a run that does not exist, before the other one is read."""
     from nptcs.errors import InputError
 
-    if not arguments.k > 0:
-        raise InputError("must be more than 0", "give 2 or 3", column="--k", value=arguments.k)
-    if not 0 <= arguments.within < 1:
-        remedy = "give a relative difference such as 1e-9"
-        raise InputError("must be from 0 to 1", remedy, column="--within", value=arguments.within)
-    for name, ending in (("page", ".html"), ("workbook", ".xlsx")):
-        file = getattr(arguments, name)
-        if file is not None and file.suffix != ending:
-            remedy = f"name a file that ends in {ending}"
-            raise InputError("is another kind of file", remedy, column=f"--{name}", value=file)
-    for given in (arguments.a, arguments.b):
-        if not Path(given).exists():
-            raise InputError(
-                "this run does not exist", "name a folder or an archive of 'nptcs archive'", given
-            )
+    if not Path(given).exists():
+        raise InputError(
+            "this run does not exist", "name a folder or an archive of 'nptcs archive'", given
+        )
 
 
 def open_run(given: Path, stack: ExitStack) -> FinishedRun:
@@ -207,8 +203,14 @@ def _part_lines(part: Part) -> list[str]:
         if name == "result" or not changed[name].map(_cell).eq("").all()
     ]
     if not changed.empty:
-        rows = [[_cell(row[name]) for name in columns] for row in _rows(part)[:MOST_ROWS]]
-        lines += _table([[name.replace("_", " ") for name in columns], *rows])
+        rows = _rows(part)[:MOST_ROWS]
+        numeric = [all(_is_number(row[name]) for row in rows) for name in columns]
+        table = text_table(
+            [name.replace("_", " ") for name in columns],
+            [[_cell(row[name]) for name in columns] for row in rows],
+            numeric,
+        )
+        lines += [f"  {line}" for line in table.splitlines()]
     if len(changed) > MOST_ROWS:
         lines.append(f"  … and {len(changed) - MOST_ROWS} more")
     return lines
@@ -219,13 +221,8 @@ def _rows(part: Part) -> list[dict[str, Any]]:
     return [{str(key): value for key, value in row.items()} for row in records]
 
 
-def _table(rows: list[list[str]]) -> list[str]:
-    widths = [max(len(row[place]) for row in rows) for place in range(len(rows[0]))]
-    return [
-        "  "
-        + "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
-        for row in rows
-    ]
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float)
 
 
 def _cell(value: object) -> str:

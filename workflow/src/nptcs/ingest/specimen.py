@@ -29,7 +29,7 @@ from nptcs.ingest.conditioning.steps import (
     zero_force,
 )
 from nptcs.ingest.conditioning.strain_origin import correct_origin
-from nptcs.ingest.conditioning.strains import NO_STRAIN, resolve_strains
+from nptcs.ingest.conditioning.strains import NO_STRAIN, flag_unread_strains, resolve_strains
 from nptcs.ingest.conditioning.tare import flag_tare
 from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.profiles import FormatProfile
@@ -106,6 +106,7 @@ def ingest_specimen(
         settings.compliance.compliance_mm_per_n,
         strain.path,
     )
+    flag_unread_strains(signals, strain, source)
     drop_empty_rows(signals, settings.missing_values)
     _require_rows(signals, specimen, strain, source)
     orient(signals, specimen, strain.path, settings.signs, source)

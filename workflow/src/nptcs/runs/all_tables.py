@@ -81,8 +81,8 @@ def _compare(
     largest, place, missing, texts = _values(*pair)
     row |= {"largest_relative_difference": largest, "largest_in": place}
     row |= {"numbers_missing_in_one": ", ".join(missing), "texts_that_differ": ", ".join(texts)}
-    differs = largest > within or missing or texts or any(alone)
-    differs = differs or row["columns_only_a"] or row["columns_only_b"]
+    stray = row["columns_only_a"] or row["columns_only_b"]
+    differs = largest > within or missing or texts or any(alone) or stray
     return {**row, RESULT: Found.DIFFERENT if differs else Found.SAME}
 
 

@@ -9,7 +9,7 @@ from nptcs.runs.constants import K, beyond, compare_constants
 from nptcs.runs.decisions import compare_decisions
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.inputs import compare_inputs
-from nptcs.runs.part import Found, Part
+from nptcs.runs.part import RESULT, Found, Part
 from nptcs.runs.ranking import compare_ranking
 from nptcs.runs.settings import compare_configuration, compare_software
 from nptcs.runs.stiffness import SUMMARY, compare_stiffness, stiffness_summary
@@ -72,11 +72,15 @@ class ComparedRuns:
 
     def _inputs(self) -> str:
         part = self.part("inputs")
-        changed = part.differences["file"].tolist()
-        if not changed:
-            return "All input files are the same."
+        if part.differences.empty:
+            return "All known input files are the same."
+        both = part.table[RESULT] == Found.DIFFERENT
+        changed = part.table.loc[both, "file"].tolist()
+        alone = len(part.differences) - len(changed)
         shown = ", ".join(changed[:6]) + (f" and {len(changed) - 6} more" * (len(changed) > 6))
-        return f"{len(changed)} of {len(part.table)} input files differ: {shown}."
+        words = [f"{len(changed)} of {len(part.table)} input files have other content: {shown}"]
+        words = words if changed else []
+        return "; ".join([*words, *([f"{alone} files are in one run only"] if alone else [])]) + "."
 
     def _constants(self) -> str:
         part = self.part("constants")
@@ -99,9 +103,9 @@ class ComparedRuns:
         changed = summary.differences.dropna(subset=["largest_percent"])
         if changed.empty:
             return "" if len(summary.differences) else "The stiffness of every case is the same."
-        worst = changed.loc[changed["largest_percent"].abs().idxmax()]
+        worst = changed.iloc[int(changed["largest_percent"].abs().to_numpy(float).argmax())]
         cases = self.part("stiffness").table
-        number = int((cases["result"] == Found.DIFFERENT).sum())
+        number = int((cases[RESULT] == Found.DIFFERENT).sum())
         return (
             f"The stiffness of {number} of {len(cases)} cases differs, most in case "
             f"{worst['largest_case']} by solver {worst['solver']}: {worst['largest_percent']:+.2f} "
@@ -134,8 +138,7 @@ def compare_runs(
         compare_software(a, b),
         compare_tables(a, b, within),
     )
-    cards = [*a.card.plies.values(), *a.card.rubbers.values()]
-    cards += [*b.card.plies.values(), *b.card.rubbers.values()]
+    cards = [card for run in (a, b) for card in (run.card.plies, run.card.rubbers)]
     identities = a.identity, b.identity
     return ComparedRuns(
         a=a.what(),
@@ -143,7 +146,7 @@ def compare_runs(
         parts=parts,
         same_identity=None not in identities
         and len({one.identity for one in identities if one}) == 1,
-        synthetic=any(card.synthetic for card in cards),
+        synthetic=any(one.synthetic for card in cards for one in card.values()),
         k=k,
         within=within,
     )

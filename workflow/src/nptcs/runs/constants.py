@@ -39,13 +39,8 @@ COLUMNS = (
     "note",
 )
 HEADINGS = {
-    "a": Heading("A", "unit of the row"),
-    "standard_error_a": Heading("standard error A", "unit of the row"),
-    "b": Heading("B", "unit of the row"),
-    "standard_error_b": Heading("standard error B", "unit of the row"),
-    "difference": Heading("B − A", "unit of the row"),
+    "difference": Heading("B − A"),
     "difference_percent": Heading("B − A", "%"),
-    "combined_standard_error": Heading("combined standard error", "unit of the row"),
     "difference_over_error": Heading("|B − A| / combined"),
 }
 Card = PlyCard | RubberCard

@@ -16,6 +16,9 @@ from nptcs.config.base import Strict
 from nptcs.files import sha256_of_text
 from nptcs.tables.run_columns import TIMES
 
+WORDS_ONLY = ("laboratory", "report")
+"""Sections of the configuration that decide how a run is shown, and none of its numbers."""
+
 SHORT = 12
 """Digits by which a person names a run."""
 
@@ -25,7 +28,9 @@ class RunIdentity(Strict):
 
     identity: str = Field(description="SHA-256 over inputs, configuration, code and tables")
     inputs: dict[str, str] = Field(description="SHA-256 of each input file")
-    configuration: str = Field(description="SHA-256 of the configuration, defaults included")
+    configuration: str = Field(
+        description="SHA-256 of the configuration, defaults included, without what is only shown"
+    )
     code: str = Field(description="Hash of the code that made the tables")
     tables: dict[str, str] = Field(
         description="Hash of each table and of the material card, columns with times left out"
@@ -61,7 +66,7 @@ def identify(
     inputs : mapping of str to str
         SHA-256 of each input file by its name.
     configuration : mapping
-        The whole configuration, plain values.
+        The whole configuration, plain values; `WORDS_ONLY` is left out of the identity.
     code : str
         Hash of the code that made the tables.
     tables : mapping of str to str
@@ -84,7 +89,8 @@ def identify(
     >>> one.identity == later.identity, one.identity == other.identity
     (True, False)
     """
-    settings = sha256_of_text(json.dumps(configuration, sort_keys=True, ensure_ascii=False))
+    deciding = {key: value for key, value in configuration.items() if key not in WORDS_ONLY}
+    settings = sha256_of_text(json.dumps(deciding, sort_keys=True, ensure_ascii=False))
     parts = {
         "inputs": dict(inputs),
         "configuration": settings,

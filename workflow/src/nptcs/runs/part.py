@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -52,8 +53,10 @@ class Part:
 
     @property
     def differences(self) -> pd.DataFrame:
-        """The rows that are not the same in both runs."""
-        return self.table[self.table[RESULT] != Found.SAME]
+        """The rows that are not the same in both runs, those with two values first."""
+        rows = self.table[self.table[RESULT] != Found.SAME]
+        order = rows[RESULT].map(list(Found).index)
+        return rows.loc[order.sort_values(kind="stable").index] if len(rows) else rows
 
     @property
     def same(self) -> bool:
@@ -104,7 +107,7 @@ def percent(one: float, two: float) -> float:
     return float((two - one) / abs(one) * 100.0)
 
 
-def as_number(value: object) -> float:
+def as_number(value: Any) -> float:
     """Return a number; NaN for nothing."""
     return float("nan") if value is None or pd.isna(value) else float(str(value))
 

@@ -20,13 +20,7 @@ COLUMNS = (
     "rank_b",
     "note",
 )
-HEADINGS = {
-    "impact_a": Heading("impact A", "unit of the row"),
-    "impact_b": Heading("impact B", "unit of the row"),
-    "difference_percent": Heading("B − A", "%"),
-    "rank_a": Heading("rank A"),
-    "rank_b": Heading("rank B"),
-}
+HEADINGS = {"difference_percent": Heading("B − A", "%")}
 
 
 def compare_ranking(a: FinishedRun, b: FinishedRun, within: float) -> Part:

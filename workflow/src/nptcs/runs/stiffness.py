@@ -27,15 +27,15 @@ COLUMNS = (
     "solver",
     "case_a",
     "case_b",
-    "design_a",
-    "design_b",
-    "load_n",
     "stiffness_a_n_per_mm",
     "stiffness_b_n_per_mm",
     "difference_n_per_mm",
     "difference_percent",
     "status_a",
     "status_b",
+    "load_n",
+    "design_a",
+    "design_b",
     "note",
 )
 SUMMARY_COLUMNS = (
@@ -53,11 +53,10 @@ SUMMARY_COLUMNS = (
     "only_b",
 )
 HEADINGS = {
-    "stiffness_a_n_per_mm": Heading("stiffness A", "N/mm"),
-    "stiffness_b_n_per_mm": Heading("stiffness B", "N/mm"),
     "difference_n_per_mm": Heading("B − A", "N/mm"),
     "difference_percent": Heading("B − A", "%"),
 }
+
 Row = dict[str, Any]
 
 
@@ -100,7 +99,7 @@ def stiffness_summary(part: Part) -> Part:
         found = cases[RESULT].value_counts()
         change = cases.dropna(subset=["difference_percent"])
         sizes = change["difference_percent"].abs()
-        largest = change.loc[sizes.idxmax()] if len(change) else None
+        largest = change.iloc[int(sizes.to_numpy().argmax())] if len(change) else None
         same = found.get(Found.SAME, 0) == len(cases)
         rows.append(
             {
@@ -183,7 +182,7 @@ def _keyed(table: pd.DataFrame, factors: list[str], by_id: bool) -> dict[tuple[A
     return found
 
 
-def _value(value: object) -> object:
+def _value(value: Any) -> float | None:
     """Return a factor's value such that equal ones compare as equal."""
     return None if value is None or pd.isna(value) else float(f"{as_number(value):.12g}")
 

@@ -364,6 +364,7 @@ TABLES: dict[str, ResultTable] = {
         "the first case that neutral_line_cases names, solved again for the motions of its spokes",
         section=ReportSection.TYRE,
         synthetic=SyntheticBy.ROWS,
+        raw=True,
     ),
     "plate_stress.csv": ResultTable(
         PlateStress,

@@ -64,9 +64,13 @@ def settle_transverse(signals: Signals, specimen: Specimen, columns: Mapping[str
 
 
 def _ratio(force: Array, axial: Array, transverse: Array) -> float | None:
-    """Slope of the transverse on the axial strain up to the largest force; None if not measured."""
+    """Slope of the transverse on the axial strain; None if not measured.
+
+    Up to half of the largest strain before the largest force: a gauge may leave later.
+    """
     rows = np.arange(len(force)) <= int(np.nanargmax(np.abs(force)))
     rows &= np.isfinite(axial) & np.isfinite(transverse)
+    rows &= np.abs(axial) <= 0.5 * np.abs(axial[rows]).max(initial=0.0)
     if rows.sum() < 3 or not np.ptp(axial[rows]):
         return None
     return line_slope(axial[rows], transverse[rows])

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -10,7 +11,9 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest, line_slope
+from nptcs.ingest.reading.column_names import OVER_LENGTH
 from nptcs.ingest.reading.profiles import normalise
+from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.tables.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
@@ -75,6 +78,24 @@ def resolve_strains(
     elif source == "unspecified":
         signals.flags.append("the file does not say what measured the strain")
     return source
+
+
+_STRAIN_WORD = re.compile(
+    r"strain|dehnung|extensom|d[ée]formation|deformaci|deforma[cç]|odkszta|деформац|应变|歪|ひずみ|変形"
+)
+
+
+def flag_unread_strains(signals: Signals, table: RawFile, source: str) -> None:
+    """Flag columns named after a strain that were not read, where only travel was."""
+    if source not in ("crosshead", NO_STRAIN):
+        return
+    read = set(table.columns.values())
+    named = [n for n in table.names if n not in read and _STRAIN_WORD.search(n.casefold())]
+    unread = [name for name in named if not OVER_LENGTH.search(name.casefold())]
+    if unread:
+        signals.flags.append(
+            f"not read as a strain: {', '.join(map(repr, unread))} (a profile can name it)"
+        )
 
 
 def _single(

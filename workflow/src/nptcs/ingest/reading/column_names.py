@@ -58,7 +58,12 @@ def map_columns(
                 continue
             wanted = {str(name) for name in known.columns} - set(mapped)
             if known is not profile or part is not _whole:
-                wanted &= _lacking(mapped, columns, own=known is profile)
+                lacking = _lacking(mapped, columns, own=known is profile)
+                # a column called a strain is one, also next to a travel
+                lacking |= (
+                    {"strain"} if not set(STRAINS) & set(mapped) and part is _whole else set()
+                )
+                wanted &= lacking
             _map_names(mapped, wanted, columns, known, part, path, found_table)
     order = [*profile.columns, *(plain.columns if plain is not None else ())]
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
@@ -128,7 +133,7 @@ _BY_UNIT = {
     "force": "stress",
     "stress": "force",
 }
-_OVER_LENGTH = re.compile(r"strain.*\((?:extension|displacement|crosshead|stroke|position)\)")
+OVER_LENGTH = re.compile(r"strain.*\((?:extension|displacement|crosshead|stroke|position)\)")
 """Bluehill's ``Tensile strain (Extension)``: travel over the gauge length."""
 _TRAVEL = re.compile(
     r"crosshead|travel|travers|position|stroke|course|weg\b|carrera|corsa|ход|行程"
@@ -148,7 +153,7 @@ def by_unit(mapped: dict[str, Column], profile: FormatProfile, found_table: Foun
     """
     source = ""
     if not {*STRAINS, "displacement"} & set(mapped):
-        over_length = [c for c in found_table.columns if _OVER_LENGTH.search(normalise(c.name))]
+        over_length = [c for c in found_table.columns if OVER_LENGTH.search(normalise(c.name))]
         if len(over_length) == 1:
             mapped["strain"], source = over_length[0], "crosshead"
     for quantity, other in _BY_UNIT.items():

@@ -15,7 +15,7 @@ BYTE_ORDER_MARKS = {
     codecs.BOM_UTF16_LE: "utf-16",
     codecs.BOM_UTF16_BE: "utf-16",
 }
-CANDIDATES = ("cp1252", "cp1250", "cp1251", "gb18030", "cp932")
+CANDIDATES = ("cp1252", "cp1250", "cp1251", "gb18030", "cp932", "cp949")
 """Encodings of test machines that are not UTF-8; all agree on digits and separators."""
 _GUESSED = ("cp1252", "cp1250", "gb18030")
 """Those that a detector may choose where no known word tells."""

@@ -15,6 +15,7 @@ _KEY = re.compile(
 )
 _SPLIT = re.compile(r"\s*[:=;\t,]\s*")
 _ROWS = 60
+_ROW_OF_UNITS = ("y unit label", "units", "unit", "einheiten", "einheit", "unités", "unites")
 
 
 def add_units_of_head(test: Test) -> None:
@@ -32,12 +33,31 @@ def add_units_of_head(test: Test) -> None:
         return
     stated: dict[str, str] = {}
     for row in range(max(0, last - _ROWS), last):
+        _take_row(test, row)
         text = ";".join(cell for cell in test.source.cells(row) if cell)
         parts = [part for part in _SPLIT.split(text) if part]
         key = _KEY.match(normalise(parts[0])) if len(parts) == 2 else None
         if key and is_unit(parts[1]):
             stated[key["before"] or key["after"]] = clean_unit(parts[1])
-    for column in lacking:
+    for column in (one for one in lacking if not one.unit):
         if unit := stated.get(normalise(column.name)):
             column.unit = unit
             found_table.notes.append(f"column '{column.name}': unit {unit} by the head")
+
+
+def _take_row(test: Test, row: int) -> None:
+    """Take the units of a row ``Y_Unit_Label, N, %``.
+
+    Each stands in the place of its column, or behind the word if there are as many as columns.
+    """
+    key, *cells = [cell.strip() for cell in test.source.cells(row)] or [""]
+    if normalise(key) not in _ROW_OF_UNITS:
+        return
+    while cells and not cells[-1]:
+        cells.pop()
+    first = 0 if len(cells) == test.found_table.width else 1
+    for column in test.found_table.columns:
+        place = column.position - first
+        unit = cells[place] if 0 <= place < len(cells) else ""
+        if unit and not column.unit and is_unit(unit):
+            column.unit = clean_unit(unit)

@@ -13,6 +13,7 @@ from nptcs.config.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.cells import CellSource, TextSource
 from nptcs.ingest.reading.clock import PlainLines
+from nptcs.ingest.reading.column_names import STRAINS
 from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.head_units import add_units_of_head
@@ -124,13 +125,17 @@ def read_raw(
     tables: list[RawFile] = []
     errors: list[InputError] = []
     for plain in (None, profiles[PLAIN]):
-        for profile in fitting if not tables else ():
+        if any(set(STRAINS) & set(table.values) or role == "force" for table in tables):
+            break
+        found: list[RawFile] = []
+        for profile in fitting:
             again = open_file(path, profiles, profile, limits) if profile.encoding else opened
             try:
                 table = _read(again, profile, plain, (reason,), part, specimen, role, detected=True)
-                tables.append(table)
+                found.append(table)
             except InputError as error:
                 errors.append(error)
+        tables = found or tables
     if not tables:
         raise errors[0]
     if len({_reading(table) for table in tables}) > 1:

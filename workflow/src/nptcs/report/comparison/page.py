@@ -48,7 +48,7 @@ def comparison_page(done: ComparedRuns) -> str:
 def differing(part: Part, synthetic: bool) -> TableView | None:
     """Return the rows of a part that differ; none if there are none."""
     sheet = part_sheet(part, synthetic)
-    rows = sheet.table[part.table.index.isin(part.differences.index)]
+    rows = sheet.table.loc[part.differences.index]
     if rows.empty:
         return None
     view = table_view(rows.iloc[:MOST_ROWS], sheet.entry, mark=mark_row, whole=True)

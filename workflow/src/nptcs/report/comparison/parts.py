@@ -5,20 +5,40 @@ from __future__ import annotations
 import pandas as pd
 
 from nptcs.report.tables.entries import Entry
+from nptcs.report.tables.headings import heading
 from nptcs.report.tables.row_classes import Row
 from nptcs.report.tables.sheets import Sheet
 from nptcs.runs.part import RESULT, Found, Part
+from nptcs.tables.result_table import Heading
 
 TITLE = "Comparison of two runs"
 
 
 def part_sheet(part: Part, synthetic: bool) -> Sheet:
     """Return a part as a table of the report: rows that differ are marked."""
-    entry = Entry(
-        part.name, part.title, "(this comparison)", "nptcs compare", part.about, part.headings
-    )
+    columns = map(str, part.table.columns)
+    sides = {name: side for name in columns if (side := side_heading(name)) is not None}
+    headings = {**sides, **part.headings}
+    entry = Entry(part.name, part.title, "(this comparison)", "nptcs compare", part.about, headings)
     table = part.table.assign(**{RESULT: part.table[RESULT].map(str)})
     return Sheet(entry, table.astype(_numbers(table)), mark_row, synthetic)
+
+
+def side_heading(column: str) -> Heading | None:
+    """Write the heading of a column that holds the values of one run, with a capital A or B.
+
+    Examples
+    --------
+    >>> side_heading("stiffness_a_n_per_mm"), side_heading("b"), side_heading("note")
+    (Heading(name='stiffness A', unit='N/mm'), Heading(name='B', unit=''), None)
+    """
+    words_of = column.split("_")
+    side = next((letter for letter in ("a", "b") if letter in words_of), None)
+    if side is None:
+        return None
+    rest = "_".join(word for word in words_of if word != side)
+    written = heading(rest)
+    return Heading(f"{written.name} {side.upper()}".strip(), written.unit)
 
 
 def _numbers(table: pd.DataFrame) -> dict[str, type[float]]:

@@ -63,7 +63,7 @@ def _write_summary(sheet: Worksheet, done: ComparedRuns) -> None:
         cell.font = LINK
         for column in range(1, 5):
             sheet.cell(place, column).alignment = WRAPPED
-    for column, width in WIDTHS.items():
-        sheet.column_dimensions[column].width = width
+    for letter, width in WIDTHS.items():
+        sheet.column_dimensions[letter].width = width
     fit_heights(sheet, row + 1, sheet.max_row)
     page_for_print(sheet, None)

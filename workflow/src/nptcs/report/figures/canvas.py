@@ -8,17 +8,18 @@ run into each other.
 from __future__ import annotations
 
 import io
-import re
 from typing import Any, TextIO
 
 from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
 from matplotlib.font_manager import FontProperties
 
-WIDE = re.compile("[\u2e80-\u9fff\uac00-\ud7af\uf900-\ufaff\uff00-\uffef]")
-"""Characters as wide as they are high: Chinese, Japanese and Korean, with their punctuation."""
+from nptcs.report.text import is_wide
 
-AS_WIDE = "W"
-"""A letter of that width in the font of the layout."""
+AS_WIDE = "\N{EM DASH}"
+"""As wide as a Chinese character, in the font of the layout."""
+
+AS_HIGH = "Åg"
+"""A dash is low; a Chinese character is as high as a capital with its accent."""
 
 POINTS_PER_INCH = 72.0
 
@@ -30,10 +31,11 @@ class WideRenderer(RendererSVG):
         self, s: str, prop: FontProperties, ismath: Any
     ) -> tuple[float, float, float]:
         """Return width, height and descent of a text, in points."""
-        measured: tuple[float, float, float] = super().get_text_width_height_descent(
-            WIDE.sub(AS_WIDE, s), prop, ismath
-        )
-        return measured
+        text = "".join(AS_WIDE if is_wide(letter) else letter for letter in s)
+        width, height, descent = super().get_text_width_height_descent(text, prop, ismath)
+        if text != s:
+            _, height, descent = super().get_text_width_height_descent(AS_HIGH, prop, ismath)
+        return width, height, descent
 
 
 class WideCanvas(FigureCanvasSVG):

@@ -115,7 +115,7 @@ def deformed_tyre(
         Whether the materials are synthetic.
     """
     figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 3.7 if near else 4.7))
-    ground = float(outlines["y_mm"].min())
+    ground, solver = float(outlines["y_mm"].min()), str(outlines["solver"].iloc[0])
     if near:
         around = outlines["x_mm"].abs().lt(WINDOW_MM) & outlines["y_mm"].lt(ground + WINDOW_MM)
         kept = outlines.loc[around, "outline"].unique()
@@ -150,7 +150,7 @@ def deformed_tyre(
     ]
     if near:
         handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before the load")))
-    figure.legend(handles=handles, ncols=3, loc="outside lower center")
+    figure.legend(handles=handles, title=solver, ncols=3, loc="outside lower center")
     places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
     figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))
     mark_synthetic(figure, synthetic)
@@ -194,8 +194,8 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
         Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
     ]
     if compared:
-        paper: dict[str, Any] = {"color": INK, "linestyle": "--", "linewidth": 0.9}
-        handles.append(Line2D([], [], label=tr("paper, largest"), **paper))
+        line = Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest"))
+        handles.append(line)
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

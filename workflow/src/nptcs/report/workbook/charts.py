@@ -36,6 +36,7 @@ MARKS = ("circle", "square", "triangle", "diamond", "star", "x", "plus")
 SIZE_CM = (16.5, 9.0)
 ROWS_EACH, COLUMNS_EACH = 19, 9
 HEADER_ROW = 3
+DATA_WIDTH = 14
 
 
 def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
@@ -65,6 +66,8 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
     page_for_print(sheet, None, f"A1:{get_column_letter(2 * COLUMNS_EACH)}{last}")
     for row in range(3 + 2 * ROWS_EACH, last, 2 * ROWS_EACH):
         sheet.row_breaks.append(Break(id=row))
+    for place in range(1, column):
+        data.column_dimensions[get_column_letter(place)].width = DATA_WIDTH
     data.freeze_panes = data.cell(HEADER_ROW + 2, 1)
     page_for_print(data, HEADER_ROW + 1)
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import ceil
 from textwrap import wrap
 
 from openpyxl.cell import Cell
@@ -14,6 +15,8 @@ from nptcs.report.workbook.number_formats import shown_number
 
 WIDEST = 60
 LINE_HEIGHT = 15.0
+PAGE_WIDTH = 330.0
+"""Characters across a page below which a table is still readable: about 5 points high."""
 
 
 def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
@@ -51,10 +54,18 @@ def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
 
 
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:
-    """Set the pages of a sheet: landscape, as wide as one page, its header on each of them."""
+    """Set the pages of a sheet: landscape, its header on each of them.
+
+    A sheet is as wide as one page; a table that would be too small to read on it is as wide as
+    several, with its first column on each.
+    """
     worksheet.print_area = area or worksheet.dimensions
     worksheet.page_setup.orientation = "landscape"
     worksheet.page_setup.paperSize = worksheet.PAPERSIZE_A4
+    wide = sum(one.width for one in worksheet.column_dimensions.values() if one.customWidth)
+    if header is not None and wide > PAGE_WIDTH:
+        worksheet.page_setup.fitToWidth = ceil(wide / PAGE_WIDTH)
+        worksheet.print_title_cols = "A:A"
     worksheet.page_setup.fitToHeight = 0
     worksheet.sheet_properties.pageSetUpPr.fitToPage = True
     if header is not None:

@@ -15,9 +15,12 @@ from nptcs.report.tables.headings import heading
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.workbook.cells import FILLS, HEADER, SYNTHETIC, write, write_row
 from nptcs.report.workbook.layout import finish_table
-from nptcs.report.workbook.number_formats import format_of_column, format_of_number
+from nptcs.report.workbook.number_formats import BY_ROW, format_of_column, format_of_number
 
 AUTHOR = "nptcs"
+UNIT_COLUMN = "unit"
+"""Column that states the unit of each row, for the numbers whose heading states none."""
+
 COMMENT_SIZE = (360, 190)
 """Width and height of a comment in pixels."""
 
@@ -36,8 +39,9 @@ def write_table(worksheet: Worksheet, sheet: Sheet) -> None:
     """Write one table: header with comments in the first row, then one row per record."""
     names = [str(name) for name in sheet.table.columns]
     headings = [heading(name, sheet.entry.headings) for name in names]
+    by_row = BY_ROW[0] if UNIT_COLUMN in names else ""
     formats = [
-        format_of_column(one.unit, sheet.table[name])
+        format_of_column(one.unit or by_row, sheet.table[name])
         for one, name in zip(headings, names, strict=True)
     ]
     write_row(worksheet, 1, [str(one) for one in headings])
