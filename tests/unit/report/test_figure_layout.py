@@ -5,10 +5,11 @@ from itertools import combinations
 import numpy as np
 import pandas as pd
 import pytest
-from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.text import Text
 from matplotlib.transforms import Bbox
 
+from nptcs.language import language
+from nptcs.report.figures.canvas import WideCanvas
 from nptcs.report.figures.style import data_of, panel, styled
 from nptcs.report.html import render_report
 
@@ -18,12 +19,11 @@ TOUCH_PT = 0.75
 
 def boxes(figure):
     """Text, box (points) and angle of every word that a figure shows."""
-    canvas = FigureCanvasAgg(figure)
-    figure.set_dpi(72)
-    figure.draw(canvas.get_renderer())
+    renderer = WideCanvas(figure).get_renderer()
+    figure.draw(renderer)
     hidden = {id(label) for axes in figure.axes for label in labels_of_no_tick(axes)}
     return [
-        (text.get_text(), text.get_window_extent(), text.get_rotation() % 90)
+        (text.get_text(), text.get_window_extent(renderer), text.get_rotation() % 90)
         for text in figure.findobj(Text)
         if text.get_visible() and text.get_text().strip() and id(text) not in hidden
     ]
@@ -89,9 +89,12 @@ def test_texts_that_cover_each_other_are_found():
     ]
 
 
-@pytest.mark.parametrize("run", ["results", "compared"])
-def test_no_figure_of_the_page_has_text_over_text(run, request, drawn):
-    render_report(request.getfixturevalue(run))
+@pytest.mark.parametrize(
+    ("run", "code"), [("results", "en"), ("compared", "en"), ("compared", "zh")]
+)
+def test_no_figure_of_the_page_has_text_over_text(run, code, request, drawn):
+    with language(code):
+        render_report(request.getfixturevalue(run))
     assert len(drawn) > 15
     found = {figure.axes[0].get_title(loc="left"): bad for bad, _, figure in drawn if bad}
     assert found == {}

@@ -114,7 +114,7 @@ def deformed_tyre(
     synthetic : bool
         Whether the materials are synthetic.
     """
-    figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 3.7 if near else 4.7))
+    figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 3.9 if near else 5.2))
     ground, solver = float(outlines["y_mm"].min()), str(outlines["solver"].iloc[0])
     if near:
         around = outlines["x_mm"].abs().lt(WINDOW_MM) & outlines["y_mm"].lt(ground + WINDOW_MM)
