@@ -256,6 +256,17 @@ def touch_all(folder: Path) -> None:
             path.touch()
 
 
+def own_page(folder: Path) -> None:
+    """Give the report a logo and a template of its own."""
+    (folder / "own").mkdir()
+    svg = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1 1"/>'
+    (folder / "own/logo.svg").write_text(svg, encoding="utf-8")
+    (folder / "own/templates").mkdir()
+    (folder / "own/templates/cover.html.j2").write_text("<h1>Ours</h1>", encoding="utf-8")
+    keys = {"laboratory": {"logo": "own/logo.svg"}, "report": {"templates": "own/templates"}}
+    config(lambda content: content.update(keys))(folder)
+
+
 def titles(content: Any) -> None:
     """Change every word of the studies that only the report prints."""
     for one in content["studies"]:
@@ -356,6 +367,9 @@ CHANGES = [
     Change("table of results deleted", delete("results/tables/impact.csv"), after="tables"),
     Change("report deleted", delete("results/report.html")),
     Change("key that only the report reads", config(lambda c: c.update(report={"title": "Ours"}))),
+    Change("customer and language of the report",
+           config(lambda c: c.update(laboratory={"customer": "Someone", "language": "zh"}))),
+    Change("a logo and a template of the laboratory", own_page),
 ]  # fmt: skip
 
 

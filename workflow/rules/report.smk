@@ -32,7 +32,6 @@ def configured_inputs():
     """Input files that the configuration names; raw laboratory files are listed in files.csv."""
     formats = sorted(Path(CONFIG.lab_data.formats).glob("*.yaml"))
     paths = [str(SHEET), *map(str, formats), *CONFIG.published_inputs()]
-    paths += CONFIG.page_inputs()
     for study in CONFIG.studies:
         for name in study.solvers:
             paths += solver_of(study.name, name).tables().values()
@@ -108,6 +107,11 @@ rule identity:
         "../scripts/identity.py"
 
 
+def page_inputs():
+    """Input files of the report: those that the configuration names, its logo and its templates."""
+    return [*configured_inputs(), *CONFIG.page_inputs()]
+
+
 rule report:
     input:
         tables=TABLES,
@@ -118,7 +122,7 @@ rule report:
         designs=expand("results/4_design/{study}.csv", study=STUDIES),
         surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
         models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
-        inputs=[ancient(path) for path in configured_inputs()],
+        inputs=[ancient(path) for path in page_inputs()],
     output:
         page=report(
             "results/report.html",
@@ -145,7 +149,7 @@ rule report:
                     Path(str(package_files("nptcs.report") / folder)).iterdir()
                 )
             },
-            "inputs": contents(configured_inputs()),
+            "inputs": contents(page_inputs()),
             "language": catalogue_digest(CONFIG.laboratory.language),
             "code": code_of("report", words=True),
         },

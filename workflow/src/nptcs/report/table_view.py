@@ -10,6 +10,7 @@ import pandas as pd
 
 from nptcs.language import tr
 from nptcs.report.blocks import Cell, TableView
+from nptcs.report.flag_words import flag_text
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.names import in_words
@@ -54,6 +55,9 @@ UNCERTAIN_BY = {
     "sd": ("nominal", "mean", "low", "high"),
 }
 """Uncertainty, and columns that are written to the second significant digit of it."""
+
+FLAGS = ("flag", "flags", "not_assessed")
+"""Columns that hold flags."""
 
 WITH_NAMES = frozenset(
     {
@@ -174,7 +178,11 @@ def sheet_view(
 
 def _word(column: str, value: object) -> object:
     """Write a word of a closed set in the language of the run; other values stay as they are."""
-    return tr(value) if column in WORDS and isinstance(value, str) else value
+    if not isinstance(value, str):
+        return value
+    if column in FLAGS:
+        return flag_text(value)
+    return tr(value) if column in WORDS else value
 
 
 def _is_numeric(column: pd.Series) -> bool:

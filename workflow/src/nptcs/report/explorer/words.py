@@ -97,8 +97,8 @@ def page_words() -> dict[str, str]:
         ),
         "profile_refused": tr("{response} against {factor}: no value at this design"),
         "plane": tr("Plane of two factors"),
-        "across": tr("across"),
-        "up": tr("up"),
+        "across": tr("horizontal axis"),
+        "up": tr("vertical axis"),
         "plane_response": tr("shown"),
         "plane_alt": tr(
             "Contour map of {response} over {across} and {up}; {share} % of the plane are inside "

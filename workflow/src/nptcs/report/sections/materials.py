@@ -14,6 +14,7 @@ from nptcs.language import tr
 from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
+from nptcs.report.flag_words import flag_text
 from nptcs.report.plots import plot
 from nptcs.report.sections.key_facts import material_facts
 from nptcs.report.table_view import sheet_view
@@ -32,7 +33,7 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
         sheet_view(sheets[entries.PLY.sheet]),
         sheet_view(sheets[entries.RUBBERS.sheet]),
     ]
-    checks = [f"{card.name}: {check}" for card in results.cards for check in card.checks]
+    checks = [f"{card.name}: {flag_text(check)}" for card in results.cards for check in card.checks]
     if checks:
         blocks.append(Listing(tr("What the checks of the card found"), tuple(checks), "warn"))
     blocks += [

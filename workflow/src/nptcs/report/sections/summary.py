@@ -10,6 +10,7 @@ from nptcs.report.answer.stiffness import stiffness_finding
 from nptcs.report.answer.tests_behind import tests_finding
 from nptcs.report.blocks import Finding, Findings, Listing, PageBlock, Text
 from nptcs.report.data import Results
+from nptcs.report.flag_words import flag_text
 from nptcs.report.sections.refused import all_refused
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets
@@ -59,7 +60,7 @@ def flag_lines(results: Results) -> tuple[str, ...]:
             "{standard}, {count} specimens: {flag} ({names})",
             row["specimens"],
             standard=row["standard"],
-            flag=row["flag"],
+            flag=flag_text(row["flag"]),
             names=row["names"],
         )
         for row in results.table(FlagsTable).to_dict("records")
@@ -94,7 +95,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
         )
     remarks += all_refused(results)
     remarks += [
-        f"{card.name}: {check.removeprefix(WARNING)}"
+        f"{card.name}: {flag_text(check.removeprefix(WARNING))}"
         for card in results.cards
         for check in card.checks
         if check.startswith(WARNING)

@@ -1,0 +1,66 @@
+"""Flags of the tables are written in the language of the page, with the same numbers."""
+
+import ast
+import re
+from pathlib import Path
+
+import pytest
+
+import nptcs
+from nptcs.language import language
+from nptcs.report.flag_words import SENTENCES, flag_text, pattern
+
+ROOT = Path(nptcs.__file__).parent
+
+
+def sentences_of_stages():
+    """Return the texts that the stages make, as patterns whose values are unknown."""
+    found = []
+    for room in ("ingest", "reduce", "calibrate"):
+        for file in sorted((ROOT / room).rglob("*.py")):
+            for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
+                if isinstance(node, ast.JoinedStr):
+                    parts = (
+                        part.value if isinstance(part, ast.Constant) else "1"
+                        for part in node.values
+                    )
+                    found.append("".join(map(str, parts)))
+                elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+                    found.append(node.value)
+    return found
+
+
+@pytest.mark.parametrize("sentence", SENTENCES)
+def test_a_stage_writes_each_sentence(sentence):
+    reason = sentence.removeprefix("not assessed: ").removeprefix("crosshead strain: ")
+    texts = {text.removeprefix("warning: ").removeprefix("1: ") for text in sentences_of_stages()}
+    assert any(pattern(sentence).fullmatch(t) or pattern(reason).fullmatch(t) for t in texts)
+
+
+@pytest.mark.parametrize(
+    ("flag", "chinese"),
+    [
+        (
+            "failure after 0.948 to 0.983 min, ASTM D3039 asks for 1 to 10 min",
+            "0.948 至 0.983 min 后破坏，ASTM D3039 要求 1 至 10 min",
+        ),
+        ("not assessed: the curve reaches 136.4 to 146.7 %", "未评估：曲线只到 136.4 至 146.7 %"),
+        (
+            "width 14.2 mm, ASTM D3039 recommends 15 to 25 mm; width measured at 1 of 3 stations",
+            "宽度 14.2 mm，ASTM D3039 推荐 15 至 25 mm; 宽度只在 3 个位置中的 1 个测量",
+        ),
+        (
+            "another remark; not assessed: no transverse strain",
+            "another remark; 未评估：没有横向应变",
+        ),
+        ("another remark", "another remark"),
+        ("", ""),
+    ],
+)
+def test_a_flag_has_its_numbers_in_both_languages(flag, chinese):
+    assert flag_text(flag) == flag
+    with language("zh"):
+        written = flag_text(flag)
+    assert written == chinese
+    numbers = re.compile(r"\d[\d.]*")
+    assert sorted(numbers.findall(written)) == sorted(numbers.findall(flag))

@@ -1,0 +1,85 @@
+"""Flags and checks that the tables hold in English, in the language of the page.
+
+A table is the same in every language, so that its flags are English sentences with numbers in them.
+The page finds the sentence that a flag was made from, and writes its translation with the same
+numbers. A flag of another wording stays as the table has it.
+"""
+
+from __future__ import annotations
+
+import re
+from functools import cache
+
+from nptcs.language import tr, translatable
+
+SENTENCES = (
+    translatable("crosshead strain: the compliance of machine and grips is in it"),
+    translatable("crosshead strain: modulus and strains hold machine and grips"),
+    translatable("source of the strain not stated"),
+    translatable("the file does not say what measured the strain"),
+    translatable("{name} not given, area: {rule}"),
+    translatable("{name} {mean} mm, {standard} recommends {low} to {high} mm"),
+    translatable("{name} measured at {count} of {stations} stations"),
+    translatable("failure after {minutes} min, {standard} asks for {low} to {high} min"),
+    translatable(
+        "the gauge length grows at {speed} mm/min, {standard} (500 mm/min between the grips) "
+        "expects {low} to {high}"
+    ),
+    translatable("{count} of {loadings} loadings, {standard} measures the last"),
+    translatable("chord {words} {value}, {standard} asks for {low} to {high}"),
+    translatable(
+        "strain at the largest force extended from the last {frames} frames before it, by {time}"
+    ),
+    translatable("{frames} of {total} frames have no strain"),
+    translatable("preload and toe not corrected: {reason}"),
+    translatable("slack or long toe: strain {strain} before loading was cut"),
+    translatable("not assessed: the curve reaches {reached}"),
+    translatable("not assessed: no transverse strain"),
+    translatable("not assessed: the curve ends before strain {strain}"),
+    translatable("not assessed: the standard defines no offset strength"),
+    translatable("orthotropic, not transversely isotropic: {detail}"),
+    translatable("transversely isotropic within {tolerance} %: {detail}"),
+)
+"""The sentences, as the stages write them; ``{…}`` stands for what differs."""
+
+SPAN = re.compile(r"^(?P<low>[-+.\de]+) to (?P<high>[-+.\de]+)(?P<unit>.*)$", re.DOTALL)
+"""The lowest and the highest number of flags that are collected into one."""
+
+
+def flag_text(flag: str) -> str:
+    """Write a flag, or several that are joined by semicolons, in the language of the run.
+
+    Examples
+    --------
+    >>> flag_text("not assessed: no transverse strain")
+    'not assessed: no transverse strain'
+    """
+    for sentence in SENTENCES:
+        if found := pattern(sentence).fullmatch(flag):
+            values = {name: _value(text) for name, text in found.groupdict().items()}
+            return tr(sentence, **values)
+    first, semicolon, rest = flag.partition("; ")
+    return f"{flag_text(first)}; {flag_text(rest)}" if semicolon else flag
+
+
+@cache
+def pattern(sentence: str) -> re.Pattern[str]:
+    """Return the pattern of all flags that a sentence makes.
+
+    Examples
+    --------
+    >>> pattern("{frames} of {total} frames").fullmatch("3 of 12 frames").groupdict()
+    {'frames': '3', 'total': '12'}
+    """
+    parts = re.split(r"\{(\w+)\}", sentence)
+    text = "".join(
+        f"(?P<{part}>[^;]+?)" if place % 2 else re.escape(part) for place, part in enumerate(parts)
+    )
+    return re.compile(text)
+
+
+def _value(text: str) -> str:
+    """Write what a sentence holds: a span of numbers, a term, or as it is."""
+    if span := SPAN.fullmatch(text):
+        return tr("{low} to {high}", low=span["low"], high=span["high"]) + span["unit"]
+    return tr(text)
