@@ -6,8 +6,7 @@ from nptcs.campaign.record import read_records
 from nptcs.config.root import read_config
 from nptcs.console import clear_errors
 from nptcs.files import read_model
-from nptcs.responses.deformed_tyre import deformed_tyre
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.responses.deformed_tyre import outlines_of_study
 from nptcs.tables.cases import Design
 from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.io import empty_table, read_table, write_table
@@ -15,16 +14,13 @@ from nptcs.tables.material_card import PlyCard
 
 
 def draw(job: dict[str, Any], config: dict[str, Any], outlines: str, **files: Any) -> None:
-    rows, whole = empty_table(DeformedTyre), read_config(config)
+    rows = empty_table(DeformedTyre)
     if job["study"]:
-        study, options = whole.study(job["study"]), whole.options_of(job["study"], job["solver"])
-        design = read_table(files["design"][0], Design).set_index("case")["case_id"]
-        rows = deformed_tyre(
-            read_records(files["records"]),
-            [design[number] for number in study.neutral_line_cases if number in design],
-            read_options(load(module_of(job["solver"], options)), options),
-            whole.tyre,
-            read_model(files["ply"][0], PlyCard).values(),
+        design = read_table(files["design"][0], Design)
+        ply = read_model(files["ply"][0], PlyCard).values()
+        records = read_records(files["records"])
+        rows = outlines_of_study(
+            read_config(config), job["study"], job["solver"], records, design, ply
         )
     write_table(outlines, rows, DeformedTyre)
 

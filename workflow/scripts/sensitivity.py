@@ -20,8 +20,7 @@ def assess(job: dict[str, Any], impact: str, **files: Any) -> None:
     qualities = read_tables(files["quality_parts"], SurfaceQuality)
     computed = impact_table(surfaces, designs, qualities, job["rules"], job["near_tie_ratio"])
     published = read_tables(files["published"], PublishedImpact)
-    compared = with_published(computed, published, job["refused"])
-    write_table(impact, compared, Impact)
+    write_table(impact, with_published(computed, published, job["refused"]), Impact)
     for name, contract in JOINED.items():
         write_table(files[name], read_tables(files[f"{name}_parts"], contract), contract)
 

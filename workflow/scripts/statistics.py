@@ -6,14 +6,11 @@ from nptcs.config.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.ingest.repeats import counted_once
-from nptcs.reduce.flag_groups import group_flags
-from nptcs.reduce.statistics import group_statistics
+from nptcs.reduce.result_tables import result_tables
 from nptcs.tables.curves import IngestRecord
-from nptcs.tables.flags import FlagsTable
 from nptcs.tables.io import read_tables, write_table
 from nptcs.tables.properties import PropertiesTable
 from nptcs.tables.specimens import Specimen
-from nptcs.tables.statistics import StatisticsTable
 
 
 def summarise(job: dict[str, Any], properties: list[str], records: list[str], **out: str) -> None:
@@ -21,9 +18,8 @@ def summarise(job: dict[str, Any], properties: list[str], records: list[str], **
     specimens = counted_once(sheet, (read_model(file, IngestRecord) for file in records))
     settings = ReductionSettings.model_validate(job["settings"])
     table = read_tables(properties, PropertiesTable)
-    write_table(out["specimens"], table, PropertiesTable)
-    write_table(out["flags"], group_flags(table, settings), FlagsTable)
-    write_table(out["statistics"], group_statistics(table, specimens, settings), StatisticsTable)
+    for name, (made, contract) in result_tables(table, specimens, settings).items():
+        write_table(out[name], made, contract)
 
 
 if __name__ == "__main__":

@@ -152,16 +152,8 @@ def _is_positional(action: argparse.Action) -> bool:
 
 def _positional(action: argparse.Action) -> str:
     """Write a positional argument as it is called: ``FILE``, ``[FILE]`` or ``FILE [FILE ...]``."""
-    word = _value(action)
-    match action.nargs:
-        case "?":
-            return f"[{word}]"
-        case "*":
-            return f"[{word} ...]"
-        case "+":
-            return f"{word} [{word} ...]"
-        case _:
-            return word
+    written = {"?": "[{0}]", "*": "[{0} ...]", "+": "{0} [{0} ...]"}
+    return written.get(str(action.nargs), "{0}").format(_value(action))
 
 
 def _value(action: argparse.Action) -> str:

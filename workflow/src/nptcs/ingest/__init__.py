@@ -10,13 +10,14 @@ from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
     from nptcs.ingest.reading.profiles import load_profiles
-    from nptcs.ingest.specimen import Ingested, ingest_specimen
+    from nptcs.ingest.specimen import Ingested, ingest_or_record, ingest_specimen
 
-__all__ = ["Ingested", "ingest_specimen", "load_profiles"]
+__all__ = ["Ingested", "ingest_or_record", "ingest_specimen", "load_profiles"]
 
 _HOMES = {
     "load_profiles": "nptcs.ingest.reading.profiles",
     "Ingested": "nptcs.ingest.specimen",
+    "ingest_or_record": "nptcs.ingest.specimen",
     "ingest_specimen": "nptcs.ingest.specimen",
 }
 

@@ -31,3 +31,8 @@ def is_kept(curve: str | Path, record: str | Path, made_from: str) -> bool:
     except InputError:
         return False
     return known.made_from == made_from and known.curve_sha256 == sha256_of_file(curve)
+
+
+def made_now(record: IngestRecord, made_from: str, curve: str | Path) -> IngestRecord:
+    """Return a record that says what it and its curve, a file by now, were made from."""
+    return record.model_copy(update={"made_from": made_from, "curve_sha256": sha256_of_file(curve)})

@@ -36,7 +36,8 @@ from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
 from nptcs.ingest.sketch import data_sketch
-from nptcs.tables.curves import CURVE_COLUMNS, FileRecord, Geometry, IngestRecord
+from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.tables.io import empty_table
 from nptcs.tables.specimens import Specimen
 
 FEWEST_ROWS = 5
@@ -48,6 +49,22 @@ class Ingested:
 
     curve: pd.DataFrame
     record: IngestRecord
+
+
+def ingest_or_record(
+    specimen: Specimen,
+    folder: str | Path,
+    settings: IngestSettings,
+    profiles: Mapping[str, FormatProfile],
+) -> Ingested:
+    """Ingest a specimen, or record why it could not be: an empty curve and the error's words.
+
+    Parameters and result are those of `ingest_specimen`.
+    """
+    try:
+        return ingest_specimen(specimen, folder, settings, profiles)
+    except InputError as error:
+        return Ingested(empty_table(Curve), IngestRecord.failed(specimen.specimen, error))
 
 
 def ingest_specimen(

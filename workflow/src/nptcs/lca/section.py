@@ -18,6 +18,7 @@ from nptcs.lca.checks import require_positive
 
 SectionKind = Literal["sandwich", "printed"]
 SECTION_KINDS: tuple[SectionKind, ...] = get_args(SectionKind)
+PHYSICAL_SECTION: SectionKind = "sandwich"
 
 
 @dataclass(frozen=True)

@@ -250,13 +250,12 @@ def _run(look: tuple[tuple[str, str], ...], run: list[Leaf]) -> str:
 
 
 def _element(leaf: Leaf, attributes: str) -> str:
-    match leaf.tag:
-        case "text":
-            return f"<text{attributes} {leaf.place}>{escape(leaf.words)}</text>"
-        case "use":
-            return f"<use{attributes} {leaf.place}/>"
-        case _:
-            return f'<path{attributes} d="{write_path(list(leaf.strokes))}"/>'
+    written = {
+        "text": f"<text{attributes} {leaf.place}>{escape(leaf.words)}</text>",
+        "use": f"<use{attributes} {leaf.place}/>",
+        "path": f'<path{attributes} d="{write_path(list(leaf.strokes))}"/>',
+    }
+    return written[leaf.tag]
 
 
 def _definition(name: str, element: ElementTree.Element) -> str:

@@ -8,6 +8,7 @@ from typing import Any
 import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
+from nptcs.config.root import Config
 from nptcs.config.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.energy_cache import shared_table
@@ -16,7 +17,47 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.tyre.equilibrium import TyreError
 from nptcs.solvers.contract import SolverOptions
 from nptcs.solvers.fe_tyre import FeTyreOptions
+from nptcs.solvers.registry import load, module_of, read_options
 from nptcs.tables.deformed_tyre import DeformedTyre
+
+
+def outlines_of_study(
+    config: Config,
+    study: str,
+    solver: str,
+    records: Sequence[CaseRecord],
+    design: pd.DataFrame,
+    ply: Mapping[str, float],
+) -> pd.DataFrame:
+    """Draw the first solved one of the cases whose neutral line a study asks for.
+
+    Parameters
+    ----------
+    config : Config
+    study, solver : str
+        Names.
+    records : sequence of CaseRecord
+        Of this study and solver.
+    design : DataFrame
+        The study's `nptcs.tables.cases.Design`.
+    ply : mapping
+        The nine ply constants.
+
+    Returns
+    -------
+    DataFrame
+        As `deformed_tyre`.
+    """
+    options = config.options_of(study, solver)
+    case_ids = design.set_index("case")["case_id"]
+    asked = config.study(study).neutral_line_cases
+    return deformed_tyre(
+        records,
+        [case_ids[number] for number in asked if number in case_ids],
+        read_options(load(module_of(solver, options)), options),
+        config.tyre,
+        ply,
+    )
 
 
 def deformed_tyre(

@@ -7,6 +7,7 @@ from itertools import product
 import numpy as np
 import pandas as pd
 
+from nptcs.lca.section import PHYSICAL_SECTION
 from nptcs.responses.curve import LoadCurve
 from nptcs.tables.displacement_by_load import DisplacementByLoad
 
@@ -46,7 +47,7 @@ def displacement_by_load(
     DataFrame
         `DisplacementByLoad`; no rows where no solver computed such a tyre with its plates.
     """
-    model = validation[validation["section"] == "sandwich"]
+    model = validation[validation["section"].eq(PHYSICAL_SECTION)]
     tyres = same_tyres(cases, curves, shear_band_c10_mpa)
     by_case = {key: rows for key, rows in curves.groupby(["solver", "case_id"], sort=False)}
     rows = []

@@ -2,9 +2,14 @@
 
 from __future__ import annotations
 
+from typing import Literal, get_args
+
 import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
+
+Outcome = Literal["feasible", "infeasible", "refused"]
+Confirmation = Literal["not asked", "inside", "outside", "not solved", ""]
 
 
 class Decisions(pa.DataFrameModel):
@@ -16,7 +21,7 @@ class Decisions(pa.DataFrameModel):
     goals: Series[str]
     with_probability: Series[float] = pa.Field(gt=0, lt=1, description="That was asked for")
     status: Series[str] = pa.Field(
-        isin=["feasible", "infeasible", "refused"],
+        isin=list(get_args(Outcome)),
         description="refused: the question cannot be answered from these cases",
     )
     design: Series[str] = pa.Field(description="The chosen design; if infeasible, the nearest")
@@ -32,7 +37,7 @@ class Decisions(pa.DataFrameModel):
     )
     candidates: Series[pd.Int64Dtype] = pa.Field(ge=1, nullable=True)
     confirmation: Series[str] = pa.Field(
-        isin=["not asked", "inside", "outside", "not solved", ""],
+        isin=list(get_args(Confirmation)),
         description="Where the solved response lies, by the prediction interval of the surface",
     )
     solved_designs: Series[int] = pa.Field(ge=0, description="To confirm the choice")

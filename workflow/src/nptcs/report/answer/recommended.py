@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Hashable, Mapping
-from typing import Any
+from typing import Any, assert_never
 
 import pandas as pd
 
@@ -15,7 +15,13 @@ from nptcs.report.data import Results
 from nptcs.report.sketches import IntervalRow, Sketch, intervals
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import with_error
-from nptcs.tables.decisions import DecisionConfirmation, DecisionDesigns, Decisions
+from nptcs.tables.decisions import (
+    Confirmation,
+    DecisionConfirmation,
+    DecisionDesigns,
+    Decisions,
+    Outcome,
+)
 from nptcs.tables.result_table import ReportSection
 
 Row = Mapping[Hashable, Any]
@@ -47,7 +53,8 @@ def _finding(results: Results, row: Row) -> Finding:
     labels = factor_headings([study])
     asked = tr(_decision(results, row).title) or in_words(str(row["goals"]), labels)
     design = in_words(str(row["design"]), labels)
-    match row["status"]:
+    outcome: Outcome = row["status"]
+    match outcome:
         case "feasible":
             answer, sentence = design, _chosen(results, row, asked)
         case "infeasible":
@@ -58,9 +65,11 @@ def _finding(results: Results, row: Row) -> Finding:
                 message=row["message"],
                 design=design,
             )
-        case _:
+        case "refused":
             answer = tr("Not assessed")
             sentence = tr("Asked: {asked}. {message}.", asked=asked, message=row["message"])
+        case _:
+            assert_never(outcome)
     return Finding(
         _question(),
         answer,
@@ -90,7 +99,8 @@ def _chosen(results: Results, row: Row, asked: str) -> str:
 
 def _confirmed(results: Results, row: Row) -> str:
     solver = row["solver"]
-    match row["confirmation"]:
+    confirmation: Confirmation = row["confirmation"]
+    match confirmation:
         case "inside":
             said = tr(
                 "Solving it with {solver} confirms the prediction: the result lies inside the "
@@ -105,8 +115,10 @@ def _confirmed(results: Results, row: Row) -> str:
             )
         case "not solved":
             said = tr("It could not be solved with {solver}: not confirmed.", solver=solver)
-        case _:
+        case "not asked" | "":
             return tr("No solved case was asked for: not confirmed.")
+        case _:
+            assert_never(confirmation)
     missed = _last_round(results, str(row["decision"]))
     if missed["goal_met"].eq("no").any():
         return f"{said} {tr('The solved case misses a goal.')}"

@@ -8,7 +8,7 @@ from collections.abc import Sequence
 import pandas as pd
 
 from nptcs.language import tr
-from nptcs.mechanical_tests import TestType
+from nptcs.mechanical_tests import TestType, is_property
 from nptcs.reduce.shear import shear_curve
 from nptcs.report.blocks import Plot, Plots, Section, Text
 from nptcs.report.data import Results
@@ -33,6 +33,8 @@ PUBLISHED_MODULI = {
     (TestType.COMPRESSION, 90.0): ("E2c", math.nan),
 }
 """Symbol and the paper's value (table 2, MPa) by test and direction; it has none in compression."""
+FIGURE_4 = frozenset({TestType.RUBBER_TENSION})
+"""Tests of rubbers that figure 4 of the paper draws in one panel."""
 
 
 def specimens_section(results: Results, sheets: Sheets) -> Section:
@@ -94,7 +96,7 @@ def _series_plots(results: Results) -> list[Plot]:
             continue
         synthetic = any(s.origin == "synthetic" for s in specimens)
         title, moduli, axis = series_title(specimens[0]), moduli_of(results, specimens), NORMAL
-        if specimens[0].test is TestType.SHEAR:
+        if is_property(specimens[0].test, "shear_modulus"):
             curves, axis = {name: with_shear(curve) for name, curve in curves.items()}, SHEAR
         given = (title, curves, left_out, synthetic, moduli, axis)
         alt = tr(
@@ -113,7 +115,7 @@ def _rubber_plot(results: Results) -> list[Plot]:
     tests: dict[str, dict[str, pd.DataFrame]] = {}
     for specimen in results.sheet:
         curve = results.curves[specimen.specimen]
-        if specimen.test is TestType.RUBBER_TENSION and specimen.include and len(curve):
+        if specimen.test in FIGURE_4 and specimen.include and len(curve):
             tests.setdefault(specimen.material, {})[specimen.specimen] = curve
     if len(tests) < 2:
         return []
@@ -127,7 +129,7 @@ def series_title(specimen: Specimen) -> str:
     test = specimen.test.value.removeprefix("rubber_").replace("_", " ")
     if specimen.orientation_deg is None:
         return tr("{material}, {test}", material=specimen.material, test=tr(test))
-    sign = "±" if specimen.test is TestType.SHEAR else ""
+    sign = "±" if is_property(specimen.test, "shear_modulus") else ""
     return tr(
         "{material}, {test} at {angle}°",
         material=specimen.material,
@@ -145,7 +147,7 @@ def with_shear(curve: pd.DataFrame) -> pd.DataFrame:
 def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
     """Gather the chords of a series, their mean and the paper's modulus; None without chords."""
     first, table = specimens[0], results.table(PropertiesTable)
-    name = "shear_modulus" if first.test is TestType.SHEAR else "modulus"
+    name = "shear_modulus" if is_property(first.test, "shear_modulus") else "modulus"
     chords = table[
         table["specimen"].isin([s.specimen for s in specimens])
         & table["property"].eq(name)
@@ -166,6 +168,5 @@ def moduli_of(results: Results, specimens: Sequence[Specimen]) -> Moduli | None:
         & groups["orientation_deg"].eq(angle)
     ]
     mean = float(groups["mean"].iloc[0]) if len(groups) == 1 else math.nan
-    sign = -1 if first.test is TestType.COMPRESSION else 1
     columns = ["specimen", "value", "range_low", "range_high"]
-    return Moduli(chords[columns], mean, published, symbol, sign)
+    return Moduli(chords[columns], mean, published, symbol, first.test.load_sign)
