@@ -41,7 +41,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         type=whole(1),
         default=usable_cores(),
         metavar="N",
-        help="cores to use; default: those of this machine (%(default)s)",
+        help="cores to use; default: all of this machine",
     )
     parser.add_argument(
         "--configfile",
