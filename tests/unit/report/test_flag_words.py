@@ -16,7 +16,7 @@ ROOT = Path(nptcs.__file__).parent
 def sentences_of_stages():
     """Return the texts that the stages make, as patterns whose values are unknown."""
     found = []
-    for room in ("ingest", "reduce", "calibrate"):
+    for room in ("ingest", "reduce", "calibrate", "responses"):
         for file in sorted((ROOT / room).rglob("*.py")):
             for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.JoinedStr):

@@ -37,6 +37,11 @@ SENTENCES = (
     translatable("not assessed: no transverse strain"),
     translatable("not assessed: the curve ends before strain {strain}"),
     translatable("not assessed: the standard defines no offset strength"),
+    translatable("the solver does not report it"),
+    translatable("the solver does not report the plates' volume"),
+    translatable("no spoke was solved again at its motion in the tyre"),
+    translatable("no plate_price_per_kg in the configuration"),
+    translatable("the curve ends at {load} N and {displacement} mm"),
     translatable("orthotropic, not transversely isotropic: {detail}"),
     translatable("transversely isotropic within {tolerance} %: {detail}"),
 )

@@ -212,8 +212,8 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
     groups = {section: rows for section, rows in table.groupby("section", sort=False)}
     first = next(iter(groups.values()))
     series = {
-        "FEM, paper": first["published_fem_stiffness_n_per_mm"].to_numpy(),
-        "LCA, paper": first["published_stiffness_n_per_mm"].to_numpy(),
+        tr("FEM, paper"): first["published_fem_stiffness_n_per_mm"].to_numpy(),
+        tr("LCA, paper"): first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
         name = tr("LCA, computed, {section_names}", section_names=tr(SECTION_NAMES[str(section)]))

@@ -15,6 +15,7 @@ from nptcs.report.figures.tyre import (
     load_displacement,
     plate_faces,
 )
+from nptcs.report.flag_words import flag_text
 from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.tables.headings import words
@@ -145,9 +146,9 @@ def not_assessed(responses: pd.DataFrame) -> list[str]:
             "{response}{which}: {status} for {count} tyres; the first: {note}.",
             response=words(str(name)),
             which=tr(" at {at}", at=at) if at else "",
-            status=status,
+            status=tr(str(status)),
             count=len(rows),
-            note=rows["note"].iloc[0],
+            note=flag_text(rows["note"].iloc[0]),
         )
         for (name, at, status), rows in groups
     ]
