@@ -144,6 +144,8 @@ def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypat
     words = " ".join(block.text for block in section.blocks if isinstance(block, Text))
     assert "89.5 MPa" in words
     assert "88.0 MPa" in words
+    # the study asks for a neutral line, but no outlines are there
+    assert "No tyre is drawn with its spokes" in words
     (listed,) = (block for block in section.blocks if isinstance(block, Listing))
     assert any(
         "secant stiffness at 25 mm: not reached for 2 tyres" in line for line in listed.items

@@ -70,6 +70,16 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
                 tuple(deformed),
             )
         )
+    elif any(study.neutral_line_cases for study in results.config.studies):
+        blocks.append(
+            Text(
+                tr(
+                    "No tyre is drawn with its spokes (figure 10 a of the paper): no finite "
+                    "element solver has solved one of the cases of neutral_line_cases, or the "
+                    "spokes of that tyre were not found again."
+                )
+            )
+        )
     stress = tuple(_stress_plots(results))
     if stress:
         blocks.append(
