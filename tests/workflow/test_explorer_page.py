@@ -47,7 +47,7 @@ def test_every_stored_surface_of_the_run_is_evaluated_on_the_page_as_in_python(f
                 error = np.abs(np.array(found, dtype=float) - expected) / scale
                 assert np.nanmax(error) < AGREES, (fitted.response, fitted.name)
                 seen += 1
-    assert seen >= 3
+    assert seen >= 2  # published and lca of the study of rubbers
 
 
 RESTORE = "restoreCovariances(DATA.studies, DATA.covariances)"
