@@ -186,15 +186,22 @@ def test_a_collection_names_its_files_and_times(tmp_path):
 def test_the_command_writes_tyre_and_spoke(tmp_path, tyre, spoke, monkeypatch, capsys):
     parser = argparse.ArgumentParser()
     fe_export.register(parser.add_subparsers())
-    monkeypatch.setattr(fe_export, "solved", lambda arguments: SolvedTyre(TYRE, *tyre, spoke))
+    case = SolvedTyre(TYRE, *tyre, spoke, "the published ply")
+    monkeypatch.setattr(fe_export, "solved", lambda arguments: case)
     monkeypatch.setattr(fe_export, "PRESSED_STEPS", 5)
     monkeypatch.setattr(fe_export, "PULLED_STEPS", 2)
-    folder = tmp_path / "new" / "folder"
+    folder = tmp_path / "new"
     arguments = parser.parse_args(["fe-export", str(folder), "--load", "200"])
     assert arguments.run(arguments) == 0
     assert "8 states" in capsys.readouterr().out
     names = {path.name for path in Path(folder).iterdir()}
-    assert names == {"tyre.vtu", "spoke.pvd", *(f"spoke_{i:04d}.vtu" for i in range(8))}
+    assert names == {
+        "design.json",
+        "tyre.vtu",
+        "spoke.pvd",
+        *(f"spoke_{i:04d}.vtu" for i in range(8)),
+    }
+    assert '"materials": "the published ply"' in (folder / "design.json").read_text("utf-8")
     sets = ElementTree.parse(folder / "spoke.pvd").getroot().findall("./Collection/DataSet")
     assert [float(s.get("timestep")) for s in sets] == [-20, -16, -12, -8, -4, 0, 2, 4]
     *_, fields = read(folder / "spoke_0000.vtu")
