@@ -1,13 +1,12 @@
 """Open a page of the report in Chromium and let axe-core look for barriers (WCAG 2.2 A and AA)."""
 
-import shutil
 from contextlib import contextmanager
 from pathlib import Path
 
 import axe_playwright_python
+from headless_chromium import CHROMIUM as CHROMIUM
 from playwright.sync_api import sync_playwright
 
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
 NO_CHROMIUM = "Chromium is not installed (Debian: chromium)"
 AXE = Path(axe_playwright_python.__file__).with_name("axe.min.js")
 RULES = ["wcag2a", "wcag2aa", "wcag21a", "wcag21aa", "wcag22aa", "best-practice"]

@@ -1,23 +1,12 @@
 """The report in a real browser: all figures are drawn, and nothing is wider than the screen."""
 
 import re
-import shutil
 import subprocess
 
 import pytest
+from headless_chromium import CHROMIUM, quiet
 
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-QUIET = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--virtual-time-budget=10000",
-]
+QUIET = quiet(10000)
 TELL = """<script>addEventListener("load", () => {
   const figures = [...document.querySelectorAll(".plot svg")];
   const drawn = (svg) => svg.getBoundingClientRect().height > 50 && svg.querySelector("path");

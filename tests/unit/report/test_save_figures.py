@@ -4,13 +4,13 @@ import base64
 import io
 import json
 import re
-import shutil
 import subprocess
 from xml.etree import ElementTree
 
 import numpy as np
 import pandas as pd
 import pytest
+from headless_chromium import CHROMIUM, quiet
 from PIL import Image
 
 from nptcs.report.html import render_report
@@ -18,18 +18,7 @@ from nptcs.report.plots import csv_of, packed
 from nptcs.report.svg import VARIABLES
 from nptcs.tables.lca_validation import LcaValidation
 
-CHROMIUM = shutil.which("chromium") or shutil.which("google-chrome")
-QUIET = [
-    "--headless",
-    "--no-sandbox",
-    "--disable-gpu",
-    "--disable-quic",
-    "--no-first-run",
-    "--disable-background-networking",
-    "--disable-component-update",
-    "--disable-sync",
-    "--virtual-time-budget=30000",
-]
+QUIET = quiet(30000)
 PICKED = "displacement-against-load-lca-with-section-sandwich-section"
 CLICK = """<script>addEventListener("load", async () => {
   const saved = {}, made = {}, faults = [];

@@ -19,7 +19,7 @@ class Signature(Strict):
 
 
 class Laboratory(Strict):
-    """Who made the study, for whom and when; it stands at the head of report and workbook.
+    """Who made the study, for whom and when; shown at the head of report and workbook.
 
     None of it changes a number: another value writes report and workbook anew, nothing else.
     """

@@ -95,7 +95,7 @@ class ResultTable:
     sheet : str
         Name of its sheet in the workbook, if not that of its file; `PER_STUDY` as there.
     raw : bool
-        Whether it holds curves, shapes or fields point by point: a CSV file beside the workbook,
+        Whether it holds curves, shapes or fields point by point: a CSV file next to the workbook,
         which draws what matters of it.
     """
 

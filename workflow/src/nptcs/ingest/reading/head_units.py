@@ -48,7 +48,7 @@ def add_units_of_head(test: Test) -> None:
 def _take_row(test: Test, row: int) -> None:
     """Take the units of a row ``Y_Unit_Label, N, %``.
 
-    Each stands in the place of its column, or behind the word if there are as many as columns.
+    Each is at the place of its column, or after the word if there are as many as columns.
     """
     key, *cells = [cell.strip() for cell in test.source.cells(row)] or [""]
     if normalise(key) not in _ROW_OF_UNITS:

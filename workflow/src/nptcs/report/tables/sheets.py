@@ -57,7 +57,7 @@ class Sheet:
 
     @property
     def in_workbook(self) -> bool:
-        """Tell whether the workbook has it; points of curves and shapes are CSV files beside it."""
+        """Tell whether the workbook has it; points of curves and shapes are files next to it."""
         return not self.raw and len(self.table) <= LONGEST_SHEET
 
 

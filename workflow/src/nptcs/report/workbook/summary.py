@@ -252,11 +252,11 @@ def beside(file: str) -> str:
 
 
 def index_row(sheet: Sheet, name: str) -> IndexRow:
-    """Return the row of the index for a table, in the workbook or only as a file beside it."""
+    """Return the row of the index for a table, in the workbook or only as a file next to it."""
     entry = sheet.entry
     says = entry.title
     if not sheet.in_workbook:
-        says += f" (not a sheet, for its length: the CSV file {beside(entry.file)} beside this one)"
+        says += f" (not a sheet: the CSV file {beside(entry.file)} next to this one)"
     return IndexRow(
         name, says, len(sheet.table), sheet.synthetic, entry.file, entry.source, entry.rule,
         sheet.in_workbook,
