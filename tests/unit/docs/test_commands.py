@@ -55,6 +55,8 @@ NOT_RUN = {
     "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
     "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "an hour of finite elements",
     "nptcs design --target 'K=300±5@5000' --minimise plate_mass --confirm": DEFAULT_STUDY,
+    "nptcs compare ../march .": "tests/workflow/test_compare_runs.py runs it",
+    "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx": "the same",
     "nptcs verify study.zip --rerun again": "tests/workflow/test_elsewhere.py runs it",
     "pip install -c constraints.txt 'nptcs[slurm]'": "changes the environment that runs the tests",
     "snakemake --workflow-profile profiles/slurm": "needs Slurm: tests/slurm/cluster.py runs it",
