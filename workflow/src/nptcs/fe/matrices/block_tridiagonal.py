@@ -56,15 +56,14 @@ class BlockPattern:
         self._wide = 2 * row
         self._blocks = -(-size // self._wide)
         self._keep: list[Index] = []
-        targets: list[Index] = []
+        self._targets: list[Index] = []
         for block in dofs:
             shape = (*block.shape, block.shape[1])
             low = np.broadcast_to(block[:, :, None], shape).ravel()
             high = np.broadcast_to(block[:, None, :], shape).ravel()
             keep = np.flatnonzero((high >= 0) & (low >= high))
             self._keep.append(keep)
-            targets.append(self._target(low[keep], high[keep]))
-        self._targets = np.concatenate(targets)
+            self._targets.append(self._target(low[keep], high[keep]))
 
     def _target(self, low: Index, high: Index) -> Index:
         """Place of entry (low, high), low ≥ high, in the diagonal blocks and those below."""
@@ -80,13 +79,13 @@ class BlockPattern:
 
     def assemble(self, tangents: Sequence[Array]) -> BlockMatrix:
         """Sum element tangents (elements, dofs, dofs)."""
-        values = np.concatenate(
-            [part.ravel()[keep] for part, keep in zip(tangents, self._keep, strict=True)]
-        )
+        from nptcs.fe.matrices.compiled import add_at
+
         wide, blocks = self._wide, self._blocks
         start = blocks * wide**2
-        count = start + (blocks - 1) * self.row * wide
-        whole: Array = np.bincount(self._targets, values, minlength=count).astype(float, copy=False)
+        whole = np.zeros(start + (blocks - 1) * self.row * wide)
+        for part, keep, targets in zip(tangents, self._keep, self._targets, strict=True):
+            add_at(targets, keep, part.ravel(), whole)
         diagonal = whole[:start].reshape(blocks, wide, wide)
         fill = np.arange(self.size - (blocks - 1) * wide, wide)
         diagonal[-1, fill, fill] = 1.0
