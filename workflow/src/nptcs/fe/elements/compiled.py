@@ -103,7 +103,7 @@ def neo_hooke(
 def neo_hooke_at(
     c10: float, deformation: Array, pressure: Array, inverse: Array, values: Array
 ) -> None:
-    """Evaluate the law at points (n, 3, 3), (n,): `inverse` (n, 3, 3) and its five values (5, n)."""
+    """Evaluate the law at points (n, …): `inverse` (n, 3, 3) and its five values (5, n)."""
     for q in range(len(pressure)):
         found = neo_hooke(c10, deformation[q], pressure[q], inverse[q])
         for place in range(5):

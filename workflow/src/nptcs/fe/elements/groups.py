@@ -224,7 +224,7 @@ class RubberGroup:
         self._eliminated(size)
 
     def _eliminated(self, size: int) -> None:
-        """New arrays for what the next response says of the pressures."""
+        """Make new arrays for what the next response says of the pressures."""
         shape = self.pressure.shape
         self._mismatch = np.zeros(shape)
         self._coupling = np.zeros((shape[0], size, shape[1]))

@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.blas import dsyrk, dtrsm
+from scipy.linalg.blas import dsyrk, dtrsm, dtrsv
 from scipy.linalg.lapack import dpotrf
 
-from nptcs.arrays import Array, Index
+from nptcs.arrays import Array, Index, Places
 
 
 @dataclass
@@ -55,15 +55,15 @@ class BlockPattern:
         self.row, self.size = row, size
         self._wide = 2 * row
         self._blocks = -(-size // self._wide)
-        self._keep: list[Index] = []
-        self._targets: list[Index] = []
+        self._keep: list[Places] = []
+        self._targets: list[Places] = []
         for block in dofs:
             shape = (*block.shape, block.shape[1])
             low = np.broadcast_to(block[:, :, None], shape).ravel()
             high = np.broadcast_to(block[:, None, :], shape).ravel()
             keep = np.flatnonzero((high >= 0) & (low >= high))
-            self._keep.append(keep)
-            self._targets.append(self._target(low[keep], high[keep]))
+            self._keep.append(keep.astype(np.int32))
+            self._targets.append(self._target(low[keep], high[keep]).astype(np.int32))
 
     def _target(self, low: Index, high: Index) -> Index:
         """Place of entry (low, high), low ≥ high, in the diagonal blocks and those below."""
@@ -126,12 +126,22 @@ class BlockCholesky:
         for number, factor in enumerate(self._own):
             if number:
                 parts[number] = parts[number] - self._next[number - 1] @ parts[number - 1][row:]
-            parts[number] = dtrsm(1.0, factor, parts[number], lower=1)
+            parts[number] = _triangle(factor, parts[number], transposed=False)
         for number in range(len(parts) - 1, -1, -1):
             if number < len(parts) - 1:
                 parts[number][row:] -= self._next[number].T @ parts[number + 1]
-            parts[number] = dtrsm(1.0, self._own[number], parts[number], lower=1, trans_a=1)
+            parts[number] = _triangle(self._own[number], parts[number], transposed=True)
         return np.concatenate(parts)[: self._size].reshape(rhs.shape)
+
+
+def _triangle(factor: Array, rhs: Array, transposed: bool) -> Array:
+    """Solve with a lower triangle, or its transpose, for right-hand sides (n, m)."""
+    if rhs.shape[1] == 1:
+        # LAPACK copies the triangle for several right-hand sides, which takes longer than one
+        line: Array = dtrsv(factor, rhs[:, 0], lower=1, trans=transposed)
+        return line[:, None]
+    found: Array = dtrsm(1.0, factor, rhs, lower=1, trans_a=transposed)
+    return found
 
 
 def solve_indefinite(matrix: BlockMatrix, rhs: Array) -> Array:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg import solve_banded
 
-from nptcs.arrays import Array, Index
+from nptcs.arrays import Array, Index, Places
 
 
 class BandedPattern:
@@ -28,7 +28,7 @@ class BandedPattern:
 
     def __init__(self, dofs: Sequence[Index], size: int) -> None:
         self.size = size
-        self._keep: list[Index] = []
+        self._keep: list[Places] = []
         rows: list[Index] = []
         columns: list[Index] = []
         for block in dofs:
@@ -36,13 +36,13 @@ class BandedPattern:
             row = np.broadcast_to(block[:, :, None], shape).ravel()
             column = np.broadcast_to(block[:, None, :], shape).ravel()
             keep = np.flatnonzero((row >= 0) & (column >= 0))
-            self._keep.append(keep)
+            self._keep.append(keep.astype(np.int32))
             rows.append(row[keep])
             columns.append(column[keep])
         distances = [row - column for row, column in zip(rows, columns, strict=True)]
         self.width = max(int(np.max(np.abs(distance), initial=0)) for distance in distances)
         self._targets = [
-            (distance + self.width) * size + column
+            ((distance + self.width) * size + column).astype(np.int32)
             for distance, column in zip(distances, columns, strict=True)
         ]
 
