@@ -92,7 +92,9 @@ def solve(inputs: CaseInputs) -> SolverResult:
     plates, rubber, note = _inside(options, design, table, tyre.spoke_motion(last.u))
     return SolverResult(
         status=Status.OK,
-        message=note,
+        message="; ".join(
+            [*options.geometry.axial_notes(options.axial), *([note] if note else [])]
+        ),
         vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
         displacement_mm=last.rise_mm,
         extra={
