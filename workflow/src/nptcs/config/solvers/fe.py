@@ -87,8 +87,8 @@ class SpokeGeometry(Strict):
         if self.calibrated_axial in (None, axial):
             return []
         return [
-            f"the spoke's section was calibrated with `axial: {self.calibrated_axial}` and makes up "
-            f"for the stiffness of that option; this tyre has `axial: {axial}`"
+            f"the spoke's section was calibrated with `axial: {self.calibrated_axial}` and makes "
+            f"up for the stiffness of that option; this tyre has `axial: {axial}`"
         ]
 
     def section(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
