@@ -118,7 +118,7 @@ def count(name: str) -> None:
 
 
 def compile_kernels() -> float:
-    """Move a spoke a little, so that no design pays for what numba compiles; processor time in s."""
+    """Move a spoke a little, so that no design pays for compiling; processor time in s."""
     start = time.process_time()
     model = FeModel.model_validate({"ring": "paper_mesh"})
     design = spoke_design(model, TYRE, PUBLISHED_PLY, dict(zip(NAMES, DESIGNS[0], strict=True)))
