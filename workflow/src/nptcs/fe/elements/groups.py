@@ -107,6 +107,9 @@ class LinearGroup:
 
     def __post_init__(self) -> None:
         points = self.gradient.shape[:2]
+        # one layout of each array, for which the loops are compiled once
+        self.nodes = np.ascontiguousarray(self.nodes)
+        self.weight = np.ascontiguousarray(self.weight)
         self._columns = _columns(self.gradient)
         self._active = np.flatnonzero(self.stiffness.any(axis=(0, 1))).astype(np.int64)
         self._own_stiffness = np.ascontiguousarray(
@@ -212,6 +215,10 @@ class RubberGroup:
     pressure: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        # one layout of each array, for which the loops are compiled once
+        self.nodes = np.ascontiguousarray(self.nodes)
+        self.weight = np.ascontiguousarray(self.weight)
+        self.pressure_shape = np.ascontiguousarray(self.pressure_shape)
         elements, nodes = self.nodes.shape
         modes = self.pressure_shape.shape[1]
         size = nodes * self.gradient.shape[3]
