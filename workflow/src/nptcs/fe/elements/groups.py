@@ -116,7 +116,7 @@ class LinearGroup:
             self.stiffness[:, self._active[:, None], self._active]
         )
         frame = np.eye(3) if self.frame is None else self.frame
-        self._frame = np.ascontiguousarray(np.broadcast_to(frame, (*points, 3, 3)))
+        self._frame = np.array(np.broadcast_to(frame, (*points, 3, 3)), order="C")
         self._last = self._frame.copy()
         self._strain = np.zeros((*points, 6))
 
