@@ -15,7 +15,8 @@ from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring import elementwise, numpy_kernel
 from nptcs.ring.compiled import HAS_NUMBA, Kernel
 from nptcs.ring.nodes import RingNodes, ring_nodes
-from nptcs.ring.section import RingSection, Rubber, ring_section
+from nptcs.ring.rubber import Rubber
+from nptcs.ring.section import RingSection, ring_section
 from nptcs.ring.spokes import SpokePolynomial
 from nptcs.ring.system import Ring
 
