@@ -20,7 +20,7 @@ from functools import partial
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.pressure_waves import FlatRing, RubberLayer, WireSheet, matched_thickening
 from nptcs.ring.rubber import Rubber
 
