@@ -15,10 +15,13 @@ import nptcs
 from nptcs.config.response import RESPONSE_KINDS
 from nptcs.config.sensitivity import AveragingRule
 from nptcs.mechanical_tests import TestType
+from nptcs.report.comparison.parts import side_heading
 from nptcs.report.figures.lca import REGIONS
 from nptcs.report.figures.uncertainty import KINDS
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import UNITS, heading, words
+from nptcs.runs import all_tables, constants, decisions, ranking, stiffness
+from nptcs.runs.part import Found
 from nptcs.solvers.registry import MODULES, load
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.files import FileStatus
@@ -51,6 +54,18 @@ def texts_in_template(source: str) -> Iterator[tuple[str, ...]]:
                 yield tuple(part.value for part in given)  # type: ignore[attr-defined]
 
 
+COMPARED = {
+    all_tables.COLUMNS: all_tables.HEADINGS,
+    constants.COLUMNS: constants.HEADINGS,
+    decisions.COLUMNS: {},
+    ranking.COLUMNS: ranking.HEADINGS,
+    stiffness.COLUMNS: stiffness.HEADINGS,
+    stiffness.SUMMARY_COLUMNS: {},
+    ("key", "software", "file", "result"): {},
+}
+"""Columns of the parts of a comparison, and their headings."""
+
+
 def closed_texts() -> Iterator[str]:
     """Yield the texts that the report gives to `tr` from lists elsewhere in the package."""
     for table in TABLES.values():
@@ -67,6 +82,11 @@ def closed_texts() -> Iterator[str]:
     yield from (test.value.removeprefix("rubber_").replace("_", " ") for test in TestType)
     yield from (status.value for status in (*Status, *FileStatus))
     yield from (*FLAG_KINDS, *KINDS, *REGIONS, *DIRECTIONS)
+    yield from (found.value for found in Found)
+    for columns, headings in COMPARED.items():
+        for column in columns:
+            one = headings.get(column) or side_heading(column) or heading(column)
+            yield from (one.name.removesuffix(" A").removesuffix(" B"), one.unit)
     yield from texts_of_configurations()
 
 

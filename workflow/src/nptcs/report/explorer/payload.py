@@ -16,6 +16,7 @@ from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
+from nptcs.report.surface_words import surface_words
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.cases import Cases
 from nptcs.tables.published_stiffness import DIFFERENCE, StiffnessAgainstPublished
@@ -78,6 +79,11 @@ def explorer_payload(results: Results) -> Plain:
         "factors": _factors(config.studies),
         "tyre": {"width_mm": tyre.tread_width_mm, "plate_width_mm": tyre.plate_width_mm},
         "studies": studies,
+        "models": {
+            fitted.name: surface_words(fitted.name)
+            for registry in results.models.values()
+            for fitted in registry.surfaces
+        },
         "covariances": covariances,
         "ring": ring_payload(results),
         "words": page_words(),

@@ -229,9 +229,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         "colour scale for all panels and solvers; and over one factor, the lines "
         "are the surface, the marks are the cases",
         title=tr(study.title),
-    ) + (
-        tr(", sampled, at most {most_marks} per panel.", most_marks=MOST_MARKS) if many else tr(".")
-    )
+    ) + (tr(", sampled, at most {most} per panel.", most=MOST_MARKS) if many else tr("."))
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
     if residuals := _residual_plots(results, study):
         words_of_residuals = tr(

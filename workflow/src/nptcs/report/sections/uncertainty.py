@@ -83,8 +83,8 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
             )
         at = tr(" at {at}", at=row["at"]) if row["at"] else ""
         what = tr(
-            "{capitalize}{at}, {design}, study {study}, solver {solver}",
-            capitalize=words(row["response"]).capitalize(),
+            "{response}{at}, {design}, study {study}, solver {solver}",
+            response=words(row["response"]).capitalize(),
             at=at,
             design=tr(row["design"]),
             study=row["study"],
