@@ -12,8 +12,8 @@ import yaml
 from jinja2 import Environment, nodes
 
 import nptcs
-from nptcs.config.response import RESPONSE_KINDS
-from nptcs.config.sensitivity import AveragingRule
+from nptcs.config.studies.response import RESPONSE_KINDS
+from nptcs.config.studies.sensitivity import AveragingRule
 from nptcs.mechanical_tests import TestType
 from nptcs.report.comparison.parts import side_heading
 from nptcs.report.figures.lca import REGIONS
@@ -24,10 +24,11 @@ from nptcs.runs import all_tables, constants, decisions, ranking, stiffness
 from nptcs.runs.part import Found
 from nptcs.solvers.registry import MODULES, load
 from nptcs.tables.catalogue import TABLES
-from nptcs.tables.files import FileStatus
-from nptcs.tables.flags import FLAG_KINDS
-from nptcs.tables.spoke_stiffness import DIRECTIONS
+from nptcs.tables.laboratory.files import FileStatus
+from nptcs.tables.laboratory.flags import FLAG_KINDS
+from nptcs.tables.result_table import Heading
 from nptcs.tables.status import Status
+from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS
 
 ROOT = Path(nptcs.__file__).parent
 FUNCTIONS = {"tr": 1, "translatable": 1, "tr_count": 2}
@@ -85,8 +86,10 @@ def closed_texts() -> Iterator[str]:
     yield from (found.value for found in Found)
     for columns, headings in COMPARED.items():
         for column in columns:
-            one = headings.get(column) or side_heading(column) or heading(column)
-            yield from (one.name.removesuffix(" A").removesuffix(" B"), one.unit)
+            one = heading(column, headings)
+            if column not in headings and (side := side_heading(column)) is not None:
+                one = Heading(side.name[:-2], side.unit)
+            yield from (one.name, one.unit)
     yield from texts_of_configurations()
 
 
@@ -103,7 +106,7 @@ def texts_of_configurations() -> Iterator[str]:
                 waiting += node
 
 
-SAME = re.compile(r"[\W\d_]*|[A-Z]{1,2}\d*|[xyn]|k B|MNR|PRESS|SHA-256|(results|config)/.*")
+SAME = re.compile(r"B − A|[\W\d_]*|[A-Z]{1,2}\d*|[xyn]|k B|MNR|PRESS|SHA-256|(results|config)/.*")
 """Symbols, abbreviations and file names, which are the same in every language."""
 
 

@@ -17,7 +17,7 @@ from nptcs.language import tr, translatable
 from nptcs.runs.content import FILES
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, compared, part_table, percent, presence
-from nptcs.tables.material_card import PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import PlyCard, Quantity, RubberCard
 from nptcs.tables.result_table import Heading
 
 NOT_ASSESSED = translatable("not assessed")
