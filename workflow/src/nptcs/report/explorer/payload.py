@@ -52,6 +52,10 @@ SECANT = "secant_stiffness"
 Plain = dict[str, Any]
 
 
+ROUNDING = 1e-12
+"""Relative error below which a surface is exact."""
+
+
 def explorer_payload(results: Results) -> Plain:
     """Collect all that the explorer of a run needs, as plain values.
 
@@ -216,10 +220,16 @@ def _surface(fitted: FittedSurface) -> Plain:
     return {
         "name": fitted.name,
         "outside": fitted.surface.outside.value,
-        "rms": fitted.left_out_rms if np.isfinite(fitted.left_out_rms) else None,
+        "rms": fitted.left_out_rms if _shown(fitted) else None,
         "realised": list(fitted.realised),
         "plain": plain_surface(fitted.surface),
     }
+
+
+def _shown(fitted: FittedSurface) -> bool:
+    """Tell whether a left-out error is known and more than rounding."""
+    least = ROUNDING * float(np.abs(fitted.surface.y).max())
+    return bool(np.isfinite(fitted.left_out_rms) and fitted.left_out_rms > least)
 
 
 def _bias(results: Results, study: Study, solver: str) -> Plain | None:
