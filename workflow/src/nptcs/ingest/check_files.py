@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from pathlib import Path
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.strains import NO_STRAIN_FLAG, NO_TRANSVERSE
 from nptcs.ingest.folder import is_there
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.repeats import repeated_specimens
 from nptcs.ingest.specimen import ingest_specimen
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 
 _SAID = (NO_STRAIN_FLAG, NO_TRANSVERSE)
 

@@ -10,7 +10,7 @@ from pathlib import PurePosixPath
 
 from nptcs.ingest.conditioning.declared_test import loadings_in_name, loadings_named
 from nptcs.ingest.runs_of_pieces import piece_of
-from nptcs.tables.specimens import TestType
+from nptcs.tables.laboratory.specimens import TestType
 
 ROLE_WORDS = frozenset(
     [

@@ -7,16 +7,16 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.column_names import ACROSS
+from nptcs.ingest.reading.columns.head_units import add_units_of_head
+from nptcs.ingest.reading.columns.names import ACROSS
+from nptcs.ingest.reading.columns.quantities import NEEDS, Test, unit_of
 from nptcs.ingest.reading.continued_tables import tests_of
-from nptcs.ingest.reading.dialect import Dialect
-from nptcs.ingest.reading.head_units import add_units_of_head
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
-from nptcs.ingest.reading.quantities import NEEDS, Test, unit_of
 from nptcs.ingest.reading.raw_file import header_labels, matching, sources_of
+from nptcs.ingest.reading.text.dialect import Dialect
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, factor
 
 ROWS_SHOWN = 3

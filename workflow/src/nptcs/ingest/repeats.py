@@ -8,11 +8,11 @@ from collections.abc import Iterable, Mapping, Sequence
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ingest.reading.column_names import LOADS, STRAINS
+from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.sketch import ChangedCopies
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 
 _DIGITS = 9
 _SMALLEST_POWER = -300

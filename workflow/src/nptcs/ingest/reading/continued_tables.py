@@ -9,10 +9,10 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import CellSource
+from nptcs.ingest.reading.columns.quantities import Test, tests_in
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.ingest.reading.quantities import Test, tests_in
+from nptcs.ingest.reading.text.cells import CellSource
 
 LONGEST_GAP = 20.0
 """Steps of time that may pass between two blocks: a new test begins much later, or at 0 again."""
