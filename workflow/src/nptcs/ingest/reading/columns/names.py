@@ -71,7 +71,7 @@ def map_columns(
     _prefer_a_sensor(mapped, columns)
     every = plain is not None or profile.name == PLAIN
     found_table.notes += map_by_words(mapped, _wanted_by_words(mapped, columns, every), columns)
-    order = [*profile.columns, *(plain.columns if plain is not None else ())]
+    order = [*profile.columns, *(plain.columns if plain is not None else ()), *DIMENSION]
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
 
 
