@@ -16,7 +16,7 @@ from nptcs.processes.runs import begin_job, begin_run
 from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.report.stale import refused
 from nptcs.start.facts import known_facts
-from nptcs.tables.specimens import read_sheet
+from nptcs.tables.laboratory.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from nptcs.config.study import Study
-from nptcs.config.surface import GaussianProcessModel, name_of
+from nptcs.config.studies.study import Study
+from nptcs.config.studies.surface import GaussianProcessModel, name_of
 from nptcs.surface.kinds.models import models_of
 from nptcs.surface.registry import STIFFNESS, SurfaceRegistry
 
@@ -38,8 +38,8 @@ def answering_surface(
     Returns
     -------
     str
-        As `nptcs.config.surface.name_of` writes it; the Gaussian process on the mean if no stored
-        surface has been tested.
+        As `name_of` writes it; the Gaussian process on the mean if no stored surface has been
+        tested.
     """
     if asked is not None:
         return asked

@@ -168,8 +168,11 @@ class GaussianProcess:
         return Weights(*coding(self.x), self._components, self._scale, self._factor(0.95))
 
     def _factor(self, confidence: float) -> float:
-        """Half width of the interval in standard deviations: Student's t, as the variance is known
-        from the cases alone, by what cases that are left out ask for."""
+        """Half width of the interval in standard deviations.
+
+        Student's t, because the variance is known from the cases alone, times the factor that
+        left-out cases ask for.
+        """
         freedom = len(self.y) - self.coefficients
         return float(stats.t.ppf(0.5 + confidence / 2, freedom)) * self._inflation
 
