@@ -22,13 +22,13 @@ from types import ModuleType
 import numpy as np
 import pandas as pd
 
-from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
-from nptcs.config.fe import FeModel, PlateCoupling
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusMesh, AbaqusModel
+from nptcs.config.solvers.fe import FeModel, PlateCoupling
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.decks.abaqus.deck import tyre_deck
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.equilibrium import SpokeModel
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 TESTS = Path(__file__).parents[1] / "tests" / "unit" / "decks"
 PUBLISHED = Path(__file__).parents[1] / "raw_data" / "published" / "table5_plate_doe.csv"

@@ -24,7 +24,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array, Index
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.elements.lagrange import gauss, jacobians, line_shape, tensor_shape
 from nptcs.fe.tyre.mesh import band_radii
 

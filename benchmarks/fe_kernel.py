@@ -21,13 +21,13 @@ from scipy.linalg import cholesky_banded
 from scipy.sparse.linalg import splu
 from threadpoolctl import threadpool_limits
 
-from nptcs.config.fe import FeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
 from nptcs.fe.elements.groups import element_dofs
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockMatrix, BlockPattern
 from nptcs.fe.spoke.equilibrium import SpokeModel
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 Array = NDArray[np.float64]
 Index = NDArray[np.int64]

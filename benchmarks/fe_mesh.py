@@ -12,14 +12,14 @@ from __future__ import annotations
 import argparse
 import time
 
-from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.pull import spoke_stiffness
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 TYRE = TyreGeometry()
 NAMES = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")

@@ -12,10 +12,10 @@ import argparse
 from concurrent.futures import ProcessPoolExecutor
 from functools import partial
 
-from nptcs.config.fe import FeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 ASSUMED_SPOKE, ASSUMED_BAND = 1.04, 5.0
 SPOKES, BANDS = (1.0, ASSUMED_SPOKE, 1.1), (4.0, ASSUMED_BAND)

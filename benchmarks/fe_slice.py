@@ -19,12 +19,12 @@ import time
 
 import numpy as np
 
-from nptcs.config.fe import FeModel, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
 from nptcs.fe.verification.direct_tyre import DirectTyre
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 
 def options() -> argparse.Namespace:

@@ -23,14 +23,14 @@ import numpy as np
 from threadpoolctl import threadpool_limits
 
 from nptcs.arrays import Array
-from nptcs.config.fe import FeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky
 from nptcs.fe.output.loaded_spokes import loaded_spokes
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.tyre.responses import contact_responses, spoke_forces
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 TYRE = TyreGeometry()
 NAMES = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")

@@ -25,14 +25,14 @@ from pathlib import Path
 
 import numpy as np
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
+from nptcs.ingest.reading.columns.quantities import Role
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.ingest.reading.quantities import Role
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.reading.units import DIMENSION, FACTORS
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]
 ROWS = 60

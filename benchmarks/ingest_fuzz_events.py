@@ -26,11 +26,11 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import Ingested, ingest_specimen, load_profiles
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]
 EVENTS = (

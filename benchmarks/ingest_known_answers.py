@@ -19,13 +19,13 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from nptcs.config.ingest import IngestSettings, Plausible
+from nptcs.config.materials.ingest import IngestSettings, Plausible
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.opened_file import open_file
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import read_raw, sources_of
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 FORMATS = Path(__file__).resolve().parents[1] / "config" / "formats"
 CCFATIGUE = FormatProfile(

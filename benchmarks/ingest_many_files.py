@@ -21,10 +21,10 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]
 DIFFERENT = 20

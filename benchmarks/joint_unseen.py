@@ -18,7 +18,7 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.doe.points import space_filling
 from nptcs.doe.whole_plates import whole_plates
 from nptcs.files import read_model
@@ -28,7 +28,7 @@ from nptcs.solvers.contract import CaseInputs, SolverResult, Status
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.surface.stored import read_registry
 from nptcs.surface.study import RESPONSE
-from nptcs.tables.material_card import MaterialCard
+from nptcs.tables.laboratory.material_card import MaterialCard
 
 TYRE = TyreGeometry()
 LOAD_N = 5000.0

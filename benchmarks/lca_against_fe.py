@@ -16,13 +16,13 @@ import argparse
 import numpy as np
 
 from nptcs import lca
-from nptcs.config.fe import FeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, spoke_design, tyre_model
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.pull import pull, spoke_stiffness
 from nptcs.fe.tyre.equilibrium import TyreError
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 BAND_C10_MPA = 5.0
 PLATES = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}

@@ -21,7 +21,7 @@ from pathlib import Path
 import numpy as np
 
 from nptcs import lca
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.lca.batch import scaled
 
 INDEPENDENT = Path(__file__).resolve().parents[1] / "tests" / "unit" / "lca" / "independent.py"

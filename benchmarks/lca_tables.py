@@ -12,7 +12,7 @@ import pandas as pd
 
 from nptcs import lca
 from nptcs.compare.lca import lca_against_fem, lca_validation
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 
 PUBLISHED = Path(__file__).resolve().parents[1] / "raw_data" / "published"
 

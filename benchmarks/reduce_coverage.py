@@ -22,9 +22,9 @@ import pandas as pd
 from scipy import stats
 
 from nptcs.calibrate import calibrate_ply, calibrate_rubber
-from nptcs.config.calibration import CalibrationSettings
-from nptcs.config.ingest import IngestSettings
-from nptcs.config.reduction import AstmD3039, AstmD3518, ReductionSettings
+from nptcs.config.materials.calibration import CalibrationSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import AstmD3039, AstmD3518, ReductionSettings
 from nptcs.example import truth
 from nptcs.example.generate import generate
 from nptcs.ingest import ingest_specimen, load_profiles
@@ -33,9 +33,9 @@ from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.mechanical_tests import TestType
 from nptcs.reduce import reduce_record
 from nptcs.reduce.origin import origin_of, origins_of
-from nptcs.tables.curves import CURVE_COLUMNS, IngestRecord
-from nptcs.tables.material_card import Quantity
-from nptcs.tables.specimens import Specimen, read_sheet
+from nptcs.tables.laboratory.curves import CURVE_COLUMNS, IngestRecord
+from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.specimens import Specimen, read_sheet
 
 ROOT = Path(__file__).resolve().parents[1]
 PLY = {

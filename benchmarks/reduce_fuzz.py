@@ -21,12 +21,12 @@ from pathlib import Path
 import numpy as np
 import pandas as pd
 
-from nptcs.config.ingest import IngestSettings
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.reduce import reduce_record
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]
 AREA = 15.0

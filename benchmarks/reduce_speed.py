@@ -17,10 +17,10 @@ import numpy as np
 import pandas as pd
 
 from nptcs.calibrate import calibrate_rubber, compare_models
-from nptcs.config.calibration import CalibrationSettings
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.calibration import CalibrationSettings
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.reduce import reduce_specimen
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 RUNS = 15
 

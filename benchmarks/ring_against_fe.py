@@ -24,9 +24,9 @@ from pathlib import Path
 
 import numpy as np
 
-from nptcs.config.fe import SECTIONS, FeModel, TyreMesh
-from nptcs.config.ring import RingOptions
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import SECTIONS, FeModel, TyreMesh
+from nptcs.config.solvers.ring import RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design, tyre_model
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
@@ -36,7 +36,7 @@ from nptcs.files import read_model
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingState, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
-from nptcs.tables.material_card import PUBLISHED_PLY, MaterialCard
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY, MaterialCard
 
 TYRE = TyreGeometry()
 FIDUCIAL = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}

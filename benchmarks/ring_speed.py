@@ -18,16 +18,16 @@ import numpy as np
 import pandas as pd
 from scipy.stats import qmc
 
-from nptcs.config.fe import FeModel
-from nptcs.config.ring import RingOptions
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.ring import RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import energy_table, spoke_design
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring.batch import NamedTables, solve_table
-from nptcs.ring.compiled import HAS_NUMBA
+from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.solution import load
 from nptcs.ring.tyre import ring_tyre
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 TYRE = TyreGeometry()
 POINTS = 12

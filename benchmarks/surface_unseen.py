@@ -29,7 +29,7 @@ from nptcs.surface.cases import as_realised
 from nptcs.surface.response_surface import predict
 from nptcs.surface.stored import read_registry
 from nptcs.surface.study import RESPONSE
-from nptcs.tables.material_card import MaterialCard
+from nptcs.tables.laboratory.material_card import MaterialCard
 
 FACTORS = ["spacing_mm", "thickness_mm", "angle_deg"]
 BY_HAND = [(10.5, 1.3, 0.0), (12.5, 1.5, 37.5), (14.05, 1.8, 45.0)]

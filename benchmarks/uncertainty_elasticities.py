@@ -19,10 +19,10 @@ import numpy as np
 import pandas as pd
 import yaml
 
-from nptcs.config.goals import ResponseName
 from nptcs.config.root import read_config
+from nptcs.config.studies.goals import ResponseName
 from nptcs.decisions.run import read_run, solver_run, source_of
-from nptcs.tables.material_card import PlyCard
+from nptcs.tables.laboratory.material_card import PlyCard
 from nptcs.uncertainty.source import Materials
 
 CHANGES: dict[str, tuple[str, ...]] = {

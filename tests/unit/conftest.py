@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 
 @pytest.fixture(scope="session")

@@ -11,12 +11,12 @@ import nptcs
 from nptcs.calibrate import invariants, ogden
 from nptcs.calibrate.drucker import PATHS
 from nptcs.calibrate.models import model_named
-from nptcs.config.calibration import ModelName, RubberSettings
-from nptcs.config.fe import PlateCoupling
-from nptcs.config.reduction import ChordMethod, ReductionSettings
-from nptcs.config.sensitivity import AveragingRule
+from nptcs.config.materials.calibration import ModelName, RubberSettings
+from nptcs.config.materials.reduction import ChordMethod, ReductionSettings
+from nptcs.config.solvers.fe import PlateCoupling
+from nptcs.config.studies.sensitivity import AveragingRule
 from nptcs.lca.batch import TARGETS
-from nptcs.lca.newton import Target
+from nptcs.lca.linear.newton import Target
 from nptcs.lca.section import SectionKind
 from nptcs.mechanical_tests import COMPOSITE_TESTS, RUBBER_TESTS, TestType
 from nptcs.solvers.contract import Status

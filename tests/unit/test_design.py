@@ -9,7 +9,7 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.design import full_factorial
 from nptcs.errors import InputError
 

@@ -10,9 +10,9 @@ import yaml
 from scipy.stats import qmc
 
 from nptcs.cli import main
-from nptcs.config.study import Study
-from nptcs.config.surface import GaussianProcessModel, PolynomialModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
+from nptcs.config.studies.surface import GaussianProcessModel, PolynomialModel
 from nptcs.design import build_design
 from nptcs.doe.augment import augment
 from nptcs.doe.d_optimal import d_efficiency, d_optimal, log_determinant

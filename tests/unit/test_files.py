@@ -5,7 +5,7 @@ import pytest
 from nptcs.errors import InputError
 from nptcs.files import read_model, write_model
 from nptcs.seal import sealed_object
-from nptcs.tables.curves import IngestRecord
+from nptcs.tables.laboratory.curves import IngestRecord
 
 
 def test_a_record_comes_back(tmp_path):

@@ -55,7 +55,7 @@ def test_tables_and_report_do_not_rest_on_the_finite_elements(module):
 def test_imports_inside_functions_count(tmp_path):
     own = tmp_path / "own_solver.py"
     own.write_text("def solve(inputs):\n    from nptcs.design import full_factorial\n")
-    assert "nptcs.config.study" in imported_modules(str(own))
+    assert "nptcs.config.studies.study" in imported_modules(str(own))
 
 
 def test_a_changed_module_changes_only_what_imports_it(copy):

@@ -32,6 +32,12 @@ def test_no_module_imports_the_private_names_of_another(module):
 
 
 @pytest.mark.parametrize("room", ROOMS, ids=lambda path: str(path.parent.relative_to(PACKAGE)))
+def test_no_room_is_too_large_to_be_read_at_a_glance(room):
+    """More than twenty modules side by side: some of them make a room of their own."""
+    assert len(list(room.parent.glob("*.py"))) <= 20
+
+
+@pytest.mark.parametrize("room", ROOMS, ids=lambda path: str(path.parent.relative_to(PACKAGE)))
 def test_each_room_says_what_comes_in_and_what_does_not_belong_there(room):
     """Two sentences at least after the first line; a newcomer reads them before any code."""
     text = ast.get_docstring(ast.parse(room.read_text("utf-8"))) or ""

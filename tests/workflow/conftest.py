@@ -149,7 +149,7 @@ def project(finished, tmp_path) -> Project:
 
 def shorten_sheet(project: Project) -> None:
     """Keep a few specimens of some series, and only their files."""
-    from nptcs.tables.specimens import read_sheet
+    from nptcs.tables.laboratory.specimens import read_sheet
 
     sheet = project.path(SHEET)
     specimens, errors = read_sheet(sheet)

@@ -17,7 +17,7 @@ from nptcs.campaign.record import RecordStore
 from nptcs.config.root import read_config
 from nptcs.files import read_model
 from nptcs.start import facts
-from nptcs.tables.material_card import MaterialCard
+from nptcs.tables.laboratory.material_card import MaterialCard
 from nptcs.yaml_files import read_yaml
 
 CONFIG = "config/increments.yaml"

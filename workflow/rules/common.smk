@@ -18,7 +18,7 @@ from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.report.stale import refused
 from nptcs.start.facts import known_facts
 from nptcs.start.pandas_values import look_for_pandas_only_if_imported
-from nptcs.tables.specimens import read_sheet
+from nptcs.tables.laboratory.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()

@@ -6,9 +6,9 @@ from typing import Any
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.ingest.account import account_for_files
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.files import Files
 from nptcs.tables.io import write_table
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.files import Files
 
 
 def account(job: dict[str, Any], sheet: str, records: Sequence[str], files: str) -> None:

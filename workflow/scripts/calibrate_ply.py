@@ -3,14 +3,14 @@
 from typing import Any
 
 from nptcs.calibrate import calibrate_ply
-from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model, write_model
 from nptcs.ingest.repeats import counted_once
-from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_tables
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def calibrate(job: dict[str, Any], properties: list[str], records: list[str], card: str) -> None:

@@ -3,14 +3,14 @@
 from typing import Any
 
 from nptcs.calibrate import calibrate_rubber_tables
-from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model, write_model
 from nptcs.ingest.repeats import counted_once
-from nptcs.tables.curves import IngestRecord, read_curves
-from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import write_table
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord, read_curves
+from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def calibrate(job: dict[str, Any], curves: list[str], records: list[str], **output: str) -> None:

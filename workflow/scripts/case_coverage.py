@@ -5,9 +5,9 @@ from typing import Any
 
 from nptcs.console import clear_errors
 from nptcs.surface.diagnostics.coverage import Planned, coverage_table
-from nptcs.tables.cases import Cases, Design
-from nptcs.tables.coverage import CaseCoverage
 from nptcs.tables.io import read_table, write_table
+from nptcs.tables.tyres.cases import Cases, Design
+from nptcs.tables.tyres.coverage import CaseCoverage
 
 
 def cover(job: dict[str, Any], cases: str, designs: list[str], coverage: str) -> None:

@@ -5,8 +5,8 @@ from typing import Any
 
 from nptcs.campaign.cases import read_cases
 from nptcs.console import clear_errors
-from nptcs.tables.cases import Cases
 from nptcs.tables.io import write_table
+from nptcs.tables.tyres.cases import Cases
 
 
 def gather(job: dict[str, Any], records: Sequence[str], cases: str) -> None:

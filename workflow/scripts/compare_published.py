@@ -5,9 +5,9 @@ from typing import Any
 from nptcs.compare import published_stiffness as compare
 from nptcs.compare.stiffness_exponents import stiffness_exponents
 from nptcs.console import clear_errors
-from nptcs.tables import published_stiffness as contracts
-from nptcs.tables.cases import Cases, Design
 from nptcs.tables.io import check, read_table, write_table
+from nptcs.tables.published import stiffness as contracts
+from nptcs.tables.tyres.cases import Cases, Design
 
 
 def compare_published(job: dict[str, Any], cases: str, designs: list[str], **output: str) -> None:

@@ -7,10 +7,10 @@ from nptcs.config.root import read_config
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.responses.deformed_tyre import outlines_of_study
-from nptcs.tables.cases import Design
-from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.io import empty_table, read_table, write_table
-from nptcs.tables.material_card import PlyCard
+from nptcs.tables.laboratory.material_card import PlyCard
+from nptcs.tables.tyres.cases import Design
+from nptcs.tables.tyres.deformed_tyre import DeformedTyre
 
 
 def draw(job: dict[str, Any], config: dict[str, Any], outlines: str, **files: Any) -> None:

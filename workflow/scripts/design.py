@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from typing import Any
 
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.console import clear_errors
 from nptcs.design import build_design
 from nptcs.files import read_model
-from nptcs.tables.cases import Design
 from nptcs.tables.io import write_table
-from nptcs.tables.material_card import RubberCard
+from nptcs.tables.laboratory.material_card import RubberCard
+from nptcs.tables.tyres.cases import Design
 
 
 def build(job: dict[str, Any], design: str, cards: Sequence[str] = ()) -> None:

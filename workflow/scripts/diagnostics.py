@@ -6,7 +6,7 @@ from typing import Any
 from nptcs.console import clear_errors
 from nptcs.surface.diagnostics import tables
 from nptcs.surface.stored import read_surfaces
-from nptcs.tables import diagnostics as contracts
+from nptcs.tables.analysis import diagnostics as contracts
 from nptcs.tables.io import write_table
 
 

@@ -4,11 +4,11 @@ from typing import Any
 
 from nptcs.console import clear_errors
 from nptcs.responses.displacement_by_load import displacement_by_load
-from nptcs.tables.cases import Cases
-from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.lca_validation import LcaValidation
-from nptcs.tables.tyre_responses import TyreCurves
+from nptcs.tables.published.lca_validation import LcaValidation
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.displacement_by_load import DisplacementByLoad
+from nptcs.tables.tyres.tyre_responses import TyreCurves
 
 
 def compare(job: dict[str, Any], cases: str, curves: str, validation: str, table: str) -> None:

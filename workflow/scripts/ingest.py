@@ -3,14 +3,14 @@
 import json
 from typing import Any
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.console import clear_errors
 from nptcs.files import sha256_of_text, write_model
 from nptcs.ingest import ingest_or_record, load_profiles
 from nptcs.ingest.kept import is_kept, made_now
-from nptcs.tables.curves import Curve
 from nptcs.tables.io import write_table
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import Curve
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def ingest(job: dict[str, Any], curves: list[str], records: list[str]) -> None:

@@ -3,11 +3,11 @@
 from typing import Any
 
 from nptcs.compare.lca import lca_against_fem, lca_validation, ring_neutral_lines
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.console import clear_errors
-from nptcs.tables import published_inputs as paper
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
+from nptcs.tables.published import inputs as paper
+from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 
 
 def validate(job: dict[str, Any], validation: str, fem: str, neutral_line: str, **tables) -> None:

@@ -4,9 +4,9 @@ from typing import Any
 
 from nptcs.console import clear_errors
 from nptcs.files import read_model, write_model
-from nptcs.tables.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.io import read_tables, write_table
-from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
+from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, RubberCard
 
 
 def join(job: dict[str, Any], card: str, models: str, ranges: str, **source: list[str]) -> None:

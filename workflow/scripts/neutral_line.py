@@ -5,9 +5,9 @@ from typing import Any
 from nptcs.campaign.record import read_records
 from nptcs.compare.neutral_line import case_ids, neutral_lines
 from nptcs.console import clear_errors
-from nptcs.tables.cases import Design
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.tyres.cases import Design
+from nptcs.tables.tyres.neutral_line import NeutralLine
 
 
 def gather(job: dict[str, Any], records: list[str], designs: list[str], lines: str) -> None:

@@ -6,10 +6,10 @@ from typing import Any
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.report.problems import all_problems
-from nptcs.tables.cases import Cases
-from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_table, read_tables, write_table
+from nptcs.tables.laboratory.curves import IngestRecord
 from nptcs.tables.problems import Problems
+from nptcs.tables.tyres.cases import Cases
 
 
 def collect(

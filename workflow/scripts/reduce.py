@@ -2,16 +2,16 @@
 
 from typing import Any
 
-from nptcs.config.ingest import Plausible
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.ingest import Plausible
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.reduce.series import reduce_series
-from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.io import write_table
+from nptcs.tables.laboratory.curves import IngestRecord, read_curves
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.problems import Problems
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.specimens import Specimen
 
 
 def reduce(job: dict[str, Any], curves: list[str], records: list[str], **output: str) -> None:

@@ -7,11 +7,11 @@ from nptcs.compare.impact import with_published
 from nptcs.console import clear_errors
 from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.stored import read_surfaces
-from nptcs.tables.cases import Design
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.surface import JOINED, SurfaceQuality
 from nptcs.tables.io import read_table, read_tables, write_table
-from nptcs.tables.published_inputs import PublishedImpact
-from nptcs.tables.surface import JOINED, SurfaceQuality
+from nptcs.tables.published.inputs import PublishedImpact
+from nptcs.tables.tyres.cases import Design
 
 
 def assess(job: dict[str, Any], impact: str, **files: Any) -> None:

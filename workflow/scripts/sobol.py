@@ -3,12 +3,12 @@
 from pathlib import Path
 from typing import Any
 
-from nptcs.config.sensitivity import Sensitivity
+from nptcs.config.studies.sensitivity import Sensitivity
 from nptcs.console import clear_errors
 from nptcs.surface.sensitivity.response_tables import sensitivity_tables
 from nptcs.surface.stored import read_registry
+from nptcs.tables.analysis.surface import SurfaceQuality
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.surface import SurfaceQuality
 
 
 def share(job: dict[str, Any], models: list[str], quality: str, **output: str) -> None:

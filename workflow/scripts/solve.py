@@ -8,9 +8,9 @@ from nptcs.campaign.tries import note_ends
 from nptcs.config.root import read_config
 from nptcs.console import clear_errors
 from nptcs.files import read_model
-from nptcs.tables.cases import Design
 from nptcs.tables.io import read_table
-from nptcs.tables.material_card import PlyCard
+from nptcs.tables.laboratory.material_card import PlyCard
+from nptcs.tables.tyres.cases import Design
 
 
 def solve(job: dict[str, Any], store: str, records: str, design: str, **more) -> None:

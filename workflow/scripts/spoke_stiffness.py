@@ -6,8 +6,8 @@ from nptcs.campaign.record import read_records
 from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.console import clear_errors
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.published_inputs import PublishedSpokeStiffness
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
+from nptcs.tables.published.inputs import PublishedSpokeStiffness
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves, SpokeLines
 
 
 def gather(job: dict[str, Any], records: list[str], published: list[str], **output: str) -> None:

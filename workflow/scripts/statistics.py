@@ -2,15 +2,15 @@
 
 from typing import Any
 
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.ingest.repeats import counted_once
 from nptcs.reduce.result_tables import result_tables
-from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_tables, write_table
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def summarise(job: dict[str, Any], properties: list[str], records: list[str], **out: str) -> None:

@@ -4,14 +4,14 @@ from typing import Any
 
 from nptcs.campaign.cases import read_cases
 from nptcs.compare.surface_tables import study_tables, write_surfaces
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.responses.study import study_responses
 from nptcs.surface.study import fit_study
 from nptcs.tables.io import read_tables, write_table
-from nptcs.tables.material_card import PlyCard
-from nptcs.tables.published_inputs import PublishedCoefficients
+from nptcs.tables.laboratory.material_card import PlyCard
+from nptcs.tables.published.inputs import PublishedCoefficients
 
 
 def fit(job: dict[str, Any], records: list[str], **files: Any) -> None:

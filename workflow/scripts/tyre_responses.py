@@ -3,13 +3,13 @@
 from typing import Any
 
 from nptcs.campaign.record import read_records
-from nptcs.config.responses import TyreResponseSettings
+from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.console import clear_errors
 from nptcs.responses.strength import ply_strengths
 from nptcs.responses.table import plate_stress, tyre_curves, tyre_responses
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.statistics import StatisticsTable
-from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
+from nptcs.tables.laboratory.statistics import StatisticsTable
+from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 
 def gather(job: dict[str, Any], records: list[str], statistics: str, **out: str) -> None:

@@ -6,11 +6,11 @@ from typing import Any
 from nptcs.console import clear_errors
 from nptcs.files import read_model, write_text
 from nptcs.report.verdict import problem_lines, verdict
-from nptcs.tables.cases import Cases
-from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import read_table
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.problems import Problems
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.tyres.cases import Cases
 
 
 def judge(job: dict[str, Any], records: list[str], verdict_file: str, **tables: str) -> None:

@@ -5,7 +5,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def rubber(name: str = "R-1", test: str = "rubber_tension", **changes: Any) -> Specimen:

@@ -5,7 +5,7 @@ import numpy as np
 import pytest
 
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
-from nptcs.config.calibration import CalibrationSettings, RubberSettings
+from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 
 Make = Callable[..., Any]
 STRAIN = np.linspace(0, 1.2, 1201)

@@ -9,15 +9,15 @@ import pytest
 from scipy import stats
 
 from nptcs.calibrate import calibrate_ply, calibrate_rubber
-from nptcs.config.calibration import CalibrationSettings
-from nptcs.config.ingest import IngestSettings
-from nptcs.config.reduction import AstmD3039, AstmD3518, ReductionSettings
+from nptcs.config.materials.calibration import CalibrationSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import AstmD3039, AstmD3518, ReductionSettings
 from nptcs.example import truth
 from nptcs.ingest import Ingested, ingest_specimen, load_profiles
 from nptcs.reduce import reduce_record
-from nptcs.reduce.statistics import group_statistics
-from nptcs.tables.material_card import Quantity
-from nptcs.tables.specimens import Specimen, read_sheet
+from nptcs.reduce.groups.statistics import group_statistics
+from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.specimens import Specimen, read_sheet
 
 ROOT = Path(__file__).resolve().parents[3]
 FOLDER = ROOT / "raw_data" / "example"

@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from nptcs.calibrate.linear import robust_covariance, solve_linear
-from nptcs.reduce.chord import fit_line
+from nptcs.reduce.curve.chord import fit_line
 
 NIST = Path(__file__).resolve().parents[3] / ".." / "shared" / "labdata" / "nist-regression"
 # relative accuracy that double precision leaves at each set's conditioning; Longley, Wampler

@@ -6,10 +6,10 @@ from typing import Any
 import pytest
 
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
-from nptcs.config.calibration import CalibrationSettings
-from nptcs.config.study import Study
+from nptcs.config.materials.calibration import CalibrationSettings
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 Make = Callable[..., Any]
 SETTINGS = CalibrationSettings()

@@ -5,7 +5,7 @@ from hypothesis import strategies as st
 
 from nptcs.calibrate.orthotropic import check_ply, compliance_matrix
 from nptcs.errors import InputError
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 
 def test_table_2_is_orthotropic_and_says_so() -> None:

@@ -6,15 +6,15 @@ import pandas as pd
 import pytest
 
 from nptcs.calibrate import calibrate_ply
-from nptcs.config.calibration import (
+from nptcs.config.materials.calibration import (
     CalibrationSettings,
     ConstantSource,
     PlyAssumptions,
     PlySettings,
 )
 from nptcs.errors import InputError
-from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard
-from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.laboratory.material_card import PLY_CONSTANTS, PlyCard
+from nptcs.tables.laboratory.properties import PropertiesTable
 
 Make = Callable[..., Any]
 SETTINGS = CalibrationSettings()

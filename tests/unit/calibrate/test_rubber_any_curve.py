@@ -9,7 +9,7 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from nptcs.calibrate import c10_against_range, calibrate_rubber, compare_models
-from nptcs.config.calibration import CalibrationSettings, RubberSettings
+from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
 
 Make = Callable[..., Any]

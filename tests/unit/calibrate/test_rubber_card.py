@@ -8,9 +8,9 @@ from nptcs.calibrate import calibrate_rubber
 from nptcs.calibrate.fit import fit_model
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.observations import Observation
-from nptcs.config.calibration import CalibrationSettings, RubberSettings
+from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
-from nptcs.tables.material_card import RubberCard
+from nptcs.tables.laboratory.material_card import RubberCard
 
 Make = Callable[..., Any]
 SETTINGS = CalibrationSettings()

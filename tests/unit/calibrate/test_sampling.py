@@ -4,7 +4,7 @@ import pytest
 
 from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.sampling import sample_constants
-from nptcs.tables.material_card import PUBLISHED_PLY, Covariance, PlyCard, Quantity
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY, Covariance, PlyCard, Quantity
 
 MATRIX = np.array([[4e6, 0.0, 12.0, 0.0], [0.0, 5e3, 0.0, 0.0], [12.0, 0.0, 1e-4, 0.0]])
 MATRIX = np.vstack([MATRIX, [0.0, 0.0, 0.0, 2.5e3]])

@@ -14,17 +14,17 @@ from nptcs.campaign.bulk import in_bulk, known_in_bulk, solve_bulk
 from nptcs.campaign.bulk_file import read_bulk, write_bulk
 from nptcs.campaign.cases import cases_table, read_cases, read_tyres
 from nptcs.campaign.record import RecordStore, write_records
-from nptcs.config.responses import TyreResponseSettings
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.responses import TyreResponseSettings
+from nptcs.config.studies.study import Study
 from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.responses.strength import PlyStrengths
 from nptcs.responses.table import tyre_responses
 from nptcs.solvers.registry import MODULES, load
 from nptcs.solvers.tables import CURVE
-from nptcs.tables.cases import Cases
 from nptcs.tables.io import check
+from nptcs.tables.tyres.cases import Cases
 
 FAULTY = {"module": str(Path(__file__).with_name("faulty_table_solver.py"))}
 PUBLISHED = Path(__file__).parents[3] / "raw_data/published"

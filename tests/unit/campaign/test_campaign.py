@@ -16,12 +16,12 @@ from nptcs.campaign.record import CaseJob, RecordStore, read_records, read_table
 from nptcs.campaign.runner import run_cases
 from nptcs.campaign.tries import ended_from_outside, note_ends, read_tries, tries_file
 from nptcs.cli import main
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.provenance import code_hash
-from nptcs.tables.cases import Cases
 from nptcs.tables.io import check
+from nptcs.tables.tyres.cases import Cases
 
 SOLVER = Path(__file__).with_name("faulty_solver.py")
 

@@ -10,8 +10,8 @@ from nptcs.config.root import read_config
 from nptcs.design import full_factorial
 from nptcs.errors import InputError
 from nptcs.files import write_model
-from nptcs.tables.material_card import MaterialCard
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.material_card import MaterialCard
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 @pytest.fixture

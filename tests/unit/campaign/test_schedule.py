@@ -11,7 +11,7 @@ import pytest
 from nptcs.campaign.record import CaseJob, RecordStore
 from nptcs.campaign.runner import run_cases
 from nptcs.campaign.schedule import batch_cores, batch_tokens, cases_side_by_side
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.provenance import code_hash
 from nptcs.solvers.abaqus import AbaqusOptions

@@ -8,14 +8,14 @@ import json
 import pytest
 
 from nptcs.campaign.record import CaseJob, RecordStore, make_record, read_records, write_records
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.files import read_model, write_model
 from nptcs.seal import SEAL, sealed_object
 from nptcs.solvers.contract import SolverResult
 from nptcs.surface.stored import read_surfaces
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.material_card import PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.material_card import PlyCard, Quantity, RubberCard
 
 STIFFNESS = 612.25
 

@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from nptcs.commands import deck, fe_calibrate, fe_picture
 from nptcs.errors import InputError
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -9,7 +9,7 @@ import yaml
 
 from nptcs.compare.conditions import load_fault, plate_faults, range_faults, surface_faults
 from nptcs.compare.impact import with_published
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 
 ROOT = Path(__file__).parents[3]
 STUDIES = {

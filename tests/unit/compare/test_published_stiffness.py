@@ -12,7 +12,7 @@ from nptcs.compare.published_stiffness import (
 )
 from nptcs.errors import InputError
 from nptcs.tables.io import check, empty_table, read_table, write_table
-from nptcs.tables.published_stiffness import (
+from nptcs.tables.published.stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,

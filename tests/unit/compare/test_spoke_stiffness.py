@@ -11,9 +11,9 @@ from nptcs.compare.neutral_line import neutral_lines
 from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.solvers.contract import SPOKE_RESPONSES, SolverResult, neutral_line_columns
 from nptcs.tables.io import check, read_table, write_table
-from nptcs.tables.neutral_line import NeutralLine
-from nptcs.tables.published_inputs import PublishedSpokeStiffness
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
+from nptcs.tables.published.inputs import PublishedSpokeStiffness
+from nptcs.tables.tyres.neutral_line import NeutralLine
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves, SpokeLines
 
 TABLE_10 = Path(__file__).parents[3] / "raw_data/published/table10_spoke_stiffness.csv"
 PLACE = [-20.0, -10.0, 0.0, 2.0, 4.0]

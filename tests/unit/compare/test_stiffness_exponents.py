@@ -9,7 +9,7 @@ import pytest
 from nptcs.compare.published_stiffness import Comparison
 from nptcs.compare.stiffness_exponents import stiffness_exponents
 from nptcs.tables.io import check, empty_table
-from nptcs.tables.published_stiffness import StiffnessAgainstPublished, StiffnessExponents
+from nptcs.tables.published.stiffness import StiffnessAgainstPublished, StiffnessExponents
 
 FACTORS = ("shear_band_c10_mpa", "spoke_c10_mpa", "spacing_mm")
 

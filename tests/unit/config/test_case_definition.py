@@ -2,7 +2,7 @@
 
 import pytest
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 
 STUDY = {
     "name": "s",

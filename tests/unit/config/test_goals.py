@@ -7,8 +7,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nptcs.config.decisions import Decision
-from nptcs.config.goals import GoalKind, ResponseName, read_goal, read_goals
+from nptcs.config.studies.decisions import Decision
+from nptcs.config.studies.goals import GoalKind, ResponseName, read_goal, read_goals
 from nptcs.errors import InputError
 
 NUMBERS = st.floats(0.001, 1e6).map(lambda x: float(f"{x:.6g}"))

@@ -4,10 +4,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
-from nptcs.config.uncertainty import Uncertainty
-from nptcs.tables.material_card import MaterialCard
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
+from nptcs.config.studies.uncertainty import Uncertainty
+from nptcs.tables.laboratory.material_card import MaterialCard
 from nptcs.uncertainty.source import Materials, Source
 from nptcs.uncertainty.study_results import results_of
 

@@ -7,15 +7,15 @@ import pandas as pd
 import pytest
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.config.decisions import Decision
+from nptcs.config.studies.decisions import Decision
 from nptcs.decisions.confirm import confirmed
 from nptcs.decisions.decide import decide
 from nptcs.decisions.tables import Answer, decision_tables
 from nptcs.solvers.contract import SolverResult
-from nptcs.tables import decisions as contracts
+from nptcs.tables.analysis import decisions as contracts
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
 from nptcs.tables.io import check, empty_table
-from nptcs.tables.published_stiffness import StiffnessErrors
-from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
+from nptcs.tables.published.stiffness import StiffnessErrors
 from nptcs.uncertainty.tables import NamedDesign, uncertainty_tables
 
 DECISION = Decision(

@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from scipy import stats
 
-from nptcs.config.decisions import Decision
-from nptcs.config.goals import GoalKind, ResponseName, read_goal
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.decisions import Decision
+from nptcs.config.studies.goals import GoalKind, ResponseName, read_goal
 from nptcs.decisions.decide import decide
 from nptcs.decisions.evaluate import Desirability, Evaluation, at_least_all, within
 from nptcs.decisions.search import pareto

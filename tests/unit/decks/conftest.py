@@ -1,9 +1,9 @@
 import pytest
 
-from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusMesh, AbaqusModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.decks.abaqus.deck import tyre_deck
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 CASE = {
     "spacing_mm": 15.0,

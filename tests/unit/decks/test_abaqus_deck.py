@@ -3,9 +3,9 @@
 import numpy as np
 import pytest
 
-from nptcs.config.abaqus import AbaqusModel
-from nptcs.config.fe import SpokeGeometry
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusModel
+from nptcs.config.solvers.fe import SpokeGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 
 

@@ -8,9 +8,9 @@ import pytest
 from scipy.sparse import csr_matrix
 from scipy.sparse.linalg import spsolve
 
-from nptcs.config.abaqus import AbaqusMesh, AbaqusModel
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusMesh, AbaqusModel
+from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.decks.abaqus.mesh import spoke_part
 from nptcs.decks.calculix import total_forces
 from nptcs.fe.elements.groups import RubberGroup

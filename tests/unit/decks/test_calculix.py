@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 from nptcs.decks.calculix import (
     BrickMesh,
     brick_mesh,

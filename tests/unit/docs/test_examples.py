@@ -58,7 +58,7 @@ def test_what_newcomers_call_first_has_an_example():
         "nptcs.design.full_factorial",
         "nptcs.laminate.abd",
         "nptcs.lca.single.solve",
-        "nptcs.reduce.chord.chord_slope",
+        "nptcs.reduce.curve.chord.chord_slope",
         "nptcs.surface.fit.fit",
         "nptcs.surface.sensitivity.gradients.impact",
         "nptcs.terms.Polynomial",

@@ -6,10 +6,10 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.laminate import abd
 from nptcs.surface.fit import fit
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 from nptcs.terms import parse
 
 ROOT = Path(__file__).parents[3]

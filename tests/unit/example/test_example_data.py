@@ -11,14 +11,14 @@ import numpy as np
 import pytest
 
 from nptcs.commands import example
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.example import truth
 from nptcs.example.generate import SEED, generate
 from nptcs.example.materials import FIT_RANGE, yeoh_c10, yeoh_stress
 from nptcs.example.tests import draw
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.mechanical_tests import TestType
-from nptcs.tables.specimens import read_sheet
+from nptcs.tables.laboratory.specimens import read_sheet
 
 ROOT = Path(__file__).resolve().parents[3]
 EXAMPLE = ROOT / "raw_data" / "example"

@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import FeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe import calibration
 from nptcs.fe.calibration import (
     FREE,
@@ -15,7 +15,7 @@ from nptcs.fe.calibration import (
     calibrate,
 )
 from nptcs.fe.tyre.equilibrium import LoadPath, TyreError
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 VALUES = {"thickness_mm": 1.8}
 # inside the limits of all dimensions

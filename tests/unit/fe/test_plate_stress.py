@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.output.plate_stress import face_stress, fibre_axes, mises_in_plane, rubber_extremes
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.laminate import abd, rotated_stiffness
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 

@@ -8,11 +8,11 @@ import numpy as np
 import pytest
 
 from nptcs.arrays import Array
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.ingest import Ingested, ingest_specimen
 from nptcs.ingest.reading.profiles import FormatProfile, load_profiles
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[3]
 

@@ -16,8 +16,8 @@ from hypothesis import strategies as st
 from nptcs.errors import InputError
 from nptcs.example import exports
 from nptcs.example.tests import Draw
-from nptcs.ingest.reading.dialect import Dialect
-from nptcs.ingest.reading.labels import read_labels
+from nptcs.ingest.reading.columns.labels import read_labels
+from nptcs.ingest.reading.text.dialect import Dialect
 
 ROOT = Path(__file__).resolve().parents[3]
 SPECIMEN = Draw("A-1", (10.01, 10.03), (1.0, 1.02), 1.0, 0.3, 1.0)

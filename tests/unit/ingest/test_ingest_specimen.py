@@ -13,15 +13,15 @@ import pandas as pd
 import pytest
 
 from nptcs.commands import inspect, new_sheet
-from nptcs.config.ingest import ForceZero, IngestSettings
+from nptcs.config.materials.ingest import ForceZero, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
 from nptcs.ingest.account import account_for_files
 from nptcs.ingest.folder import find_file, natural_key
 from nptcs.ingest.new_sheet import specimen_id
 from nptcs.ingest.reading.profiles import load_profiles, read_profile
-from nptcs.tables.curves import Curve, IngestRecord
-from nptcs.tables.specimens import read_sheet
+from nptcs.tables.laboratory.curves import Curve, IngestRecord
+from nptcs.tables.laboratory.specimens import read_sheet
 
 ROOT = Path(__file__).resolve().parents[3]
 FORMATS = ROOT / "config" / "formats"

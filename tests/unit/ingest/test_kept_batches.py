@@ -9,11 +9,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.files import read_model, sha256_of_file
 from nptcs.ingest.kept import is_kept
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).parents[3]
 NAMES = ("A", "B", "C")

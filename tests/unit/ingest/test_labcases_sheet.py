@@ -11,7 +11,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.ingest import FileLimits, IngestSettings
+from nptcs.config.materials.ingest import FileLimits, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
 from nptcs.ingest.account import account_for_files
@@ -20,7 +20,7 @@ from nptcs.ingest.inspect import inspect_file
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.ingest.reading.raw_file import read_raw
 from nptcs.ingest.repeats import counted_once, repeats_in_sheet
-from nptcs.tables.specimens import read_sheet
+from nptcs.tables.laboratory.specimens import read_sheet
 
 TIME = np.arange(0, 30.0, 0.5)
 STRAIN = 0.0002 * (TIME / 0.5)

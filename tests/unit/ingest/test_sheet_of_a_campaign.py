@@ -8,14 +8,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.ingest import FileLimits, limits_in
+from nptcs.config.materials.ingest import FileLimits, limits_in
 from nptcs.errors import InputError
 from nptcs.ingest.file_names import series_names, tokens
 from nptcs.ingest.fill_sheet import fill_text, parse_fill
 from nptcs.ingest.folder import is_there
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.ingest.repeats import may_repeat, repeats_in_sheet
-from nptcs.tables.specimens import read_sheet
+from nptcs.tables.laboratory.specimens import read_sheet
 
 TIME = np.arange(0, 30.0, 0.5)
 STRAIN = 2e-4 * TIME

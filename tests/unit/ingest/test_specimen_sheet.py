@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from nptcs.errors import InputError
-from nptcs.tables.specimens import Specimen, files_named, read_sheet
+from nptcs.tables.laboratory.specimens import Specimen, files_named, read_sheet
 
 HEAD = "specimen,test,material,orientation_deg,width_mm,thickness_mm,force_file,include,reason"
 GOOD = "T0-1,tension,cfrp,0,15.01;15.03;15.02,0.90;0.92,T0-1.csv,yes,"

@@ -12,8 +12,8 @@ import yaml
 from jinja2 import Environment, nodes
 
 import nptcs
-from nptcs.config.response import RESPONSE_KINDS
-from nptcs.config.sensitivity import AveragingRule
+from nptcs.config.studies.response import RESPONSE_KINDS
+from nptcs.config.studies.sensitivity import AveragingRule
 from nptcs.mechanical_tests import TestType
 from nptcs.report.figures.lca import REGIONS
 from nptcs.report.figures.uncertainty import KINDS
@@ -21,10 +21,10 @@ from nptcs.report.tables import entries
 from nptcs.report.tables.headings import UNITS, heading, words
 from nptcs.solvers.registry import MODULES, load
 from nptcs.tables.catalogue import TABLES
-from nptcs.tables.files import FileStatus
-from nptcs.tables.flags import FLAG_KINDS
-from nptcs.tables.spoke_stiffness import DIRECTIONS
+from nptcs.tables.laboratory.files import FileStatus
+from nptcs.tables.laboratory.flags import FLAG_KINDS
 from nptcs.tables.status import Status
+from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS
 
 ROOT = Path(nptcs.__file__).parent
 FUNCTIONS = {"tr": 1, "translatable": 1, "tr_count": 2}

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs import lca
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 
 PUBLISHED = Path(__file__).resolve().parents[3] / "raw_data" / "published"
 

@@ -6,8 +6,8 @@ import pytest
 from nptcs import lca
 from nptcs.errors import InputError
 from nptcs.lca.batch import RESULT_COLUMNS, STATUSES, scaled
-from nptcs.lca.newton import by_brackets, newton, start_angle
-from nptcs.lca.system import Arcs
+from nptcs.lca.linear.newton import by_brackets, newton, start_angle
+from nptcs.lca.linear.system import Arcs
 
 
 def test_batch_is_each_design_on_its_own(sweep, design_of_row):

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.cli import main
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.design_table import solve_table
 

@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from nptcs import lca
+from nptcs.lca.any_spokes.with_law import solve_law
 from nptcs.lca.batch import scaled
-from nptcs.lca.with_law import solve_law
 
 
 def solved(sweep, rows, seed):

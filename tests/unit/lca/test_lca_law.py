@@ -7,9 +7,9 @@ from hypothesis import strategies as st
 
 from nptcs import lca
 from nptcs.errors import InputError
-from nptcs.lca.spoke_law_table import SpokeLawTable
-from nptcs.lca.spoke_stiffness_table import OutOfRangeError
-from nptcs.lca.with_law import edge_at
+from nptcs.lca.any_spokes.with_law import edge_at
+from nptcs.lca.spokes.law_table import SpokeLawTable
+from nptcs.lca.spokes.stiffness_table import OutOfRangeError
 
 
 def softening(elongation):

@@ -6,7 +6,7 @@ import pytest
 from nptcs import lca
 from nptcs.compare.lca import lca_against_fem, lca_validation, ring_neutral_lines
 from nptcs.tables.io import check
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
+from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 
 
 @pytest.fixture

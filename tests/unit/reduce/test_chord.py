@@ -3,8 +3,8 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nptcs.config.reduction import ChordMethod
-from nptcs.reduce.chord import chord_slope, fit_line
+from nptcs.config.materials.reduction import ChordMethod
+from nptcs.reduce.curve.chord import chord_slope, fit_line
 
 METHODS: tuple[ChordMethod, ...] = ("nearest_points", "interpolated", "least_squares")
 

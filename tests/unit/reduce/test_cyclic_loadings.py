@@ -8,10 +8,10 @@ import numpy as np
 import pytest
 
 from nptcs.calibrate import c10_against_range, calibrate_rubber
-from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.errors import InputError
 from nptcs.loading import judge_failure, loadings
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 Make = Callable[..., Any]
 

@@ -5,10 +5,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nptcs.config.reduction import ReductionSettings
-from nptcs.reduce.flag_groups import NUMBER, group_flags, kind_of, with_ranges
-from nptcs.tables.flags import FlagsTable
+from nptcs.config.materials.reduction import ReductionSettings
+from nptcs.reduce.groups.flag_groups import NUMBER, group_flags, kind_of, with_ranges
 from nptcs.tables.io import check
+from nptcs.tables.laboratory.flags import FlagsTable
 
 
 def properties(*rows):

@@ -11,12 +11,12 @@ from scipy.integrate import quad
 
 from nptcs.bending import BentBar
 from nptcs.calibrate import calibrate_rubber
-from nptcs.config.calibration import CalibrationSettings, RubberSettings
-from nptcs.config.ingest import IngestSettings
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.reduce import reduce_record, reduce_specimen
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 Make = Callable[..., Any]
 ROOT = Path(__file__).resolve().parents[3]

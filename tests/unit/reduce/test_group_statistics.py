@@ -7,11 +7,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from nptcs.config.reduction import ReductionSettings, StatisticsSettings
+from nptcs.config.materials.reduction import ReductionSettings, StatisticsSettings
 from nptcs.errors import InputError
-from nptcs.reduce.sample import b_basis_factor, describe, mnr_critical
-from nptcs.reduce.statistics import group_statistics
-from nptcs.tables.properties import PropertiesTable
+from nptcs.reduce.groups.sample import b_basis_factor, describe, mnr_critical
+from nptcs.reduce.groups.statistics import group_statistics
+from nptcs.tables.laboratory.properties import PropertiesTable
 
 Make = Callable[..., Any]
 SETTINGS = ReductionSettings()

@@ -9,12 +9,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from nptcs.config.ingest import IngestSettings
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
 from nptcs.reduce import reduce_record
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 E_MPA, AREA_MM2, ULTIMATE = 120_000.0, 10.0, 0.012
 LOADED, AFTER = 600, 15

@@ -11,7 +11,7 @@ from hypothesis import HealthCheck, given, settings
 from hypothesis import strategies as st
 
 import nptcs.reduce
-from nptcs.config.reduction import (
+from nptcs.config.materials.reduction import (
     AstmD412,
     AstmD3039,
     AstmD3518,
@@ -19,7 +19,7 @@ from nptcs.config.reduction import (
     ReductionSettings,
 )
 from nptcs.errors import InputError
-from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.laboratory.properties import PropertiesTable
 
 Make = Callable[..., Any]
 # most curves here end at their largest force: the ingest saw the break

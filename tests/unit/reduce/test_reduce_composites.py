@@ -11,10 +11,10 @@ import pytest
 
 import nptcs
 import nptcs.reduce
-from nptcs.config.reduction import AstmD3039, Iso527, ReductionSettings
+from nptcs.config.materials.reduction import AstmD3039, Iso527, ReductionSettings
 from nptcs.errors import InputError
 from nptcs.tables.io import read_table, write_table
-from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.laboratory.properties import PropertiesTable
 
 Make = Callable[..., Any]
 # most curves here end at their largest force: the ingest saw the break

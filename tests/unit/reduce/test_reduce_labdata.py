@@ -9,9 +9,9 @@ import pandas as pd
 import pytest
 
 import nptcs.reduce
-from nptcs.config.ingest import Plausible
-from nptcs.config.reduction import AstmD3039, Iso527, ReductionSettings
-from nptcs.reduce.chord import chord_slope
+from nptcs.config.materials.ingest import Plausible
+from nptcs.config.materials.reduction import AstmD3039, Iso527, ReductionSettings
+from nptcs.reduce.curve.chord import chord_slope
 
 Make = Callable[..., Any]
 # most curves here end at their largest force: the ingest saw the break

@@ -7,8 +7,8 @@ import pandas as pd
 import pytest
 
 import nptcs.reduce
-from nptcs.config.reduction import AstmD412, ReductionSettings
-from nptcs.tables.properties import PropertiesTable
+from nptcs.config.materials.reduction import AstmD412, ReductionSettings
+from nptcs.tables.laboratory.properties import PropertiesTable
 
 Make = Callable[..., Any]
 # most curves here end at their largest force: the ingest saw the break

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.reduce.statistics import group_statistics
+from nptcs.reduce.groups.statistics import group_statistics
 
 Make = Callable[..., Any]
 

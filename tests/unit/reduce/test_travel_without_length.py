@@ -8,11 +8,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.ingest import IngestSettings
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.ingest import ingest_specimen, load_profiles
 from nptcs.reduce import reduce_record
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[3]
 LARGEST_N, AREA_MM2 = 9000.0, 15.0

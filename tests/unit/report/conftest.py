@@ -21,7 +21,7 @@ from nptcs.compare.published_stiffness import (
 from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.compare.stiffness_exponents import stiffness_exponents
 from nptcs.config.root import read_config
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.spoke.stiffness_line import stiffness_line
 from nptcs.report.data import Results, SolverFacts
 from nptcs.solvers.contract import SolverResult
@@ -29,24 +29,24 @@ from nptcs.solvers.spoke_responses import spoke_responses
 from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.study import fit_study
 from nptcs.surface.tables import quality_table, surface_table
-from nptcs.tables.cases import Cases, Design
+from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.catalogue import TABLES
-from nptcs.tables.curves import Curve, IngestRecord
-from nptcs.tables.impact import Impact
 from nptcs.tables.io import check, empty_table, read_table
-from nptcs.tables.material_card import MaterialCard, PlyCard, Quantity, RubberCard
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.laboratory.curves import Curve, IngestRecord
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.problems import problems_table
-from nptcs.tables.published_inputs import PublishedCoefficients, PublishedSpokeStiffness
-from nptcs.tables.published_stiffness import (
+from nptcs.tables.published.inputs import PublishedCoefficients, PublishedSpokeStiffness
+from nptcs.tables.published.stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
     StiffnessExponents,
 )
 from nptcs.tables.result_table import PER_STUDY
-from nptcs.tables.specimens import Specimen
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
+from nptcs.tables.tyres.cases import Cases, Design
+from nptcs.tables.tyres.neutral_line import NeutralLine
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves, SpokeLines
 
 ROOT = Path(__file__).parents[3]
 PUBLISHED = ROOT / "raw_data" / "published"

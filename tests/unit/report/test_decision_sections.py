@@ -6,7 +6,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.decisions import Decision
+from nptcs.config.studies.decisions import Decision
 from nptcs.report.blocks import Facts, Plots, Text
 from nptcs.report.figures.decision import goal_intervals
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value

@@ -11,23 +11,23 @@ from axe_check import chromium, violations
 from chromium import CHROMIUM, MISSING, Tab
 
 from nptcs import lca
-from nptcs.config.surface import (
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.surface import (
     GaussianProcessModel,
     LaminationModel,
     PolynomialModel,
     SpokeProcessModel,
     name_of,
 )
-from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.split_plot import split_plot
-from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
+from nptcs.lca.spokes.stiffness_table import SpokeStiffnessTable
 from nptcs.report.data import LcaRing, SolverFacts
 from nptcs.report.explorer.markup import asset, explorer_markup
 from nptcs.report.explorer.models import plain_surface
 from nptcs.report.explorer.payload import explorer_payload
 from nptcs.surface.kinds.models import Cases, fit_model
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 pytestmark = pytest.mark.skipif(CHROMIUM is None, reason=MISSING)
 

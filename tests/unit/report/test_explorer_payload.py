@@ -10,8 +10,8 @@ import pandas as pd
 import pytest
 import yaml
 
-from nptcs.config.response import RESPONSE_KINDS
 from nptcs.config.root import read_config
+from nptcs.config.studies.response import RESPONSE_KINDS
 from nptcs.report.explorer import markup
 from nptcs.report.explorer.markup import SCRIPTS, asset, explorer_markup, scripts
 from nptcs.report.explorer.models import WRITERS
@@ -21,7 +21,7 @@ from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
 from nptcs.report.sections.explorer import explorer_section
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.stored import READERS
-from nptcs.tables.published_stiffness import StiffnessAgainstPublished
+from nptcs.tables.published.stiffness import StiffnessAgainstPublished
 from nptcs.tables.result_table import ReportSection
 
 

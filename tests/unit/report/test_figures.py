@@ -11,12 +11,12 @@ from nptcs.report.figures.materials import hyperelastic_fit
 from nptcs.report.figures.specimens import DRAWN_POINTS, stress_strain, thinned
 from nptcs.report.figures.style import to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
-from nptcs.tables.cases import Cases
-from nptcs.tables.displacement_by_load import DisplacementByLoad
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.io import empty_table
-from nptcs.tables.lca_validation import LcaNeutralLine, LcaValidation
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.published.lca_validation import LcaNeutralLine, LcaValidation
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.displacement_by_load import DisplacementByLoad
+from nptcs.tables.tyres.neutral_line import NeutralLine
 
 
 @pytest.fixture

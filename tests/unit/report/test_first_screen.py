@@ -16,10 +16,10 @@ from nptcs.report.html import render_report
 from nptcs.report.sections.refused import all_refused
 from nptcs.report.sections.summary import findings, flag_lines
 from nptcs.report.sketches import BarRow, IntervalRow, bars, intervals
-from nptcs.tables.cases import Cases
 from nptcs.tables.catalogue import TABLES
-from nptcs.tables.flags import FlagsTable
 from nptcs.tables.io import check
+from nptcs.tables.laboratory.flags import FlagsTable
+from nptcs.tables.tyres.cases import Cases
 
 REFERENCE = "spacing_mm 15, thickness_mm 1.8, angle_deg 45"
 PLACE = {"response": "secant_stiffness", "at": "5000 N", "unit": "N/mm"}

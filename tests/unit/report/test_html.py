@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from nptcs.report.html import render_report
-from nptcs.tables.cases import Cases
-from nptcs.tables.impact import Impact
-from nptcs.tables.surface import SurfaceQuality, SurfaceTable
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.surface import SurfaceQuality, SurfaceTable
+from nptcs.tables.tyres.cases import Cases
 
 IDENTIFIERS = [
     "sensitivity",

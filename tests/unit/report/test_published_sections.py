@@ -16,26 +16,26 @@ from nptcs.report.figures.published_stiffness import (
     parity,
 )
 from nptcs.report.figures.spoke import force_displacement
-from nptcs.report.sections.compared_cases import case_comparison
 from nptcs.report.sections.key_facts import published_facts
-from nptcs.report.sections.neutral_lines import line_words
 from nptcs.report.sections.ply import ply_words
-from nptcs.report.sections.published_stiffness import published_stiffness_section
 from nptcs.report.sections.ranking import near_tie_sentences, published_ranking, verdicts
-from nptcs.report.sections.rings import EXCLUDED, ring_blocks
 from nptcs.report.sections.spokes import spoke_section, what_differs
-from nptcs.report.sections.stiffness_facts import level_facts, spoke_facts
+from nptcs.report.sections.stiffness.compared_cases import case_comparison
+from nptcs.report.sections.stiffness.facts import level_facts, spoke_facts
+from nptcs.report.sections.stiffness.neutral_lines import line_words
+from nptcs.report.sections.stiffness.published import published_stiffness_section
+from nptcs.report.sections.stiffness.rings import EXCLUDED, ring_blocks
 from nptcs.report.sections.studies import cases_section
 from nptcs.report.tables.sheets import sheets_of
 from nptcs.report.workbook.build import build_workbook
-from nptcs.tables.impact import Impact
-from nptcs.tables.neutral_line import NeutralLine
-from nptcs.tables.published_stiffness import (
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.published.stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessExponents,
 )
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
+from nptcs.tables.tyres.neutral_line import NeutralLine
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves, SpokeLines
 
 SOLVERS = ["fe_tyre_paper", "lca"]
 

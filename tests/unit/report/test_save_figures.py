@@ -16,7 +16,7 @@ from PIL import Image
 from nptcs.report.html import render_report
 from nptcs.report.plots import csv_of, packed
 from nptcs.report.svg import VARIABLES
-from nptcs.tables.lca_validation import LcaValidation
+from nptcs.tables.published.lca_validation import LcaValidation
 
 QUIET = quiet(30000)
 PICKED = "displacement-against-load-lca-with-section-sandwich-section"

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.config.responses import TyreResponseSettings
+from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.report.blocks import Listing, MoreTables, Plots, TableView, Text
 from nptcs.report.figures.tyre import load_displacement, plate_faces
 from nptcs.report.sections.plan import build_sections
@@ -16,10 +16,10 @@ from nptcs.report.tables.sheets import sheets_of
 from nptcs.responses.strength import PlyStrengths
 from nptcs.responses.table import plate_stress, tyre_curves, tyre_responses
 from nptcs.solvers.contract import SolverResult, Status
-from nptcs.tables.cases import Cases
 from nptcs.tables.io import check
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 LOADS = np.linspace(0.0, 5000.0, 11)
 PLATES = {

@@ -5,8 +5,8 @@ import pandas as pd
 import pytest
 
 from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES, displacement_by_load
-from nptcs.tables.displacement_by_load import DisplacementByLoad
 from nptcs.tables.io import check
+from nptcs.tables.tyres.displacement_by_load import DisplacementByLoad
 
 LOADS = (3000.0, 4000.0, 5000.0, 6000.0)
 STIFFNESS = {1.0: 250.0, 2.0: 350.0}

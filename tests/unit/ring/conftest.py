@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from nptcs.config.fe import EnergyTableOptions
+from nptcs.config.solvers.fe import EnergyTableOptions
 from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit
 
 HEIGHT_MM = 84.1

@@ -6,15 +6,15 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.ring import RingOptions
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.ring import RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.ring.batch import NUMBERS, NamedTables, solve_table
 from nptcs.ring.solution import load
-from nptcs.ring.surrogate import SpokeSurrogate
-from nptcs.ring.surrogate_source import PredictedSpokes, with_table
+from nptcs.ring.surrogate.model import SpokeSurrogate
+from nptcs.ring.surrogate.source import PredictedSpokes, with_table
 from nptcs.ring.tyre import ring_tyre
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 TYRE, OPTIONS = TyreGeometry(), RingOptions()
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nptcs.config.ring import RingMesh, RingOptions
-from nptcs.config.tyre import TyreGeometry
-from nptcs.ring import numpy_kernel
+from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.tyre import ring_tyre
 
 AXIAL, BENDING, SHEAR = 3.0e6, 4.0e8, 2.0e5

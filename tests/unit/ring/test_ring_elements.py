@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import GroundContact
-from nptcs.config.ring import RingMesh, RingOptions
-from nptcs.config.tyre import TyreGeometry
-from nptcs.ring import elementwise, numpy_kernel
-from nptcs.ring.compiled import HAS_NUMBA
-from nptcs.ring.cyclic_elimination import eliminate
+from nptcs.config.solvers.fe import GroundContact
+from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel.compiled import HAS_NUMBA
+from nptcs.ring.kernel.cyclic_elimination import eliminate
 from nptcs.ring.tyre import ring_tyre
 
 COARSE = RingOptions(
@@ -118,7 +118,7 @@ def test_the_contact_law_with_a_compliance_in_series(tyre):
 
 @pytest.mark.skipif(not HAS_NUMBA, reason="needs numba: pip install nptcs[fast]")
 def test_compiled_kernel_gives_the_same_system(tyre, state):
-    from nptcs.ring import numba_kernel
+    from nptcs.ring.kernel import numba_kernel
 
     u, anchor = state
     ours = numpy_kernel.assemble(tyre.ring, u, RISE, anchor)

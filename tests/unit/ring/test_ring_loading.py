@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import FeModel, GroundContact, TyreMesh
-from nptcs.config.ring import RingMesh, RingOptions
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel, GroundContact, TyreMesh
+from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
-from nptcs.ring.compiled import HAS_NUMBA
 from nptcs.ring.gradient import stiffness_gradient
+from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.responses import contact_cells
 from nptcs.ring.solution import SpokeRangeError, load, tangent_stiffness
 from nptcs.ring.tyre import ring_tyre

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.section import Rubber, ring_section
 
 SOFT_WIRES = TyreGeometry(wire_modulus_mpa=1e-9)

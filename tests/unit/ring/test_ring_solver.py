@@ -2,12 +2,12 @@
 
 import pytest
 
-from nptcs.config.fe import EnergyTableOptions, SpokeMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers import fe_tyre, ring
 from nptcs.solvers.contract import CaseInputs, Status
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 VALUES = {
     "spacing_mm": 15.0,

@@ -8,14 +8,14 @@ import pandas as pd
 import pytest
 
 from nptcs.cli import main
-from nptcs.config.ring import RingMesh, RingModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.ring import RingMesh, RingModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
-from nptcs.ring.common_range import on_common_range
-from nptcs.ring.left_out import left_out_spokes
-from nptcs.ring.stored_surrogate import StoredSurrogate, dump_surrogate, read_surrogate
-from nptcs.ring.surrogate import DESIGN, SpokeSurrogate
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.ring.surrogate.common_range import on_common_range
+from nptcs.ring.surrogate.left_out import left_out_spokes
+from nptcs.ring.surrogate.model import DESIGN, SpokeSurrogate
+from nptcs.ring.surrogate.stored import StoredSurrogate, dump_surrogate, read_surrogate
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 MODEL = RingModel(mesh=RingMesh(elements_per_pitch=1))
 BETWEEN = [16.0, 1.7, 40.0, 2.2]

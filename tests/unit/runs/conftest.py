@@ -14,7 +14,7 @@ from nptcs.runs.content import inputs_of_run, tables_of_run
 from nptcs.runs.identity import identify
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.io import empty_table, write_table
-from nptcs.tables.material_card import MaterialCard, PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, Quantity, RubberCard
 from nptcs.tables.result_table import PER_STUDY
 
 ROOT = Path(__file__).parents[3]

@@ -8,8 +8,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from nptcs.config.abaqus import AbaqusMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers import abaqus, abaqus_watch, calculix
 from nptcs.solvers.abaqus_history import load_curve
@@ -21,7 +21,7 @@ from nptcs.solvers.abaqus_messages import (
 )
 from nptcs.solvers.contract import CaseInputs, Status
 from nptcs.solvers.external import CommandStopped, end_all, run_command, time_for_command
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 FAKE = str(Path(__file__).with_name("fake_abaqus.py"))
 SMALL = AbaqusMesh(

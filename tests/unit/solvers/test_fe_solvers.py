@@ -5,10 +5,10 @@ import pytest
 from pydantic import ValidationError
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.config.abaqus import AbaqusModel
-from nptcs.config.fe import EnergyTableOptions, SpokeMesh, TyreMesh
-from nptcs.config.responses import TyreResponseSettings
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusModel
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.decks.calculix import complaints
 from nptcs.errors import InputError
 from nptcs.responses.strength import PlyStrengths
@@ -16,7 +16,7 @@ from nptcs.responses.table import tyre_responses
 from nptcs.solvers import calculix, fe_spoke, fe_tyre
 from nptcs.solvers.contract import SPOKE_RESPONSES, CaseInputs, Status
 from nptcs.solvers.registry import model_choices
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 VALUES = {
     "spacing_mm": 15.0,

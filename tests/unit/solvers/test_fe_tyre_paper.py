@@ -1,13 +1,13 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import SECTIONS, EnergyTableOptions, SpokeMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import SECTIONS, EnergyTableOptions, SpokeMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers import fe_tyre, fe_tyre_paper
 from nptcs.solvers.contract import CaseInputs, Status
 from nptcs.solvers.registry import model_choices, read_options
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 VALUES = {
     "spacing_mm": 15.0,

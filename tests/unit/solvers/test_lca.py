@@ -4,7 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers.contract import CaseInputs, Status
 from nptcs.solvers.lca import SOLVER, LcaOptions

@@ -5,7 +5,7 @@ from pathlib import Path
 import pandas as pd
 import pytest
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.solvers.contract import CaseInputs
 from nptcs.solvers.published import SOLVER, PublishedOptions
 

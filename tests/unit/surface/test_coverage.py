@@ -6,11 +6,11 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.surface.diagnostics.coverage import Planned, coverage_table
 from nptcs.surface.study import fit_study
-from nptcs.tables.coverage import CaseCoverage
 from nptcs.tables.io import check
+from nptcs.tables.tyres.coverage import CaseCoverage
 
 TERMS = ("1", "a", "b", "a^2")
 POINTS = pd.DataFrame(list(product([1.0, 2.0, 3.0], [10.0, 20.0])), columns=["a", "b"])

@@ -9,8 +9,8 @@ from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord
 from nptcs.campaign.worker import solve
 from nptcs.compare.impact import with_published
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.solvers import fe_tyre, published
 from nptcs.solvers.contract import SolverResult, Status
 from nptcs.solvers.registry import MODULES, load
@@ -18,8 +18,8 @@ from nptcs.surface.cases import changed_factors, solved_cases
 from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.study import fit_study
 from nptcs.surface.tables import quality_table
-from nptcs.tables.cases import Cases
 from nptcs.tables.io import check
+from nptcs.tables.tyres.cases import Cases
 
 FACTORS = ["spacing_mm", "thickness_mm"]
 STUDY = Study.model_validate(

@@ -4,9 +4,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.response import ResponseChoice
-from nptcs.config.sensitivity import Sensitivity
-from nptcs.config.study import Study
+from nptcs.config.studies.response import ResponseChoice
+from nptcs.config.studies.sensitivity import Sensitivity
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.surface.registry import Response
 from nptcs.surface.sensitivity.response_tables import (
@@ -16,8 +16,8 @@ from nptcs.surface.sensitivity.response_tables import (
 )
 from nptcs.surface.stored import dump_registry, load_registry
 from nptcs.surface.study import RESPONSE, fit_study, responses_of
+from nptcs.tables.analysis.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.io import check
-from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 
 MASS = Response("plate_mass")
 SOFTER = Response("secant_stiffness", "3000 N", "N/mm")

@@ -10,7 +10,7 @@ import pytest
 from nptcs.compare.impact import with_published
 from nptcs.surface.fit import fit
 from nptcs.surface.sensitivity.gradients import impact
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.io import check
 
 PUBLISHED = Path(__file__).parents[3] / "raw_data" / "published"

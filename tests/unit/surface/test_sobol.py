@@ -6,14 +6,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.sensitivity import NormalFactor, Sensitivity, Sobol, UniformFactor
+from nptcs.config.studies.sensitivity import NormalFactor, Sensitivity, Sobol, UniformFactor
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
 from nptcs.surface.sensitivity.sobol import inputs_of, main_effect, sobol_indices
 from nptcs.surface.sensitivity.sobol_tables import variance_shares
 from nptcs.surface.sensitivity.ties import near_ties
+from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
 from nptcs.tables.io import check
-from nptcs.tables.sobol import MainEffects, SobolIndices
 
 A, B = 7.0, 0.1
 

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from nptcs.config.surface import SpokeProcessModel, name_of
+from nptcs.config.studies.surface import SpokeProcessModel, name_of
 from nptcs.doe.split_plot import split_plot
 from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_out
@@ -12,7 +12,7 @@ from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.stored import dump_registry, load_registry
 from nptcs.surface.study import RESPONSE
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg", "shear_band_c10_mpa", "spoke_c10_mpa")
 MODEL = SpokeProcessModel(kind="spoke_process", degree=3)

@@ -6,7 +6,12 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.surface import GaussianProcessModel, LaminationModel, PolynomialModel, name_of
+from nptcs.config.studies.surface import (
+    GaussianProcessModel,
+    LaminationModel,
+    PolynomialModel,
+    name_of,
+)
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases
 from nptcs.surface.diagnostics.comparison import directions, leave_one_level_out, leave_one_out
@@ -18,9 +23,9 @@ from nptcs.surface.response_surface import predict
 from nptcs.surface.stored import dump_registry, load_registry
 from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
 from nptcs.surface.tables import comparison_tables
+from nptcs.tables.analysis.surface import SurfaceComparison
 from nptcs.tables.io import check
-from nptcs.tables.material_card import PUBLISHED_PLY
-from nptcs.tables.surface import SurfaceComparison
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 PUBLISHED = Path(__file__).parents[3] / "raw_data" / "published"
 FACTORS = ("spacing_mm", "thickness_mm", "angle_deg")

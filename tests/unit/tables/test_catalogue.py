@@ -2,10 +2,10 @@
 
 import pytest
 
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.surface import SurfaceTable
 from nptcs.tables.catalogue import TABLES, file_of, result_files
-from nptcs.tables.impact import Impact
-from nptcs.tables.published_inputs import PublishedImpact
-from nptcs.tables.surface import SurfaceTable
+from nptcs.tables.published.inputs import PublishedImpact
 
 
 def test_a_contract_belongs_to_one_table():

@@ -6,7 +6,7 @@ import pytest
 
 from nptcs.errors import InputError
 from nptcs.files import atomic_path
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.io import empty_table, read_table, write_table
 from nptcs.tables.problems import Problems, problems_table
 

@@ -6,9 +6,9 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.surface import GaussianProcessModel, LaminationModel, PolynomialModel
+from nptcs.config.studies.surface import GaussianProcessModel, LaminationModel, PolynomialModel
 from nptcs.surface.kinds.models import Cases, fit_model
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 from nptcs.uncertainty.response_model import (
     RubberEffect,
     SurfaceResponse,

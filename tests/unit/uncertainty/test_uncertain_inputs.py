@@ -3,9 +3,15 @@
 import numpy as np
 import pytest
 
-from nptcs.config.uncertainty import Uncertainty
+from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.errors import InputError
-from nptcs.tables.material_card import Covariance, MaterialCard, PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import (
+    Covariance,
+    MaterialCard,
+    PlyCard,
+    Quantity,
+    RubberCard,
+)
 from nptcs.uncertainty.inputs import SourceKind, ply_inputs, uncertain_inputs
 
 TENSION, SHEAR = ("T0-1", "T0-2", "T0-3", "T0-4"), ("S45-1", "S45-2")

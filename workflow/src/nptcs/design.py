@@ -10,7 +10,8 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.design import (
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.design import (
     BoxBehnken,
     CentralComposite,
     DOptimal,
@@ -18,8 +19,7 @@ from nptcs.config.design import (
     SpaceFilling,
     SplitPlot,
 )
-from nptcs.config.study import Level, MeasuredRubber, Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.studies.study import Level, MeasuredRubber, Study
 from nptcs.doe.d_optimal import d_optimal
 from nptcs.doe.points import box_behnken, central_composite, space_filling
 from nptcs.doe.split_plot import split_plot
@@ -94,7 +94,7 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
 
     Examples
     --------
-    >>> from nptcs.config.study import Study
+    >>> from nptcs.config.studies.study import Study
     >>> angle = {"name": "angle_deg", "label": "A", "unit": "deg", "levels": [0, 45, 90]}
     >>> spacing = {"name": "spacing_mm", "label": "S", "unit": "mm", "levels": [10, 20]}
     >>> study = Study(name="plate", title="", factors=[spacing, angle], solvers=["fe_tyre"])

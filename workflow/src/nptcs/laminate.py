@@ -35,7 +35,7 @@ def rotated_stiffness(ply: Mapping[str, float | Array], angle_deg: float | Array
     --------
     Across the fibres a ply is as stiff as its matrix lets it be:
 
-    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
     >>> rotated_stiffness(PUBLISHED_PLY, 90)[0, 0].round(0).item()
     8878.0
     """
@@ -67,7 +67,7 @@ def abd(
     --------
     Fibres along the plate: no coupling, and D11 = Q11 t³/12:
 
-    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
     >>> stiffness = abd(PUBLISHED_PLY, angle_deg=0, thickness_mm=1.2)
     >>> bool(np.allclose(stiffness[:3, 3:], 0))
     True

@@ -3,8 +3,8 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.output.outlines import tyre_outlines
 from nptcs.fe.output.spoke_picture import section_stress, spoke_figure
 from nptcs.fe.output.tyre_picture import FINE, ring_stress, tyre_figure

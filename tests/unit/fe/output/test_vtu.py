@@ -8,8 +8,8 @@ import pytest
 
 from nptcs.commands import fe_export
 from nptcs.commands.fe_picture import SolvedTyre
-from nptcs.config.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import GroundContact, SpokeGeometry, SpokeMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.output.bricks import MATERIALS, Bricks, spoke_bricks, tyre_bricks
 from nptcs.fe.output.fields import lattice

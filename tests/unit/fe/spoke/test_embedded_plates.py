@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from scipy.spatial.transform import Rotation
 
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.spoke import embedded_plates as embedded
 from nptcs.fe.spoke.embedded_plates import HELD, straight_group
 from nptcs.fe.spoke.equilibrium import SpokeModel

@@ -5,14 +5,14 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
 from nptcs.fe.energy_cache import read_table, shared_table, table_key, write_table
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import sample
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 OPTIONS = EnergyTableOptions(
     elongation_mm=(-6.0, 3.0), inclination_rad=0.045, phi_rad=(-0.04, 0.04), samples=(4, 3, 3),

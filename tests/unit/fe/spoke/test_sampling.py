@@ -3,12 +3,12 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeFields, SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import START, Grid, sampled_states
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 OPTIONS = EnergyTableOptions(
     elongation_mm=(-14.0, 4.0), inclination_rad=0.09, phi_rad=(-0.08, 0.08), samples=(6, 3, 3),

@@ -1,7 +1,7 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.mesh import build_period
 from nptcs.fe.spoke.period import SpokeDesign

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from pydantic import ValidationError
 
-from nptcs.config.fe import (
+from nptcs.config.solvers.fe import (
     SECTIONS,
     FeModel,
     GroundContact,
@@ -12,7 +12,7 @@ from nptcs.config.fe import (
     SpokeGeometry,
     TyreMesh,
 )
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
 from nptcs.fe.tyre.mesh import build_ring
 from nptcs.fe.tyre.responses import wire_wrinkle_mm

@@ -2,8 +2,8 @@
 
 import pytest
 
-from nptcs.config.fe import GroundContact, PaperMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import GroundContact, PaperMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
 from nptcs.fe.tyre.responses import contact_responses
 

@@ -3,8 +3,8 @@ import pickle
 import numpy as np
 import pytest
 
-from nptcs.config.fe import GroundContact, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import GroundContact, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.tyre.contact import Ground
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel
 from nptcs.fe.tyre.mesh import band_radii, build_ring

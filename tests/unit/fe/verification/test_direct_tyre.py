@@ -1,8 +1,8 @@
 import numpy as np
 import pytest
 
-from nptcs.config.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.energy_table import fit
 from nptcs.fe.spoke.sampling import sample

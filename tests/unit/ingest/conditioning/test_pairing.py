@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from nptcs.config.ingest import Pairing
+from nptcs.config.materials.ingest import Pairing
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.pairing import pair
 

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from nptcs.config.ingest import (
+from nptcs.config.materials.ingest import (
     EndOfTest,
     ExtensometerRemoval,
     ForceZero,

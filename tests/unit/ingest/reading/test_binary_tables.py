@@ -10,7 +10,7 @@ import pytest
 from nptdms import ChannelObject, TdmsWriter
 from scipy.io import savemat
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.raw_file import read_raw
 

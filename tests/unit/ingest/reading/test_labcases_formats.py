@@ -10,7 +10,7 @@ import pytest
 from openpyxl import Workbook
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.clock import clocks_to_seconds, join_grouped_digits
+from nptcs.ingest.reading.text.clock import clocks_to_seconds, join_grouped_digits
 
 E_MPA = 120_000.0
 TIME = np.arange(0, 30.0, 0.5)

@@ -7,8 +7,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.text.dialect import Dialect, find_dialect
 
 PLAIN = FormatProfile(name="plain", title="any")
 HEAD = "time (s){0}force (N){0}strain (%)"

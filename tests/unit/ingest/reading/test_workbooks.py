@@ -12,9 +12,9 @@ from pathlib import Path
 import openpyxl
 import pytest
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.workbooks import read_workbook
+from nptcs.ingest.reading.native.workbooks import read_workbook
 
 HERE = Path(__file__).parent
 ROWS = [(0.1 * n, 1.5 * n, 0.0125 * n) for n in range(1, 9)]
@@ -130,7 +130,7 @@ def test_other_warnings_are_left_to_the_caller(tmp_path, monkeypatch):
     def deprecated(path, raw, limits):
         warnings.warn("old call", DeprecationWarning, stacklevel=1)
 
-    monkeypatch.setattr("nptcs.ingest.reading.workbooks._xlsx", deprecated)
+    monkeypatch.setattr("nptcs.ingest.reading.native.workbooks._xlsx", deprecated)
     with pytest.raises(DeprecationWarning, match="old call"):
         read_workbook(tmp_path / "made.xlsx", b"PK\x03\x04", frozenset(), FileLimits())
 

@@ -15,7 +15,7 @@ from nptcs.files import read_model
 from nptcs.runs.identity import RunIdentity
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.io import read_table
-from nptcs.tables.material_card import MaterialCard
+from nptcs.tables.laboratory.material_card import MaterialCard
 from nptcs.yaml_files import read_yaml
 
 

@@ -20,11 +20,11 @@ from nptcs.calibrate.observations import (
     specimens_in_fit,
 )
 from nptcs.calibrate.rubber import unit_of
-from nptcs.config.calibration import CalibrationSettings, RubberSettings
+from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
 from nptcs.reduce.origin import Origin
-from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
+from nptcs.tables.laboratory.specimens import Specimen
 
 NAN = float("nan")
 # a constant that its standard error exceeds cannot be told from zero, nor its sign
@@ -49,7 +49,7 @@ def compare_models(
     Returns
     -------
     DataFrame
-        `nptcs.tables.hyperelastic.ModelComparison`.
+        `nptcs.tables.laboratory.hyperelastic.ModelComparison`.
     """
     rubber = settings.rubber
     low, high = rubber.comparison_range or rubber.strain_range
@@ -141,7 +141,7 @@ def c10_against_range(
     Returns
     -------
     DataFrame
-        `nptcs.tables.hyperelastic.RangeTable`.
+        `nptcs.tables.laboratory.hyperelastic.RangeTable`.
     """
     rubber = settings.rubber
     low, own = rubber.strain_range

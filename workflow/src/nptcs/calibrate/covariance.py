@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.tables.material_card import Covariance
+from nptcs.tables.laboratory.material_card import Covariance
 
 RULE = (
     "covariance of the means from the specimens' scatter; between constants of the same "

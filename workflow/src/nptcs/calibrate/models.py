@@ -7,7 +7,7 @@ from typing import assert_never
 from nptcs.calibrate.fit import Model
 from nptcs.calibrate.invariants import MOONEY_RIVLIN, NEO_HOOKEAN, YEOH
 from nptcs.calibrate.ogden import ogden
-from nptcs.config.calibration import ModelName
+from nptcs.config.materials.calibration import ModelName
 
 
 def model_named(name: ModelName, ogden_terms: int) -> Model:

@@ -11,14 +11,14 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.calibration import RubberSettings
+from nptcs.config.materials.calibration import RubberSettings
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import HYPERELASTIC_FIT
-from nptcs.reduce.branch import loading_branch
+from nptcs.reduce.curve.branch import loading_branch
 from nptcs.reduce.origin import Origin
 from nptcs.reduce.rows import finite_pair
-from nptcs.reduce.rubber_compression import UNIFORM
-from nptcs.tables.specimens import Specimen
+from nptcs.reduce.standards.rubber_compression import UNIFORM
+from nptcs.tables.laboratory.specimens import Specimen
 
 SMALLEST_NUMBER_OF_POINTS = 3
 STRAIN_ENDS = "strain ends at"

@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.tables.material_card import Quantity
+from nptcs.tables.laboratory.material_card import Quantity
 
 # a normal variable lies further out once in 370 times
 LARGEST_DISTANCE = 3.0
@@ -24,11 +24,11 @@ def compliance_matrix(values: Mapping[str, float]) -> Array:
     Parameters
     ----------
     values : mapping of str to float
-        `nptcs.tables.material_card.PLY_CONSTANTS`.
+        `nptcs.tables.laboratory.material_card.PLY_CONSTANTS`.
 
     Examples
     --------
-    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
     >>> matrix = compliance_matrix(PUBLISHED_PLY)
     >>> matrix.shape, round(1 / float(matrix[0, 0]), 6)
     ((6, 6), 128000.0)
@@ -68,7 +68,7 @@ def check_ply(values: Mapping[str, float], material: str, tolerance_percent: flo
 
     Examples
     --------
-    >>> from nptcs.tables.material_card import PUBLISHED_PLY
+    >>> from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
     >>> for finding in check_ply(PUBLISHED_PLY, "cfrp", tolerance_percent=5):
     ...     print(finding)
     compliance matrix is positive definite

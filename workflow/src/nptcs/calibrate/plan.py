@@ -5,11 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 
 from nptcs.calibrate.ply import MEASURED
-from nptcs.config.calibration import CalibrationSettings, ConstantSource
-from nptcs.config.study import Study
+from nptcs.config.materials.calibration import CalibrationSettings, ConstantSource
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import HYPERELASTIC_FIT
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def composites(specimens: Iterable[Specimen]) -> list[str]:

@@ -9,14 +9,14 @@ import pandas as pd
 
 from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.orthotropic import check_ply, check_reciprocity
-from nptcs.config.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
+from nptcs.config.materials.calibration import CalibrationSettings, ConstantSource, PlyAssumptions
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import COMPOSITE_TESTS
-from nptcs.reduce.counted import TRAVEL_NEXT_TO_SENSORS, counted, of_sensors, why_not
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
-from nptcs.reduce.tension import ANOTHER_RANGE
-from nptcs.tables.material_card import PLY_CONSTANTS, PlyCard, Quantity
-from nptcs.tables.specimens import Specimen
+from nptcs.reduce.groups.counted import TRAVEL_NEXT_TO_SENSORS, counted, of_sensors, why_not
+from nptcs.reduce.standards.tension import ANOTHER_RANGE
+from nptcs.tables.laboratory.material_card import PLY_CONSTANTS, PlyCard, Quantity
+from nptcs.tables.laboratory.specimens import Specimen
 
 MEASURED = ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")
 UNITS = {name: "MPa" if name.endswith("_mpa") else "1" for name in PLY_CONSTANTS}
@@ -36,7 +36,7 @@ def calibrate_ply(
     Parameters
     ----------
     properties : DataFrame
-        `nptcs.tables.properties.PropertiesTable`.
+        `nptcs.tables.laboratory.properties.PropertiesTable`.
     specimens : sequence of Specimen
         The sheet; specimens with include = no do not enter.
     settings : CalibrationSettings

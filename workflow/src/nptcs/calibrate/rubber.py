@@ -12,11 +12,11 @@ from nptcs.calibrate.fit import Fit, Model, fit_model
 from nptcs.calibrate.models import model_named
 from nptcs.calibrate.observations import Observation, observations
 from nptcs.calibrate.toe import toe_words
-from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.reduce.deviations import CROSSHEAD
 from nptcs.reduce.origin import Origin
-from nptcs.tables.material_card import Covariance, Quantity, RubberCard
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.material_card import Covariance, Quantity, RubberCard
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def calibrate_rubber(

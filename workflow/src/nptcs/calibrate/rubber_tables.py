@@ -9,11 +9,11 @@ import pandas as pd
 from nptcs.calibrate.compare import c10_against_range, compare_models
 from nptcs.calibrate.rubber import calibrate_rubber
 from nptcs.calibrate.strain_sources import without_travel_next_to_sensors
-from nptcs.config.calibration import CalibrationSettings
+from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.reduce.origin import origins_of
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.material_card import RubberCard
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.material_card import RubberCard
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def calibrate_rubber_tables(
@@ -30,7 +30,8 @@ def calibrate_rubber_tables(
     name : str
         Material in the sheet.
     curves : mapping of str to DataFrame
-        `nptcs.tables.curves.Curve` by specimen; an empty one was not read and is passed over.
+        `nptcs.tables.laboratory.curves.Curve` by specimen; an empty one was not read and is
+        passed over.
     specimens : sequence of Specimen
         Rows of the sheet, repeated data left out.
     settings : CalibrationSettings
@@ -42,9 +43,9 @@ def calibrate_rubber_tables(
     -------
     card : RubberCard
     models : DataFrame
-        `nptcs.tables.hyperelastic.ModelComparison`.
+        `nptcs.tables.laboratory.hyperelastic.ModelComparison`.
     ranges : DataFrame
-        `nptcs.tables.hyperelastic.RangeTable`.
+        `nptcs.tables.laboratory.hyperelastic.RangeTable`.
     """
     usable = {specimen: curve for specimen, curve in curves.items() if len(curve)}
     sources = {record.specimen: record.strain_source for record in records}

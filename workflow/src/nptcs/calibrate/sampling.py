@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pandas as pd
 
-from nptcs.tables.material_card import PlyCard, RubberCard
+from nptcs.tables.laboratory.material_card import PlyCard, RubberCard
 
 
 def sample_constants(card: PlyCard | RubberCard, draws: int, seed: int) -> pd.DataFrame:
@@ -31,7 +31,7 @@ def sample_constants(card: PlyCard | RubberCard, draws: int, seed: int) -> pd.Da
 
     Examples
     --------
-    >>> from nptcs.tables.material_card import Covariance, Quantity, RubberCard
+    >>> from nptcs.tables.laboratory.material_card import Covariance, Quantity, RubberCard
     >>> c10 = Quantity(value=1.18, unit="MPa", standard_error=0.02, origin="measured", rule="")
     >>> scatter = Covariance(names=("c10_mpa",), units=("MPa",), rule="", matrix=((0.0004,),))
     >>> card = RubberCard(

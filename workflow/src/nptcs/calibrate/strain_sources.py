@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 
 from nptcs.reduce.deviations import CROSSHEAD
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 TRAVEL = "crosshead"
 NO_SENSOR = (TRAVEL, "none", "")

@@ -9,15 +9,15 @@ from typing import Any
 import pandas as pd
 
 from nptcs.campaign.record import read_tables
-from nptcs.config.design import FullFactorial
-from nptcs.config.study import Factor, MeasuredRubber, Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.design import FullFactorial
+from nptcs.config.studies.study import Factor, MeasuredRubber, Study
 from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, Status
 from nptcs.solvers.registry import load, module_of, read_options
 from nptcs.surface.fit import refuse_aliased
-from nptcs.tables.published_stiffness import PUBLISHED
+from nptcs.tables.published.stiffness import PUBLISHED
 from nptcs.terms import parse
 
 Options = Mapping[str, Mapping[str, Any]]

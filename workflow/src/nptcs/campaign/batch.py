@@ -13,8 +13,8 @@ from nptcs.campaign.progress import ProgressWriter
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.runner import run_cases
 from nptcs.campaign.schedule import cases_side_by_side
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.solvers.registry import load, module_of, read_options
 
 
@@ -35,7 +35,7 @@ def solve_batch(
         Plain values: ``study`` (`Study.case_definition`), ``solver``, ``options``, ``tyre``,
         ``batch`` (from 1) and ``batches``.
     design : DataFrame
-        `nptcs.tables.cases.Design` of the study.
+        `nptcs.tables.tyres.cases.Design` of the study.
     ply : mapping of str to float or None
         Ply constants, for a solver that needs them.
     store : RecordStore

@@ -34,8 +34,8 @@ from nptcs.campaign.runner import (
     without_main_file,
 )
 from nptcs.campaign.schedule import cases_side_by_side
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash

@@ -15,8 +15,8 @@ import pandas as pd
 from nptcs.campaign.worker import begin_in, message_of, of_the_machine
 from nptcs.solvers.contract import TYRE_RESPONSES, Solver, Status, TableInputs
 from nptcs.solvers.registry import load, read_options
-from nptcs.tables.cases import realised_column
 from nptcs.tables.status import has_result
+from nptcs.tables.tyres.cases import realised_column
 
 DIED = "died"
 """Column: 1 where a case ended for a reason outside it, killed or out of memory."""

@@ -10,8 +10,8 @@ from nptcs.campaign.bulk_file import read_bulk
 from nptcs.campaign.record import CaseRecord, read_records
 from nptcs.solvers.contract import SolverResult
 from nptcs.solvers.tables import CURVE, curve_of
-from nptcs.tables.cases import RESPONSES, realised_column
 from nptcs.tables.status import has_result
+from nptcs.tables.tyres.cases import RESPONSES, realised_column
 
 BULK = ".npz"
 """Ending of a file with the results of a whole table of cases."""

@@ -13,10 +13,10 @@ from nptcs.campaign.answers import (
     check_terms,
 )
 from nptcs.config.root import Config
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.solvers.registry import check_study
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def study_faults(config: Config) -> list[InputError]:

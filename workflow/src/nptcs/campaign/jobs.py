@@ -8,8 +8,8 @@ from typing import Any
 import pandas as pd
 
 from nptcs.campaign.record import CaseJob, read_tables
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.provenance import code_hash
 from nptcs.solvers.registry import load, module_of, read_options
 

@@ -14,11 +14,11 @@ from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.schedule import batch_cores
 from nptcs.config.root import Config
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.files import read_model
-from nptcs.tables.material_card import MaterialCard
+from nptcs.tables.laboratory.material_card import MaterialCard
 
 SAMPLE = 300
 """Newest stored records from which the cost of a case is estimated."""

@@ -15,7 +15,7 @@ from multiprocessing import parent_process
 from multiprocessing.connection import Connection
 
 from nptcs.campaign.record import CaseJob
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import SHORTAGES
 from nptcs.processes.marked import MARK
 from nptcs.processes.stops import leave_in_order

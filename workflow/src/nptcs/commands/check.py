@@ -47,7 +47,7 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.ingest.repeats import repeats_in_sheet
     from nptcs.report.page_files import page_faults
     from nptcs.solvers.registry import needs_ply
-    from nptcs.tables.specimens import read_sheet
+    from nptcs.tables.laboratory.specimens import read_sheet
     from nptcs.yaml_files import read_yaml
 
     path = Path(arguments.config)

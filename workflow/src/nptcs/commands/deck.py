@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING
 from nptcs.arguments import add_card, add_command, existing_file, factor, output_file
 
 if TYPE_CHECKING:
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.solvers.contract import CaseInputs
 
 SOLVERS = ("abaqus", "calculix")
@@ -75,7 +75,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def run(arguments: argparse.Namespace) -> int:
     """Write the deck."""
     from nptcs.files import write_text
-    from nptcs.tables.card_choice import choose_materials
+    from nptcs.tables.laboratory.card_choice import choose_materials
 
     write = {"abaqus": _abaqus, "calculix": _calculix}[arguments.solver]
     materials = choose_materials(arguments.card, arguments.ply)
@@ -129,7 +129,7 @@ def _configuration(file: str | None, solver: str) -> tuple[TyreGeometry, Mapping
     import yaml
 
     from nptcs.config.root import read_config
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.errors import InputError
 
     if file is None:

@@ -12,8 +12,8 @@ from nptcs.arguments import add_command, existing_file, existing_folder, number,
 from nptcs.ranges import Range
 
 if TYPE_CHECKING:
-    from nptcs.config.decisions import Decision
     from nptcs.config.root import Config
+    from nptcs.config.studies.decisions import Decision
     from nptcs.decisions.decide import Outcome
     from nptcs.decisions.tables import Answer
 
@@ -137,7 +137,7 @@ def decision_of(arguments: argparse.Namespace, config: Config) -> Decision:
     """
     from pydantic import ValidationError
 
-    from nptcs.config.decisions import Decision
+    from nptcs.config.studies.decisions import Decision
     from nptcs.errors import InputError
 
     values: dict[str, Any] = {"name": "command_line"}
@@ -287,7 +287,7 @@ def _append(path: Path, decision: Decision, designs: list[dict[str, float]]) -> 
 
 def _complete(values: dict[str, Any], config: Config) -> None:
     """Fill in study and solver where there is only one, and the surface of `uncertainty`."""
-    from nptcs.config.surface import name_of
+    from nptcs.config.studies.surface import name_of
     from nptcs.errors import InputError
 
     with_plates = [

@@ -15,7 +15,7 @@ def register(subparsers: Any) -> None:
         "example",
         "write the synthetic example data",
         "Writes raw files, a specimen sheet and a README of synthetic tests, the same for the same "
-        "seed. Files of these names that the folder has already are replaced.",
+        "seed. Files in the folder with these names are replaced.",
         "nptcs example my_example --seed 7",
     )
     parser.add_argument("folder", type=output_folder, help="folder to write to")

@@ -6,7 +6,7 @@ import argparse
 from typing import TYPE_CHECKING, get_args
 
 from nptcs.arguments import add_command, existing_file, factor, output_folder, whole
-from nptcs.config.fe import AxialFreedom, RingKind
+from nptcs.config.solvers.fe import AxialFreedom, RingKind
 
 if TYPE_CHECKING:
     import pandas
@@ -111,11 +111,11 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     InputError
         If a table lacks a column or a case, or more than five cases are named.
     """
-    from nptcs.config.fe import FeModel
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.fe import FeModel
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.errors import InputError
     from nptcs.fe.calibration import START, Problem, SpokeTarget, TyreTarget
-    from nptcs.tables.material_card import PUBLISHED_PLY
+    from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
     if len(arguments.cases) > 5:
         raise InputError(

@@ -12,11 +12,11 @@ from nptcs.arguments import FIGURES, add_card, add_command, factor, output_file
 from nptcs.ranges import RANGES
 
 if TYPE_CHECKING:
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.fe.spoke.equilibrium import SpokeModel
     from nptcs.fe.spoke.period import SpokeDesign
     from nptcs.fe.tyre.equilibrium import TyreModel, TyreState
-    from nptcs.tables.card_choice import ChosenMaterials
+    from nptcs.tables.laboratory.card_choice import ChosenMaterials
 
 OPTIONS = {
     "spacing_mm": "--spacing",
@@ -101,7 +101,7 @@ class SolvedTyre:
 
 def materials_of(arguments: argparse.Namespace) -> ChosenMaterials:
     """Read the card, put in the C10 of rubbers that are named, and say which card it is."""
-    from nptcs.tables.card_choice import choose_materials
+    from nptcs.tables.laboratory.card_choice import choose_materials
 
     materials = choose_materials(arguments.card, arguments.ply)
     arguments.spoke_c10 = materials.rubber(arguments.spoke_c10, "--spoke-c10")
@@ -118,8 +118,8 @@ def design_of(arguments: argparse.Namespace, ply: Mapping[str, float]) -> SpokeD
     InputError
         If a value of the design has no meaning.
     """
-    from nptcs.config.fe import FeModel
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.fe import FeModel
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.errors import InputError
     from nptcs.fe.case import spoke_design
     from nptcs.solvers.contract import CaseInputs
@@ -170,8 +170,8 @@ def solvable() -> Iterator[None]:
 
 def solved(arguments: argparse.Namespace) -> SolvedTyre:
     """Load the tyre that the options describe."""
-    from nptcs.config.fe import FeModel
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.fe import FeModel
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.fe.case import energy_table, loaded_tyre, tyre_model
     from nptcs.fe.spoke.equilibrium import SpokeModel
 

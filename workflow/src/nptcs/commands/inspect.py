@@ -45,7 +45,7 @@ def register(subparsers: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the inspection; 0 if the file can be used."""
-    from nptcs.config.ingest import limits_in
+    from nptcs.config.materials.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.inspect import describe, draft_profile, inspect_file

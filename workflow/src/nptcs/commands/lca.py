@@ -13,7 +13,7 @@ from nptcs.arguments import FIGURES, add_command, existing_file, output_file, wh
 if TYPE_CHECKING:
     import pandas
 
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.tyre import TyreGeometry
 
 SHOWN = ("displacement_mm", "stiffness_n_per_mm", "theta_c_deg", "mean_pressure_mpa")
 """Results that are printed; the file has all."""
@@ -81,7 +81,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 def _solve(arguments: argparse.Namespace) -> int:
     """Solve the table and write what was asked for; return the number of failed rows."""
-    from nptcs.config.tyre import TyreGeometry
+    from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.files import atomic_path
     from nptcs.lca.design_table import known_columns, solve_table
 

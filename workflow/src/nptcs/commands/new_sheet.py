@@ -46,7 +46,7 @@ def register(subparsers: Any) -> None:
 
 def run(arguments: argparse.Namespace) -> int:
     """Write ``specimens.csv`` into the folder, or fill in the one that it has."""
-    from nptcs.config.ingest import limits_in
+    from nptcs.config.materials.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
     from nptcs.ingest.fill_sheet import fill_rows, fill_text, parse_fill

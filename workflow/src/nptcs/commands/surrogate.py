@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any
 from nptcs.arguments import add_command, existing_file, existing_folder, output_file, whole
 
 if TYPE_CHECKING:
-    from nptcs.ring.stored_surrogate import StoredSurrogate
+    from nptcs.ring.surrogate.stored import StoredSurrogate
 
 FILE = "results/5_solve/surrogate.json"
 
@@ -87,9 +87,9 @@ def run_fit(arguments: argparse.Namespace) -> int:
     import numpy as np
 
     from nptcs.files import write_text
-    from nptcs.ring.left_out import left_out_spokes
-    from nptcs.ring.stored_surrogate import dump_surrogate
-    from nptcs.ring.surrogate import DESIGN
+    from nptcs.ring.surrogate.left_out import left_out_spokes
+    from nptcs.ring.surrogate.model import DESIGN
+    from nptcs.ring.surrogate.stored import dump_surrogate
 
     stored = _fitted(arguments)
     surrogate = stored.surrogate
@@ -123,13 +123,13 @@ def _fitted(arguments: argparse.Namespace) -> StoredSurrogate:
     from nptcs.config.files import read_config_files
     from nptcs.errors import InputError
     from nptcs.files import read_model
-    from nptcs.ring.collect import fit_surrogate
-    from nptcs.ring.stored_surrogate import StoredSurrogate
+    from nptcs.ring.surrogate.collect import fit_surrogate
+    from nptcs.ring.surrogate.stored import StoredSurrogate
     from nptcs.solvers.ring import RingSolverOptions
-    from nptcs.tables.cases import Design
     from nptcs.tables.io import read_table
-    from nptcs.tables.material_card import PlyCard
-    from nptcs.tables.specimens import read_sheet
+    from nptcs.tables.laboratory.material_card import PlyCard
+    from nptcs.tables.laboratory.specimens import read_sheet
+    from nptcs.tables.tyres.cases import Design
 
     config = read_config_files(arguments.config)
     known = [study.name for study in config.studies if "ring" in study.solvers]
@@ -155,8 +155,8 @@ def run_solve(arguments: argparse.Namespace) -> int:
 
     from nptcs.errors import InputError
     from nptcs.ring.batch import solve_table
-    from nptcs.ring.stored_surrogate import read_surrogate
-    from nptcs.ring.surrogate_source import PredictedSpokes
+    from nptcs.ring.surrogate.source import PredictedSpokes
+    from nptcs.ring.surrogate.stored import read_surrogate
 
     stored = read_surrogate(arguments.surrogate)
     try:

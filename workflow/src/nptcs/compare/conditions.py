@@ -9,7 +9,7 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping
 
-from nptcs.config.study import MeasuredRubber, Study
+from nptcs.config.studies.study import MeasuredRubber, Study
 from nptcs.tables.solver_names import PUBLISHED
 
 PAPER_LOAD_N = 5000.0

@@ -7,7 +7,7 @@ from collections.abc import Collection
 import numpy as np
 import pandas as pd
 
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.impact import Impact
 
 
 def with_published(

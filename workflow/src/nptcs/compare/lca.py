@@ -12,12 +12,12 @@ from collections.abc import Sequence
 import numpy as np
 import pandas as pd
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
 from nptcs.lca.neutral_line import neutral_line
 from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
 from nptcs.lca.single import design_row, solve
-from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
+from nptcs.lca.spokes.stiffness_table import SpokeStiffnessTable
 
 TABLE_11_SHEAR_BAND_C10_MPA = 5.0
 _COMPARED = {
@@ -64,7 +64,7 @@ def lca_validation(
     sections: Sequence[SectionKind] = SECTION_KINDS,
     shear_band_c10_mpa: float = TABLE_11_SHEAR_BAND_C10_MPA,
 ) -> pd.DataFrame:
-    """Return the rows of ``lca_validation.csv`` (`nptcs.tables.lca_validation.LcaValidation`).
+    """Return the rows of ``lca_validation.csv``.
 
     Parameters
     ----------

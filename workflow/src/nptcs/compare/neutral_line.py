@@ -7,7 +7,7 @@ from collections.abc import Collection, Sequence
 import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.tyres.neutral_line import NeutralLine
 
 
 def case_ids(designs: Sequence[pd.DataFrame], numbers: Sequence[Collection[int]]) -> set[str]:
@@ -16,7 +16,7 @@ def case_ids(designs: Sequence[pd.DataFrame], numbers: Sequence[Collection[int]]
     Parameters
     ----------
     designs : sequence of DataFrame
-        `nptcs.tables.cases.Design` of each study.
+        `nptcs.tables.tyres.cases.Design` of each study.
     numbers : sequence of a collection of int
         Numbers of the cases, in the same order of studies.
     """

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from nptcs.tables.published_stiffness import (
+from nptcs.tables.published.stiffness import (
     COMPUTED_STIFFNESS,
     DIFFERENCE,
     PUBLISHED,
@@ -48,7 +48,7 @@ def compare_published(cases: pd.DataFrame, studies: Mapping[str, Comparison]) ->
     Parameters
     ----------
     cases : DataFrame
-        `nptcs.tables.cases.Cases` of all studies and solvers.
+        `nptcs.tables.tyres.cases.Cases` of all studies and solvers.
     studies : mapping of str to Comparison
         The studies that `PUBLISHED` answers.
     """

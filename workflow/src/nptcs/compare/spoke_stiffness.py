@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
 from nptcs.compare.conditions import PAPER_PLATES
-from nptcs.tables.spoke_stiffness import DIRECTIONS, SPOKE_VALUES, SpokeCurves, SpokeLines
+from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS, SPOKE_VALUES, SpokeCurves, SpokeLines
 
 
 def spoke_curves(records: Sequence[CaseRecord]) -> pd.DataFrame:

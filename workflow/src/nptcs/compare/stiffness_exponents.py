@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.compare.published_stiffness import Comparison
-from nptcs.tables.published_stiffness import (
+from nptcs.tables.published.stiffness import (
     COMPUTED_STIFFNESS,
     DIFFERENCE,
     PUBLISHED_STIFFNESS,

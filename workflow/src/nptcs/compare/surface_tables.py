@@ -7,15 +7,20 @@ import pandera.pandas as pa
 
 from nptcs.compare.coefficients import by_powers
 from nptcs.compare.conditions import surface_faults
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.files import write_text
 from nptcs.surface.sensitivity.response_tables import response_surfaces
 from nptcs.surface.stored import dump, dump_registry
 from nptcs.surface.study import StudySurfaces
 from nptcs.surface.tables import comparison_tables, quality_table, surface_table
+from nptcs.tables.analysis.response_surfaces import ResponseSurfaces
+from nptcs.tables.analysis.surface import (
+    SurfaceByFactor,
+    SurfaceComparison,
+    SurfaceQuality,
+    SurfaceTable,
+)
 from nptcs.tables.problems import Problems
-from nptcs.tables.response_surfaces import ResponseSurfaces
-from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
 
 Checked = tuple[pd.DataFrame, type[pa.DataFrameModel]]
 
@@ -29,7 +34,7 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
     done : StudySurfaces
         What `nptcs.surface.study.fit_study` has fitted.
     published : DataFrame
-        `nptcs.tables.published_inputs.PublishedCoefficients`; may be empty. They are left out
+        `nptcs.tables.published.inputs.PublishedCoefficients`; may be empty. They are left out
         where the study is not under their conditions (`nptcs.compare.conditions`).
 
     Returns

@@ -8,18 +8,18 @@ from typing import Any, Self
 from pydantic import Field, ValidationError, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.calibration import CalibrationSettings
-from nptcs.config.decisions import Decision
 from nptcs.config.explain import describe
-from nptcs.config.ingest import IngestSettings
 from nptcs.config.laboratory import Laboratory
-from nptcs.config.reduction import ReductionSettings
-from nptcs.config.responses import TyreResponseSettings
-from nptcs.config.sensitivity import Sensitivity
-from nptcs.config.study import Study
-from nptcs.config.surface import GaussianProcessModel, name_of
-from nptcs.config.tyre import TyreGeometry
-from nptcs.config.uncertainty import Uncertainty
+from nptcs.config.materials.calibration import CalibrationSettings
+from nptcs.config.materials.ingest import IngestSettings
+from nptcs.config.materials.reduction import ReductionSettings
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.decisions import Decision
+from nptcs.config.studies.responses import TyreResponseSettings
+from nptcs.config.studies.sensitivity import Sensitivity
+from nptcs.config.studies.study import Study
+from nptcs.config.studies.surface import GaussianProcessModel, name_of
+from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.errors import InputError
 from nptcs.files import files_below
 

@@ -13,10 +13,10 @@ from nptcs.campaign.cases import cases_table
 from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.runner import run_cases
-from nptcs.config.decisions import Decision
-from nptcs.config.goals import ResponseName
-from nptcs.config.responses import TyreResponseSettings
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.decisions import Decision
+from nptcs.config.studies.goals import ResponseName
+from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.decisions.decide import Outcome, decide
 from nptcs.errors import InputError
 from nptcs.responses.strength import PlyStrengths

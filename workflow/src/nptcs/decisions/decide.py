@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.decisions import Decision
-from nptcs.config.goals import Goal, ResponseName
+from nptcs.config.studies.decisions import Decision
+from nptcs.config.studies.goals import Goal, ResponseName
 from nptcs.decisions.conflict import conflict_words
 from nptcs.decisions.evaluate import Problem
 from nptcs.decisions.search import Found, search

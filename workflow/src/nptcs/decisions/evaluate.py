@@ -9,7 +9,7 @@ import numpy as np
 from scipy import stats
 
 from nptcs.arrays import Array
-from nptcs.config.goals import Goal, GoalKind, ResponseName
+from nptcs.config.studies.goals import Goal, GoalKind, ResponseName
 from nptcs.uncertainty.fitted import FittedResponse
 from nptcs.uncertainty.inputs import UncertainInput
 from nptcs.uncertainty.propagate import assessed, distribution, moments

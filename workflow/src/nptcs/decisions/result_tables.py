@@ -9,14 +9,14 @@ import pandera.pandas as pa
 
 from nptcs.decisions.run import FinishedRun, answer_all
 from nptcs.decisions.tables import decision_tables
-from nptcs.tables.decisions import (
+from nptcs.tables.analysis.decisions import (
     DecisionConfirmation,
     DecisionDesigns,
     DecisionFront,
     Decisions,
 )
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
 from nptcs.tables.problems import Problems
-from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
 from nptcs.uncertainty.tables import uncertainty_tables
 
 Tables = dict[str, tuple[pd.DataFrame, type[pa.DataFrameModel]]]

@@ -11,10 +11,10 @@ import numpy as np
 import pandas as pd
 
 from nptcs.campaign.record import RecordStore
-from nptcs.config.decisions import Decision
-from nptcs.config.goals import ResponseName
 from nptcs.config.root import Config
-from nptcs.config.study import Study
+from nptcs.config.studies.decisions import Decision
+from nptcs.config.studies.goals import ResponseName
+from nptcs.config.studies.study import Study
 from nptcs.decisions.confirm import Round, SolverRun, confirmed
 from nptcs.decisions.decide import decide
 from nptcs.decisions.tables import Answer
@@ -24,13 +24,13 @@ from nptcs.responses.strength import ply_strengths
 from nptcs.solvers.registry import load, module_of
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.surface.stored import read_registry
-from nptcs.tables.cases import Cases
 from nptcs.tables.io import read_table
-from nptcs.tables.material_card import MaterialCard, PlyCard
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard
+from nptcs.tables.laboratory.statistics import StatisticsTable
 from nptcs.tables.problems import problems_table
-from nptcs.tables.published_stiffness import StiffnessErrors
-from nptcs.tables.statistics import StatisticsTable
-from nptcs.tables.tyre_responses import TyreCurves, TyreResponses
+from nptcs.tables.published.stiffness import StiffnessErrors
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.tyre_responses import TyreCurves, TyreResponses
 from nptcs.uncertainty.source import Materials, Source
 from nptcs.uncertainty.study_results import StudyResults, results_of
 from nptcs.uncertainty.tables import NamedDesign

@@ -8,7 +8,7 @@ import numpy as np
 from scipy.optimize import minimize
 
 from nptcs.arrays import Array, Mask, Rows
-from nptcs.config.goals import GoalKind
+from nptcs.config.studies.goals import GoalKind
 from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, nearness
 from nptcs.decisions.space import DesignSpace
 from nptcs.doe.whole_plates import SPACING

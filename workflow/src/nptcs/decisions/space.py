@@ -10,7 +10,7 @@ from math import ceil, floor, log10
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.doe.points import space_filling
 from nptcs.doe.whole_plates import SPACING
 from nptcs.errors import InputError

@@ -9,12 +9,12 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.decisions import Decision
+from nptcs.config.studies.decisions import Decision
 from nptcs.decisions.confirm import Round
 from nptcs.decisions.decide import Outcome
 from nptcs.decisions.evaluate import meets
 from nptcs.doe.whole_plates import SPACING
-from nptcs.tables.decisions import (
+from nptcs.tables.analysis.decisions import (
     DecisionConfirmation,
     DecisionDesigns,
     DecisionFront,

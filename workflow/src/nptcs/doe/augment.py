@@ -7,7 +7,7 @@ from itertools import product
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.doe.points import space_filling
 from nptcs.doe.whole_plates import whole_plates
 from nptcs.errors import InputError

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 
 SPACING = "spacing_mm"

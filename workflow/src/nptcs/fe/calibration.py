@@ -17,8 +17,8 @@ import numpy as np
 from scipy.optimize import lsq_linear
 
 from nptcs.arrays import Array
-from nptcs.config.fe import FeModel, SpokeGeometry
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel, SpokeGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel

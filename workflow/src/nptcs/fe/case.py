@@ -7,8 +7,8 @@ from collections.abc import Mapping
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from nptcs.config.fe import FeModel, FeSpokeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel, FeSpokeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import computed_table

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from threadpoolctl import threadpool_limits
 
-from nptcs.config.fe import EnergyTableOptions, FeModel
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import computed_table

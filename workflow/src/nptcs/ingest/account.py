@@ -11,9 +11,9 @@ import pandas as pd
 from nptcs.files import sha256_of_file
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.repeats import repeated_specimens
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.files import Files, FileStatus
-from nptcs.tables.specimens import Specimen, files_named, read_sheet
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.files import Files, FileStatus
+from nptcs.tables.laboratory.specimens import Specimen, files_named, read_sheet
 
 
 def account_for_files(sheet: str | Path, records: Iterable[IngestRecord]) -> pd.DataFrame:
@@ -29,8 +29,8 @@ def account_for_files(sheet: str | Path, records: Iterable[IngestRecord]) -> pd.
     Returns
     -------
     DataFrame
-        `nptcs.tables.files.Files`: one row per file that is in the folder or named by the
-        sheet.
+        `nptcs.tables.laboratory.files.Files`: one row per file that is in the folder or named by
+        the sheet.
     """
     sheet = Path(sheet)
     specimens = {specimen.specimen: specimen for specimen in read_sheet(sheet)[0]}

@@ -9,7 +9,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 
 from nptcs.ingest.conditioning.declared_test import loadings_in_name, loadings_named
-from nptcs.tables.specimens import TestType
+from nptcs.tables.laboratory.specimens import TestType
 
 ROLE_WORDS = frozenset(
     [

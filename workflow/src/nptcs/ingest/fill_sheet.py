@@ -9,7 +9,7 @@ from collections.abc import Mapping, Sequence
 
 from nptcs.errors import InputError
 from nptcs.ingest.file_names import series_names
-from nptcs.tables.specimens import COLUMNS
+from nptcs.tables.laboratory.specimens import COLUMNS
 
 _OPEN = re.compile(r"(?:^|; )fill in [^;]*")
 

@@ -12,7 +12,7 @@ NOTES = ("readme", "readme.md", "readme.txt")
 """Names, in any case, of files that are notes to the reader, not test data."""
 
 HIDDEN = (".", "~$")
-"""Beginnings of names of files that are nobody's data."""
+"""Beginnings of names of files that hold no data."""
 
 
 def raw_files(folder: Path) -> dict[str, Path]:

@@ -7,14 +7,14 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.dialect import Dialect
+from nptcs.ingest.reading.columns.quantities import NEEDS, Test, tests_in, unit_of
 from nptcs.ingest.reading.find_tables import find_tables
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
-from nptcs.ingest.reading.quantities import NEEDS, Test, tests_in, unit_of
 from nptcs.ingest.reading.raw_file import header_labels, matching, sources_of
+from nptcs.ingest.reading.text.dialect import Dialect
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, factor
 
 ROWS_SHOWN = 3

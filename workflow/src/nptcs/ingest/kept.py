@@ -6,7 +6,7 @@ from pathlib import Path
 
 from nptcs.errors import InputError
 from nptcs.files import read_model, sha256_of_file
-from nptcs.tables.curves import IngestRecord
+from nptcs.tables.laboratory.curves import IngestRecord
 
 
 def is_kept(curve: str | Path, record: str | Path, made_from: str) -> bool:

@@ -10,7 +10,7 @@ from collections.abc import Collection, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.dimension_tables import Dimensions, read_dimensions
 from nptcs.ingest.file_names import (
@@ -25,14 +25,14 @@ from nptcs.ingest.file_names import (
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
 from nptcs.ingest.pair_files import add_dimensions, pair_cameras
-from nptcs.ingest.reading.column_names import LOADS, STRAINS
-from nptcs.ingest.reading.labels import LabelValue
+from nptcs.ingest.reading.columns.labels import LabelValue
+from nptcs.ingest.reading.columns.names import LOADS, STRAINS
+from nptcs.ingest.reading.columns.quantities import Test
 from nptcs.ingest.reading.profiles import FormatProfile
-from nptcs.ingest.reading.quantities import Test
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
 from nptcs.ingest.strain_fields import FEWEST_FRAMES
 from nptcs.mechanical_tests import TestType
-from nptcs.tables.specimens import COLUMNS
+from nptcs.tables.laboratory.specimens import COLUMNS
 
 __all__ = ["Proposal", "propose_sheet", "specimen_id"]
 

@@ -5,14 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.folder import find_file
+from nptcs.ingest.reading.columns.quantities import Role
 from nptcs.ingest.reading.profiles import FormatProfile, choose
-from nptcs.ingest.reading.quantities import Role
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.strain_fields import read_strain_fields
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def read_tables(

@@ -11,15 +11,15 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.read_tables import read_tables
-from nptcs.ingest.reading.column_names import LOADS, STRAINS
+from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.sketch import ChangedCopies, data_sketch
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 
 _DIGITS = 9
 _SMALLEST_POWER = -300

@@ -9,7 +9,7 @@ import numpy as np
 import numpy.typing as npt
 
 from nptcs.arrays import Array
-from nptcs.ingest.reading.column_names import LOADS, STRAINS
+from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.raw_file import RawFile
 
 DIGITS = 6

@@ -10,7 +10,7 @@ from typing import Literal
 import numpy as np
 import pandas as pd
 
-from nptcs.config.ingest import IngestSettings
+from nptcs.config.materials.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.across import settle_transverse
 from nptcs.ingest.conditioning.declared_test import require_declared_test
@@ -36,16 +36,16 @@ from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
 from nptcs.ingest.sketch import data_sketch
-from nptcs.tables.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
 from nptcs.tables.io import empty_table
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 
 FEWEST_ROWS = 5
 
 
 @dataclass(frozen=True)
 class Ingested:
-    """The curve of a specimen (`nptcs.tables.curves.Curve`) and its record."""
+    """The curve of a specimen (`nptcs.tables.laboratory.curves.Curve`) and its record."""
 
     curve: pd.DataFrame
     record: IngestRecord
@@ -89,8 +89,8 @@ def ingest_specimen(
     Returns
     -------
     Ingested
-        ``curve`` with the columns of `nptcs.tables.curves.Curve`, tension positive (the contract
-        is checked where it is written), and ``record``.
+        ``curve`` with the columns of `nptcs.tables.laboratory.curves.Curve`, tension positive (the
+        contract is checked where it is written), and ``record``.
 
     Raises
     ------

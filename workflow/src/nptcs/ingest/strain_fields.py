@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.arrays import Mask
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.folder import natural_key, raw_files
 from nptcs.ingest.reading.profiles import FormatProfile

@@ -6,13 +6,13 @@ solved exactly: ``solve`` for one design, ``curve`` for its load–displacement 
 act one by one. Comparing with the paper belongs to `nptcs.compare`.
 """
 
+from nptcs.lca.any_spokes.with_law import LawState, solve_law, stiffness_ripple
 from nptcs.lca.batch import Batch, solve_batch
 from nptcs.lca.section import RingSection
 from nptcs.lca.single import ModelError, curve, solve
-from nptcs.lca.spoke_law import SpokeLaw
-from nptcs.lca.spokes import LinearSpokes
+from nptcs.lca.spokes.law import SpokeLaw
+from nptcs.lca.spokes.linear import LinearSpokes
 from nptcs.lca.state import LcaState
-from nptcs.lca.with_law import LawState, solve_law, stiffness_ripple
 
 __all__ = [
     "Batch",

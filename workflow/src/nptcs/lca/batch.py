@@ -12,11 +12,11 @@ from numpy.typing import ArrayLike, NDArray
 
 from nptcs.arrays import Floating, Rows
 from nptcs.errors import InputError
-from nptcs.lca.contact import LARGEST_KAPPA_ANGLE, hardness
-from nptcs.lca.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
-from nptcs.lca.newton import Target, by_brackets, is_solution, newton, start_angle
-from nptcs.lca.scaling import Ring
-from nptcs.lca.system import Arcs, Joined, join
+from nptcs.lca.linear.contact import LARGEST_KAPPA_ANGLE, hardness
+from nptcs.lca.linear.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
+from nptcs.lca.linear.newton import Target, by_brackets, is_solution, newton, start_angle
+from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.system import Arcs, Joined, join
 
 CHUNK = 2048
 """Designs solved at once; more than this no longer fits the processor's cache."""

@@ -6,12 +6,12 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Floating
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.batch import solve_batch
 from nptcs.lca.section import RingSection, SectionKind, section_stiffness
 from nptcs.lca.single import solve
-from nptcs.lca.spokes import LinearSpokes
+from nptcs.lca.spokes.linear import LinearSpokes
 from nptcs.lca.state import LcaState
 
 REQUIRED = ("shear_band_c10_mpa", "tension_n_per_mm", "compression_n_per_mm", "load_n")

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 from math import pi
 from typing import Any, Literal, assert_never, get_args
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.lca.checks import require_positive
 
 SectionKind = Literal["sandwich", "printed"]

@@ -20,7 +20,7 @@ from nptcs.lca.batch import (
     solve_rows,
 )
 from nptcs.lca.section import RingSection
-from nptcs.lca.spokes import LinearSpokes
+from nptcs.lca.spokes.linear import LinearSpokes
 from nptcs.lca.state import LcaState
 
 REMEDIES = {
@@ -78,7 +78,7 @@ def solve(
     --------
     Table 11 of the paper, S-C 1 at 5000 N (printed: 20.87 mm, 4.585° and 56.198°):
 
-    >>> from nptcs.config.tyre import TyreGeometry
+    >>> from nptcs.config.solvers.tyre import TyreGeometry
     >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
     >>> state = solve(ring, LinearSpokes(30.2, 13.26), load_n=5000)
     >>> round(state.displacement_mm, 2), round(state.theta_c_deg, 3), round(state.theta_t_deg, 2)
@@ -131,7 +131,7 @@ def curve(
 
     Examples
     --------
-    >>> from nptcs.config.tyre import TyreGeometry
+    >>> from nptcs.config.solvers.tyre import TyreGeometry
     >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
     >>> points = curve(ring, LinearSpokes(30.2, 13.26), load_n=[2500, 5000])
     >>> points["displacement_mm"].round(2).tolist()

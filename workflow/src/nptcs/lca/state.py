@@ -9,11 +9,11 @@ import pandas as pd
 from numpy.typing import ArrayLike, NDArray
 
 from nptcs.arrays import Floating
-from nptcs.lca.fields import compression_states, contact_states, tension_states
-from nptcs.lca.scaling import Ring
+from nptcs.lca.linear.fields import compression_states, contact_states, tension_states
+from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.system import Arcs, Joined
 from nptcs.lca.section import RingSection
-from nptcs.lca.spokes import LinearSpokes
-from nptcs.lca.system import Arcs, Joined
+from nptcs.lca.spokes.linear import LinearSpokes
 
 REGIONS = ("contact", "compression", "tension")
 

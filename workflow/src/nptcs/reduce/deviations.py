@@ -8,13 +8,13 @@ from dataclasses import replace
 import numpy as np
 import pandas as pd
 
-from nptcs.config.reduction import ChordRules, RubberCompressionRules, RubberRules, Rules
+from nptcs.config.materials.reduction import ChordRules, RubberCompressionRules, RubberRules, Rules
 from nptcs.loading import loadings
-from nptcs.reduce.branch import Branch
-from nptcs.reduce.chord import fit_line
-from nptcs.reduce.evidence import Evidence
+from nptcs.reduce.curve.branch import Branch
+from nptcs.reduce.curve.chord import fit_line
+from nptcs.reduce.curve.evidence import Evidence
 from nptcs.reduce.rows import NAN, Property, finite_pair, missing
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 CROSSHEAD = "crosshead strain"
 

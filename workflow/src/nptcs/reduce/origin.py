@@ -8,9 +8,9 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 import pandas as pd
 
-from nptcs.reduce.branch import Branch
+from nptcs.reduce.curve.branch import Branch
 from nptcs.reduce.rows import NAN, Property
-from nptcs.tables.curves import IngestRecord
+from nptcs.tables.laboratory.curves import IngestRecord
 
 STEP = "strain origin"
 

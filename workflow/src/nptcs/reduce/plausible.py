@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from nptcs.config.ingest import Plausible
+from nptcs.config.materials.ingest import Plausible
 from nptcs.mechanical_tests import TestType
 from nptcs.reduce.rows import NAN, Property
 

@@ -7,13 +7,13 @@ from collections.abc import Sequence
 import pandas as pd
 import pandera.pandas as pa
 
-from nptcs.config.reduction import ReductionSettings
-from nptcs.reduce.flag_groups import group_flags
-from nptcs.reduce.statistics import group_statistics
-from nptcs.tables.flags import FlagsTable
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.specimens import Specimen
-from nptcs.tables.statistics import StatisticsTable
+from nptcs.config.materials.reduction import ReductionSettings
+from nptcs.reduce.groups.flag_groups import group_flags
+from nptcs.reduce.groups.statistics import group_statistics
+from nptcs.tables.laboratory.flags import FlagsTable
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.specimens import Specimen
+from nptcs.tables.laboratory.statistics import StatisticsTable
 
 
 def result_tables(

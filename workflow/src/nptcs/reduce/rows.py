@@ -8,8 +8,8 @@ from dataclasses import dataclass, replace
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.reduce.chord import Chord
-from nptcs.tables.specimens import Specimen
+from nptcs.reduce.curve.chord import Chord
+from nptcs.tables.laboratory.specimens import Specimen
 
 NAN = float("nan")
 # properties of the test, not of the material: no B-basis value is made of them

@@ -6,15 +6,15 @@ from collections.abc import Mapping, Sequence
 
 import pandas as pd
 
-from nptcs.config.ingest import Plausible
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.ingest import Plausible
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.errors import InputError
 from nptcs.reduce.specimen import reduce_record
-from nptcs.tables.curves import IngestRecord
 from nptcs.tables.io import empty_table
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.problems import problems_table
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.specimens import Specimen
 
 
 def reduce_series(
@@ -31,7 +31,7 @@ def reduce_series(
     specimens : sequence of Specimen
         Rows of the specimen sheet.
     curves : mapping of str to DataFrame
-        `nptcs.tables.curves.Curve` by specimen.
+        `nptcs.tables.laboratory.curves.Curve` by specimen.
     records : mapping of str to IngestRecord
         How each curve came about; one that failed is listed as a problem of the stage ``ingest``.
     settings : ReductionSettings

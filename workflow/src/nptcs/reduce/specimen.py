@@ -7,23 +7,23 @@ from typing import assert_never
 
 import pandas as pd
 
-from nptcs.config.ingest import Plausible
-from nptcs.config.reduction import ReductionSettings
+from nptcs.config.materials.ingest import Plausible
+from nptcs.config.materials.reduction import ReductionSettings
 from nptcs.mechanical_tests import TestType
-from nptcs.reduce.branch import Branch, loading_branch
-from nptcs.reduce.compression import reduce_compression
+from nptcs.reduce.curve.branch import Branch, loading_branch
+from nptcs.reduce.curve.evidence import Evidence, evidence_of_failure
 from nptcs.reduce.deviations import CROSSHEAD, deviations, speed_properties
-from nptcs.reduce.evidence import Evidence, evidence_of_failure
-from nptcs.reduce.flexure import reduce_flexure
 from nptcs.reduce.origin import Origin, origin_of, with_origin
 from nptcs.reduce.plausible import only_plausible
 from nptcs.reduce.rows import Property, to_table
-from nptcs.reduce.rubber import reduce_rubber
-from nptcs.reduce.rubber_compression import reduce_rubber_compression
-from nptcs.reduce.shear import reduce_shear
-from nptcs.reduce.tension import reduce_tension
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.specimens import Specimen
+from nptcs.reduce.standards.compression import reduce_compression
+from nptcs.reduce.standards.flexure import reduce_flexure
+from nptcs.reduce.standards.rubber import reduce_rubber
+from nptcs.reduce.standards.rubber_compression import reduce_rubber_compression
+from nptcs.reduce.standards.shear import reduce_shear
+from nptcs.reduce.standards.tension import reduce_tension
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def reduce_specimen(
@@ -64,8 +64,8 @@ def reduce_specimen(
     Returns
     -------
     DataFrame
-        `nptcs.tables.properties.PropertiesTable`. A property that the data cannot give is a
-        row with an empty value and a flag "not assessed: …".
+        `nptcs.tables.laboratory.properties.PropertiesTable`. A property that the data cannot give
+        is a row with an empty value and a flag "not assessed: …".
 
     Raises
     ------

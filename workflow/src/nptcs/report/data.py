@@ -11,7 +11,7 @@ import pandas as pd
 import pandera.pandas as pa
 
 from nptcs.config.root import Config
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.files import read_model, sha256_of_file
 from nptcs.lca.section import SectionKind
 from nptcs.report.verdict import verdict
@@ -21,13 +21,13 @@ from nptcs.solvers.lca import LcaOptions
 from nptcs.surface.fit import Surface
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.surface.stored import read_registry, read_surfaces
-from nptcs.tables.cases import Cases, Design
 from nptcs.tables.catalogue import file_of, result_files
-from nptcs.tables.curves import IngestRecord, read_curves
 from nptcs.tables.io import read_table
-from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
+from nptcs.tables.laboratory.curves import IngestRecord, read_curves
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, RubberCard
+from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.problems import Problems
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.tyres.cases import Cases, Design
 
 
 @dataclass(frozen=True)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.language import tr
 
 

@@ -6,7 +6,7 @@ from collections.abc import Iterable, Sequence
 
 import pandas as pd
 
-from nptcs.tables.curves import IngestRecord
+from nptcs.tables.laboratory.curves import IngestRecord
 from nptcs.tables.problems import Problem, problems_table
 from nptcs.tables.status import has_result
 
@@ -26,7 +26,7 @@ def all_problems(
     records : iterable of IngestRecord
         How each specimen was read.
     cases : DataFrame
-        `nptcs.tables.cases.Cases`.
+        `nptcs.tables.tyres.cases.Cases`.
     found : DataFrame
         The `Problems` that the reduction and the surfaces have written.
     """

@@ -7,8 +7,8 @@ from collections.abc import Mapping, Sequence
 import pandas as pd
 
 from nptcs.language import tr, tr_count
-from nptcs.tables.curves import IngestRecord
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.curves import IngestRecord
+from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.status import has_result
 
 

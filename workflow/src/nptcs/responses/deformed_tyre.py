@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
 from nptcs.config.root import Config
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.output.outlines import tyre_outlines
@@ -18,7 +18,7 @@ from nptcs.fe.tyre.equilibrium import TyreError
 from nptcs.solvers.contract import SolverOptions
 from nptcs.solvers.fe_tyre import FeTyreOptions
 from nptcs.solvers.registry import load, module_of, read_options
-from nptcs.tables.deformed_tyre import DeformedTyre
+from nptcs.tables.tyres.deformed_tyre import DeformedTyre
 
 
 def outlines_of_study(
@@ -39,7 +39,7 @@ def outlines_of_study(
     records : sequence of CaseRecord
         Of this study and solver.
     design : DataFrame
-        The study's `nptcs.tables.cases.Design`.
+        The study's `nptcs.tables.tyres.cases.Design`.
     ply : mapping
         The nine ply constants.
 

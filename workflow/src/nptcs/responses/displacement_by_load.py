@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.lca.section import PHYSICAL_SECTION
 from nptcs.responses.curve import LoadCurve
-from nptcs.tables.displacement_by_load import DisplacementByLoad
+from nptcs.tables.tyres.displacement_by_load import DisplacementByLoad
 
 FIDUCIAL_PLATES = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
 """The plates of table 11's tyres: the paper's fiducial ones."""
@@ -34,11 +34,11 @@ def displacement_by_load(
     Parameters
     ----------
     cases : DataFrame
-        `nptcs.tables.cases.Cases`, with the factors and fixed values of each case.
+        `nptcs.tables.tyres.cases.Cases`, with the factors and fixed values of each case.
     curves : DataFrame
-        `nptcs.tables.tyre_responses.TyreCurves`.
+        `nptcs.tables.tyres.tyre_responses.TyreCurves`.
     validation : DataFrame
-        `nptcs.tables.lca_validation.LcaValidation`: loads and spoke rubbers come from it.
+        `nptcs.tables.published.lca_validation.LcaValidation`: loads and spoke rubbers come from it.
     shear_band_c10_mpa : float
         C10 of the band in table 11 (MPa).
 

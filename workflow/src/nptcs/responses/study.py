@@ -8,12 +8,12 @@ from typing import Any
 import pandas as pd
 
 from nptcs.campaign.cases import read_tyres
-from nptcs.config.responses import TyreResponseSettings
-from nptcs.config.study import Study
+from nptcs.config.studies.responses import TyreResponseSettings
+from nptcs.config.studies.study import Study
 from nptcs.responses.strength import ply_strengths
 from nptcs.responses.table import tyre_responses
 from nptcs.tables.io import read_tables
-from nptcs.tables.statistics import StatisticsTable
+from nptcs.tables.laboratory.statistics import StatisticsTable
 
 
 def study_responses(
@@ -34,7 +34,8 @@ def study_responses(
     Returns
     -------
     DataFrame or None
-        `nptcs.tables.tyre_responses.TyreResponses`; None for a study without further responses.
+        `nptcs.tables.tyres.tyre_responses.TyreResponses`; None for a study without further
+        responses.
     """
     if not study.responses:
         return None

@@ -9,10 +9,10 @@ import numpy as np
 import pandas as pd
 
 from nptcs.campaign.record import CaseRecord
-from nptcs.config.responses import TyreResponseSettings
+from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.responses.curve import CurvePoint, LoadCurve
 from nptcs.responses.strength import PlyStrengths, maximum_stress_factor, tsai_wu_factor
-from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
+from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 OK, NOT_ASSESSED, NOT_REACHED = "ok", "not assessed", "not reached"
 # what a solver reports of the tyre at its load: name, unit, rule

@@ -13,16 +13,16 @@ import pandas as pd
 from pydantic import ValidationError
 from threadpoolctl import threadpool_limits
 
-from nptcs.config.ring import RingOptions
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.ring import RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.ring.compiled import Kernel
+from nptcs.ring.kernel.compiled import Kernel
 from nptcs.ring.responses import responses
 from nptcs.ring.solution import RingError, SpokeRangeError, load
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.tables.io import check
-from nptcs.tables.ring import RingResults
+from nptcs.tables.tyres.ring import RingResults
 
 REQUIRED = ("shear_band_c10_mpa", "load_n")
 OPTIONAL = ("tread_c10_mpa", "spoke_factor", "friction")

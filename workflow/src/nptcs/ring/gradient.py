@@ -15,10 +15,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ring import elementwise, numpy_kernel
-from nptcs.ring.elementwise import OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel.elementwise import OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.system import System
 from nptcs.ring.solution import RingState, load
-from nptcs.ring.system import System
 from nptcs.ring.tyre import RingTyre
 
 # far below the depth over which the ground's pressure sets in, far above rounding

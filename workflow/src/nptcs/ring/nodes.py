@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.ring import RingMesh
+from nptcs.config.solvers.ring import RingMesh
 from nptcs.ring.section import RingSection
 
 

@@ -20,7 +20,7 @@ from functools import partial
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 
 STRAINS = 7
 # those that stretch the rubber along the ring

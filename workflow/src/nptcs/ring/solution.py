@@ -8,9 +8,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ring.elementwise import UNKNOWNS
-from nptcs.ring.numpy_kernel import spoke_coordinates
-from nptcs.ring.system import System
+from nptcs.ring.kernel.elementwise import UNKNOWNS
+from nptcs.ring.kernel.numpy_kernel import spoke_coordinates
+from nptcs.ring.kernel.system import System
 from nptcs.ring.tyre import RingTyre
 
 MAX_ITERATIONS = 30

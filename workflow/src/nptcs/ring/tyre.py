@@ -8,16 +8,16 @@ from types import ModuleType
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import GroundContact
-from nptcs.config.ring import RingOptions
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import GroundContact
+from nptcs.config.solvers.ring import RingOptions
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.ring import elementwise, numpy_kernel
-from nptcs.ring.compiled import HAS_NUMBA, Kernel
+from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel.compiled import HAS_NUMBA, Kernel
+from nptcs.ring.kernel.spokes import SpokePolynomial
+from nptcs.ring.kernel.system import Ring
 from nptcs.ring.nodes import RingNodes, ring_nodes
 from nptcs.ring.section import RingSection, Rubber, ring_section
-from nptcs.ring.spokes import SpokePolynomial
-from nptcs.ring.system import Ring
 
 HEIGHT_TOLERANCE = 0.005
 
@@ -168,7 +168,7 @@ def _check_spokes(tyre: TyreGeometry, section: RingSection, table: SpokeEnergyTa
 def _kernel(name: Kernel | None) -> ModuleType:
     if name == "numpy" or (name is None and not HAS_NUMBA):
         return numpy_kernel
-    from nptcs.ring import numba_kernel
+    from nptcs.ring.kernel import numba_kernel
 
     return numba_kernel
 

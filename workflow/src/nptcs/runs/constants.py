@@ -16,7 +16,7 @@ import pandas as pd
 from nptcs.runs.content import FILES
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, compared, part_table, percent, presence
-from nptcs.tables.material_card import PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import PlyCard, Quantity, RubberCard
 from nptcs.tables.result_table import Heading
 
 K = 2.0

@@ -9,8 +9,8 @@ import pandas as pd
 
 from nptcs.files import sha256_of_file
 from nptcs.runs.identity import hashes_of_tables
-from nptcs.tables.files import Files
 from nptcs.tables.io import read_table
+from nptcs.tables.laboratory.files import Files
 
 CARD = "material_card.json"
 FILES = "files.csv"
@@ -41,7 +41,7 @@ def laboratory_files(files: pd.DataFrame, folder: str) -> dict[str, str]:
     Parameters
     ----------
     files : DataFrame
-        `nptcs.tables.files.Files`; a file that is missing has no hash and is left out.
+        `nptcs.tables.laboratory.files.Files`; a file that is missing has no hash and is left out.
     folder : str
         The laboratory's folder.
     """

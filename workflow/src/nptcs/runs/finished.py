@@ -16,7 +16,7 @@ from nptcs.files import read_model, sha256_of_file
 from nptcs.runs.content import CARD, FILES, laboratory_files
 from nptcs.runs.identity import RunIdentity, hash_of_table
 from nptcs.tables.catalogue import result_files
-from nptcs.tables.material_card import MaterialCard
+from nptcs.tables.laboratory.material_card import MaterialCard
 from nptcs.yaml_files import read_yaml
 
 IDENTITY = "identity.json"

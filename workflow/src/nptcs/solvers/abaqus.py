@@ -12,7 +12,7 @@ from typing import ClassVar
 
 from pydantic import Field, field_validator
 
-from nptcs.config.abaqus import AbaqusModel
+from nptcs.config.solvers.abaqus import AbaqusModel
 from nptcs.decks.abaqus.deck import tyre_deck
 from nptcs.solvers.abaqus_history import load_curve
 from nptcs.solvers.abaqus_messages import COMPLETED, NOT_CONVERGED, licence_denial, read_messages

@@ -8,7 +8,7 @@ from pathlib import Path
 import numpy as np
 from pydantic import Field
 
-from nptcs.config.fe import FeSpokeModel, LayerlessGeometry, SpokeGeometry
+from nptcs.config.solvers.fe import FeSpokeModel, LayerlessGeometry, SpokeGeometry
 from nptcs.decks.calculix import complaints, spoke_deck, total_forces, true_thickness
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.pull import COMPRESSION_MM, TENSION_MM

@@ -17,7 +17,7 @@ from pydantic import BaseModel, ConfigDict, Field, field_validator
 
 from nptcs.arrays import Array
 from nptcs.config.base import Strict
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.tables.status import Status as Status
 
 CASE_S = "Wall time that a case usually takes; decides the size and the time limit of a job"
@@ -70,8 +70,8 @@ class CaseInputs:
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
-        The nine ply constants (`nptcs.tables.material_card.PLY_CONSTANTS`), where the solver
-        needs them.
+        The nine ply constants (`nptcs.tables.laboratory.material_card.PLY_CONSTANTS`), where the
+        solver needs them.
     options : SolverOptions
         The solver's own options.
     tables : mapping of str to a sequence of rows

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers.contract import CaseInputs
-from nptcs.tables.material_card import PLY_CONSTANTS
+from nptcs.tables.laboratory.material_card import PLY_CONSTANTS
 
 SPOKE_FACTORS = frozenset({"spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa"})
 TYRE_FACTORS = SPOKE_FACTORS | {"shear_band_c10_mpa"}

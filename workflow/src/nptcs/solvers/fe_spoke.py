@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from pydantic import Field
 
-from nptcs.config.fe import FeSpokeModel
+from nptcs.config.solvers.fe import FeSpokeModel
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness

@@ -8,7 +8,7 @@ from typing import ClassVar, Literal
 import numpy as np
 from pydantic import Field
 
-from nptcs.config.fe import FeModel
+from nptcs.config.solvers.fe import FeModel
 from nptcs.fe.case import (
     loaded_tyre,
     path_to_displacement,

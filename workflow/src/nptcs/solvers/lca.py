@@ -11,12 +11,12 @@ from pydantic import Field
 
 from nptcs import lca
 from nptcs.arrays import Floating
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.section import section_stiffness
 from nptcs.lca.single import REMEDIES
-from nptcs.lca.spoke_law_table import SpokeLawTable
-from nptcs.lca.spoke_stiffness_table import OutOfRangeError, SpokeStiffnessTable
+from nptcs.lca.spokes.law_table import SpokeLawTable
+from nptcs.lca.spokes.stiffness_table import OutOfRangeError, SpokeStiffnessTable
 from nptcs.lca.state import LcaState
 from nptcs.solvers.contract import (
     CaseInputs,

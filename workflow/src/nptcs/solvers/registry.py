@@ -12,7 +12,7 @@ from typing import Any, Literal, get_origin
 from pydantic import ValidationError
 
 from nptcs.config.explain import describe
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.solvers.contract import Solver, SolverOptions
 

@@ -9,8 +9,8 @@ import numpy as np
 from pydantic import Field
 
 from nptcs.arrays import Array
-from nptcs.config.fe import FeModel
-from nptcs.config.ring import RingModel
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.ring import RingModel
 from nptcs.errors import InputError
 from nptcs.fe.case import plate_volume_mm3, spoke_design
 from nptcs.fe.energy_cache import shared_table

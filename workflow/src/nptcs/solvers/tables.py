@@ -17,7 +17,7 @@ from nptcs.solvers.contract import (
     Status,
     TableInputs,
 )
-from nptcs.tables.cases import realised_column
+from nptcs.tables.tyres.cases import realised_column
 
 TableFunction = Callable[[TableInputs], pd.DataFrame]
 CURVE = "curve_"

@@ -8,7 +8,7 @@ from typing import Any
 from nptcs.calibrate.plan import check_materials, plies, ply_of, rubbers
 from nptcs.campaign.checks import name_faults, refuse_faults, study_faults
 from nptcs.config.root import Config
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.files import sha256_of_text
 from nptcs.ingest.reading.profiles import load_profiles
 from nptcs.report.page_files import page_faults
@@ -22,7 +22,7 @@ from nptcs.solvers.registry import (
 )
 from nptcs.start.facts import Facts, SolverFacts, contents
 from nptcs.tables.catalogue import result_files
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) -> Facts:

@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from nptcs.tables.cases import realised_column
 from nptcs.tables.status import has_result
+from nptcs.tables.tyres.cases import realised_column
 
 
 @dataclass(frozen=True)
@@ -43,7 +43,7 @@ def solved_cases(cases: pd.DataFrame, solver: str, factors: Sequence[str]) -> So
     Parameters
     ----------
     cases : DataFrame
-        Rows of one study in ``cases.csv`` (`nptcs.tables.cases.Cases`).
+        Rows of one study in ``cases.csv`` (`nptcs.tables.tyres.cases.Cases`).
     solver : str
         Name of the solver.
     factors : sequence of str

@@ -77,7 +77,8 @@ class FittedSurface:
     Parameters
     ----------
     study, solver, name : str
-        Study, solver of its cases, and name of the surface (`nptcs.config.surface.name_of`).
+        Study, solver of its cases, and name of the surface
+        (`nptcs.config.studies.surface.name_of`).
     response : Response
     surface : ResponseSurface
         Its factors are in the values that the solver really used.

@@ -9,9 +9,9 @@ from functools import cached_property
 
 import pandas as pd
 
-from nptcs.config.response import RESPONSE_KINDS
-from nptcs.config.study import Study
-from nptcs.config.surface import SurfaceModel, describes_stiffness_alone
+from nptcs.config.studies.response import RESPONSE_KINDS
+from nptcs.config.studies.study import Study
+from nptcs.config.studies.surface import SurfaceModel, describes_stiffness_alone
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases, solved_cases
 from nptcs.surface.diagnostics.comparison import LeftOut, leave_one_out
@@ -134,13 +134,13 @@ def fit_study(
     Parameters
     ----------
     cases : DataFrame
-        `nptcs.tables.cases.Cases` of the study.
+        `nptcs.tables.tyres.cases.Cases` of the study.
     study : Study
         Factors, solvers, terms, further surfaces and responses.
     ply : mapping of str to float or None
         Constants of the plates' ply, for surfaces that are made of them.
     values : DataFrame, optional
-        `nptcs.tables.tyre_responses.TyreResponses` of the study, for its further responses.
+        `nptcs.tables.tyres.tyre_responses.TyreResponses` of the study, for its further responses.
 
     Returns
     -------

@@ -22,7 +22,12 @@ from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import STIFFNESS
 from nptcs.surface.response_surface import ResponseSurface, box
 from nptcs.surface.study import Fit, StudySurfaces
-from nptcs.tables.surface import SurfaceByFactor, SurfaceComparison, SurfaceQuality, SurfaceTable
+from nptcs.tables.analysis.surface import (
+    SurfaceByFactor,
+    SurfaceComparison,
+    SurfaceQuality,
+    SurfaceTable,
+)
 
 ALL_ANEW = (
     "terms or form kept, all parameters and hyperparameters fitted anew without each case or level"

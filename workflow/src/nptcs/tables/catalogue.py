@@ -9,38 +9,42 @@ from collections.abc import Iterator, Sequence
 import pandera.pandas as pa
 
 from nptcs.tables import column_headings as headings
-from nptcs.tables.cases import Cases
-from nptcs.tables.coverage import CaseCoverage
-from nptcs.tables.decisions import (
+from nptcs.tables.analysis.decisions import (
     DecisionConfirmation,
     DecisionDesigns,
     DecisionFront,
     Decisions,
 )
-from nptcs.tables.deformed_tyre import DeformedTyre
-from nptcs.tables.diagnostics import (
+from nptcs.tables.analysis.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
     SurfaceSelection,
     SurfaceStationary,
     SurfaceTests,
 )
-from nptcs.tables.displacement_by_load import DisplacementByLoad
-from nptcs.tables.files import Files
-from nptcs.tables.flags import FlagsTable
-from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.impact import Impact
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.response_surfaces import ResponseImpact, ResponseSurfaces
+from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
+from nptcs.tables.analysis.surface import (
+    SurfaceByFactor,
+    SurfaceComparison,
+    SurfaceQuality,
+    SurfaceTable,
+)
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
+from nptcs.tables.laboratory.files import Files
+from nptcs.tables.laboratory.flags import FlagsTable
+from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.statistics import StatisticsTable
 from nptcs.tables.problems import Problems
-from nptcs.tables.properties import PropertiesTable
-from nptcs.tables.published_stiffness import (
+from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
+from nptcs.tables.published.stiffness import (
     StiffnessAgainstPublished,
     StiffnessByLevel,
     StiffnessErrors,
     StiffnessExponents,
 )
-from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.result_table import (
     PER_STUDY,
     ReportSection,
@@ -48,17 +52,13 @@ from nptcs.tables.result_table import (
     RowMark,
     SyntheticBy,
 )
-from nptcs.tables.sobol import MainEffects, SobolIndices
-from nptcs.tables.spoke_stiffness import SpokeCurves, SpokeLines
-from nptcs.tables.statistics import StatisticsTable
-from nptcs.tables.surface import (
-    SurfaceByFactor,
-    SurfaceComparison,
-    SurfaceQuality,
-    SurfaceTable,
-)
-from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
-from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.coverage import CaseCoverage
+from nptcs.tables.tyres.deformed_tyre import DeformedTyre
+from nptcs.tables.tyres.displacement_by_load import DisplacementByLoad
+from nptcs.tables.tyres.neutral_line import NeutralLine
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves, SpokeLines
+from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 TABLES: dict[str, ResultTable] = {
     "problems.csv": ResultTable(

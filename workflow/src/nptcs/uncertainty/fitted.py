@@ -8,15 +8,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Mask
-from nptcs.config.goals import ResponseName
-from nptcs.config.surface import (
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.goals import ResponseName
+from nptcs.config.studies.surface import (
     GaussianProcessModel,
     LaminationModel,
     PolynomialModel,
     SurfaceModel,
     name_of,
 )
-from nptcs.config.tyre import TyreGeometry
 from nptcs.doe.whole_plates import SPACING
 from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_out

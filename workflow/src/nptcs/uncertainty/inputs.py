@@ -10,14 +10,14 @@ from typing import Literal, assert_never
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.uncertainty import (
+from nptcs.config.studies.uncertainty import (
     CardUncertainty,
     RubberUncertainty,
     Tolerance,
     Uncertainty,
 )
 from nptcs.errors import InputError
-from nptcs.tables.material_card import MaterialCard, PlyCard, RubberCard
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, RubberCard
 
 RUBBERS = ("shear_band_c10_mpa", "spoke_c10_mpa")
 

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
-from nptcs.config.goals import ResponseName
-from nptcs.config.tyre import TyreGeometry
-from nptcs.config.uncertainty import Uncertainty
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.goals import ResponseName
+from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.surface.registry import SurfaceRegistry
-from nptcs.tables.material_card import MaterialCard, PlyCard
+from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard
 from nptcs.uncertainty.fitted import FittedResponse, fit_response
 from nptcs.uncertainty.inputs import Inputs, uncertain_inputs
 from nptcs.uncertainty.study_results import StudyResults

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.goals import ResponseName
-from nptcs.config.response import RESPONSE_KINDS, Taken
-from nptcs.config.study import Study
+from nptcs.config.studies.goals import ResponseName
+from nptcs.config.studies.response import RESPONSE_KINDS, Taken
+from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.responses.curve import LoadCurve
 from nptcs.surface.cases import solved_cases
@@ -31,9 +31,9 @@ class StudyResults:
     cases : DataFrame
         Rows of ``cases.csv`` of the study and the solver; failed ones included.
     responses : DataFrame
-        `nptcs.tables.tyre_responses.TyreResponses` of the same cases.
+        `nptcs.tables.tyres.tyre_responses.TyreResponses` of the same cases.
     curves : DataFrame
-        `nptcs.tables.tyre_responses.TyreCurves` of the same cases.
+        `nptcs.tables.tyres.tyre_responses.TyreCurves` of the same cases.
     """
 
     study: Study

@@ -9,9 +9,9 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.goals import ResponseName
-from nptcs.tables.published_stiffness import StiffnessErrors
-from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
+from nptcs.config.studies.goals import ResponseName
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
+from nptcs.tables.published.stiffness import StiffnessErrors
 from nptcs.uncertainty.fitted import FittedResponse
 from nptcs.uncertainty.inputs import Inputs, UncertainInput
 from nptcs.uncertainty.propagate import SURFACE, Moments, assessed, distribution, moments
@@ -53,7 +53,7 @@ def uncertainty_tables(designs: Sequence[NamedDesign], errors: pd.DataFrame) -> 
     ----------
     designs : sequence of NamedDesign
     errors : DataFrame
-        `nptcs.tables.published_stiffness.StiffnessErrors`: the solvers' bias, shown next to the
+        `nptcs.tables.published.stiffness.StiffnessErrors`: the solvers' bias, shown next to the
         interval.
     """
     errors = errors[list(StiffnessErrors.to_schema().columns)]

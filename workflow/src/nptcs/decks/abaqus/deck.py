@@ -7,8 +7,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 
-from nptcs.config.abaqus import AbaqusModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.decks.abaqus.mesh import check_radii, spoke_part
 from nptcs.decks.abaqus.parts import (
     band_lines,

@@ -12,9 +12,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.abaqus import AbaqusMesh
-from nptcs.config.fe import SpokeGeometry
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusMesh
+from nptcs.config.solvers.fe import SpokeGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.fe.spoke.mesh import subdivide
 from nptcs.fe.tyre.mesh import band_radii

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.config.abaqus import AbaqusModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.abaqus import AbaqusModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.decks.abaqus.mesh import Part, band_part, plate_axes, plates_part, spoke_part, wires_part
 from nptcs.decks.abaqus.text import THIN_RULE, comment, members, number, numbers
 from nptcs.errors import InputError

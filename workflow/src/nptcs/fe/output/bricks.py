@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.elements.groups import RubberGroup
 from nptcs.fe.elements.lagrange import tensor_shape
 from nptcs.fe.output.fields import (

@@ -90,7 +90,7 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
     -------
     DataFrame
         ``part, outline, x_mm, y_mm, x_undeformed_mm, y_undeformed_mm``: the last columns of
-        `nptcs.tables.deformed_tyre.DeformedTyre`.
+        `nptcs.tables.tyres.deformed_tyre.DeformedTyre`.
 
     Raises
     ------

@@ -12,7 +12,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.fe import EnergyTableOptions
+from nptcs.config.solvers.fe import EnergyTableOptions
 from nptcs.fe.spoke.coordinates import carried, coordinates_of
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))

@@ -14,7 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.fe import SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 
 RUBBER_ORDERS = (2, 2, 2)
 LAYER_ORDERS = (1, 2, 2)

@@ -9,7 +9,7 @@ from typing import assert_never
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import PlateCoupling, SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import PlateCoupling, SpokeGeometry, SpokeMesh
 from nptcs.fe.elements.groups import (
     ElementGroup,
     MixedGroup,

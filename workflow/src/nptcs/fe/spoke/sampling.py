@@ -9,7 +9,7 @@ from itertools import product
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import EnergyTableOptions
+from nptcs.config.solvers.fe import EnergyTableOptions
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import (
     SpokeEnergyTable,

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.fe import GroundContact
+from nptcs.config.solvers.fe import GroundContact
 from nptcs.fe.elements.lagrange import line_shape
 
 # MPa/mm and mm of the soft ground: it gives way by some hundredths of a millimetre

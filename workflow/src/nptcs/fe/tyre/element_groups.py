@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
 from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
 from nptcs.fe.tyre.mesh import MEMBRANES, Orders, RingMesh

@@ -8,8 +8,8 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import GroundContact, PaperMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import GroundContact, PaperMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.elements.groups import MixedGroup, Response, element_dofs
 from nptcs.fe.matrices.cyclic import BandedPattern, folded_order
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable, TableRangeError

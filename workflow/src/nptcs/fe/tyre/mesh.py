@@ -13,8 +13,8 @@ from typing import assert_never
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.fe import PaperMesh, TyreMesh
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import PaperMesh, TyreMesh
+from nptcs.config.solvers.tyre import TyreGeometry
 
 Orders = tuple[int, int]
 # of elements whose wires are membranes

@@ -17,8 +17,8 @@ from typing import Protocol
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.fe import FeModel
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.fe import FeModel
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.elements.groups import Response, RubberGroup
 from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, solve_indefinite

@@ -9,7 +9,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.ingest.conditioning.signals import Signals, line_slope
 from nptcs.ingest.reading.profiles import normalise
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 SMALLEST_RATIO = 0.05
 """Slope of one strain on the other below which its sign is not told from noise."""

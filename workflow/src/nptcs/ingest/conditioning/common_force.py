@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.ingest import Pairing
+from nptcs.config.materials.ingest import Pairing
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import largest
 from nptcs.ingest.reading.raw_file import RawFile

@@ -9,7 +9,7 @@ from typing import Literal, assert_never
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.reading.raw_file import RawFile
-from nptcs.tables.specimens import Specimen, TestType
+from nptcs.tables.laboratory.specimens import Specimen, TestType
 
 Loading = Literal["tension", "compression", "flexure"]
 WORDS: dict[Loading, re.Pattern[str]] = {

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.ingest import MissingValues
+from nptcs.config.materials.ingest import MissingValues
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
 from nptcs.ingest.reading.raw_file import RawFile
 

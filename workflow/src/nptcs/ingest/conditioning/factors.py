@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS
 from nptcs.ingest.reading.raw_file import RawFile
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def apply_factors(tables: Sequence[RawFile], specimen: Specimen) -> list[str]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array, Rows
-from nptcs.config.ingest import EndOfTest, Pairing
+from nptcs.config.materials.ingest import EndOfTest, Pairing
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.coarse_clock import spread_coarse_clock
 from nptcs.ingest.conditioning.common_force import (

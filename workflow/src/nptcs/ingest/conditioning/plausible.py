@@ -6,11 +6,11 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from nptcs.config.ingest import Plausible
+from nptcs.config.materials.ingest import Plausible
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.reading.raw_file import RawFile
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 
 def check_machine_area(
@@ -151,13 +151,13 @@ def _flag_large_strain(
     if STIFF_IF_PERCENT[0] <= 100 * modulus <= STIFF_IF_PERCENT[1]:
         signals.flags.append(
             f"strain reaches {100 * largest:.3g} % at an apparent modulus of {modulus:.4g} MPa by "
-            "the unit of the file; if the readings are percent, state it in a profile under "
+            "the unit of the file; if the readings are in percent, state it in a profile under "
             "wrong_units"
         )
 
 
 SMALL_STRAIN = 0.2
-"""Strain below which hardly a rubber breaks."""
+"""Strain below which few rubbers break."""
 
 
 def _flag_small_strain(signals: Signals, specimen: Specimen, largest: float) -> None:
@@ -165,7 +165,7 @@ def _flag_small_strain(signals: Signals, specimen: Specimen, largest: float) -> 
     if signals.failure_seen and specimen.test.load_sign > 0 and largest < SMALL_STRAIN:
         signals.flags.append(
             f"a rubber that breaks at a strain of {100 * largest:.3g} % by the unit of the file; "
-            "if the readings are no percentage, state it in a profile under wrong_units"
+            "if the readings are not in percent, state the unit in a profile under wrong_units"
         )
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Rows
-from nptcs.config.ingest import ExtensometerRemoval
+from nptcs.config.materials.ingest import ExtensometerRemoval
 from nptcs.ingest.conditioning.signals import LENGTHS, Signals, largest
 from nptcs.ingest.conditioning.steps import STRAINS
 from nptcs.loading import noise_of

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nptcs.arrays import Array, Mask, Rows
-from nptcs.tables.curves import Step
+from nptcs.tables.laboratory.curves import Step
 
 STRAIN_CHANNELS = (
     "strain",

@@ -6,11 +6,11 @@ from pathlib import Path
 
 import numpy as np
 
-from nptcs.config.ingest import Signs
+from nptcs.config.materials.ingest import Signs
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest
 from nptcs.ingest.conditioning.strains import slope_over_force
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 BOTH = ("strain_axial", "strain_axial_back")
 

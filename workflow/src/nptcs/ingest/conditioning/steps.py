@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array, Rows
-from nptcs.config.ingest import EndOfTest, ForceZero, MissingValues
+from nptcs.config.materials.ingest import EndOfTest, ForceZero, MissingValues
 from nptcs.ingest.conditioning.failure import failure_row
 from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
 

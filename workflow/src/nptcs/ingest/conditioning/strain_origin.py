@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nptcs.arrays import Array, Rows
-from nptcs.config.ingest import OriginOfStrain
+from nptcs.config.materials.ingest import OriginOfStrain
 from nptcs.ingest.conditioning.signals import Signals, line_slope
 from nptcs.ingest.conditioning.steps import STRAINS
 

@@ -11,10 +11,10 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.ingest.conditioning.signals import Signals, largest, line_slope
-from nptcs.ingest.reading.column_names import OVER_LENGTH
+from nptcs.ingest.reading.columns.names import OVER_LENGTH
 from nptcs.ingest.reading.profiles import normalise
 from nptcs.ingest.reading.raw_file import RawFile
-from nptcs.tables.specimens import Specimen
+from nptcs.tables.laboratory.specimens import Specimen
 
 AMBIGUOUS_RATIO = 0.9
 """Two in-plane strains closer than this cannot be told apart."""

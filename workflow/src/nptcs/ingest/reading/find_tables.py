@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import CellSource, TextSource
-from nptcs.ingest.reading.sheet_cells import SheetSource
+from nptcs.ingest.reading.native.sheet_cells import SheetSource
 from nptcs.ingest.reading.table_columns import SMALLEST_TABLE, FoundTable, describe_columns
+from nptcs.ingest.reading.text.cells import CellSource, TextSource
 
 DATA = frozenset(("data", "odd data"))
 _ROWS_ABOVE = 4

@@ -10,16 +10,16 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Literal, assert_never
 
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.binary_tables import is_binary_table, read_binary_table
-from nptcs.ingest.reading.cells import CellSource, split_lines
-from nptcs.ingest.reading.clock import PlainLines, clocks_to_seconds, join_grouped_digits
-from nptcs.ingest.reading.decode import decode
+from nptcs.ingest.reading.native.binary import is_binary_table, read_binary_table
+from nptcs.ingest.reading.native.sheet_cells import SheetSource
+from nptcs.ingest.reading.native.workbooks import is_workbook, read_workbook
 from nptcs.ingest.reading.profiles import ContentKind, FormatProfile
-from nptcs.ingest.reading.sheet_cells import SheetSource
+from nptcs.ingest.reading.text.cells import CellSource, split_lines
+from nptcs.ingest.reading.text.clock import PlainLines, clocks_to_seconds, join_grouped_digits
+from nptcs.ingest.reading.text.decode import decode
 from nptcs.ingest.reading.units import FACTORS
-from nptcs.ingest.reading.workbooks import is_workbook, read_workbook
 
 HEAD_LINES = 60
 _MARKUP = re.compile(rb"(?i)(?:\xef\xbb\xbf)?\s*<(?:\?xml|!doctype|html|head|table|workbook)\b")

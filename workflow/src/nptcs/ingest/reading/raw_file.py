@@ -9,18 +9,18 @@ from pathlib import Path
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.ingest import FileLimits
+from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.cells import CellSource, TextSource
-from nptcs.ingest.reading.clock import PlainLines
-from nptcs.ingest.reading.column_names import STRAINS
-from nptcs.ingest.reading.dialect import Dialect, find_dialect
+from nptcs.ingest.reading.columns.head_units import add_units_of_head
+from nptcs.ingest.reading.columns.labels import LabelValue, read_labels
+from nptcs.ingest.reading.columns.names import STRAINS
+from nptcs.ingest.reading.columns.quantities import Role, Test, choose_test, tests_in, unit_of
 from nptcs.ingest.reading.find_tables import find_tables
-from nptcs.ingest.reading.head_units import add_units_of_head
-from nptcs.ingest.reading.labels import LabelValue, read_labels
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
-from nptcs.ingest.reading.quantities import Role, Test, choose_test, tests_in, unit_of
+from nptcs.ingest.reading.text.cells import CellSource, TextSource
+from nptcs.ingest.reading.text.clock import PlainLines
+from nptcs.ingest.reading.text.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.units import VOLTS
 
 TRUE_STRAINS = ("true strain", "logarithmic strain", "hencky strain", "wahre dehnung")

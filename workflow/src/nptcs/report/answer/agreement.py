@@ -9,9 +9,9 @@ from nptcs.report.answer.stiffness import leading_solver
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import BarRow, bars
-from nptcs.tables.published_stiffness import StiffnessErrors
+from nptcs.tables.analysis.surface import SurfaceComparison
+from nptcs.tables.published.stiffness import StiffnessErrors
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.surface import SurfaceComparison
 
 MOST_BARS = 6
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pandas as pd
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.language import tr
 from nptcs.report.answer.stiffness import leading_solver
 from nptcs.report.blocks import Finding
@@ -12,9 +12,9 @@ from nptcs.report.data import Results
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.sketches import BarRow, bars
 from nptcs.report.text import joined, number_text
-from nptcs.tables.impact import Impact
-from nptcs.tables.published_stiffness import STIFFNESS
-from nptcs.tables.response_surfaces import ResponseImpact
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.response_surfaces import ResponseImpact
+from nptcs.tables.published.stiffness import STIFFNESS
 from nptcs.tables.result_table import ReportSection
 
 MOST_BARS = 6

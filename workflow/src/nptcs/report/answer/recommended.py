@@ -8,14 +8,14 @@ from typing import Any, assert_never
 
 import pandas as pd
 
-from nptcs.config.decisions import Decision
+from nptcs.config.studies.decisions import Decision
 from nptcs.language import tr
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import IntervalRow, Sketch, intervals
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import with_error
-from nptcs.tables.decisions import (
+from nptcs.tables.analysis.decisions import (
     Confirmation,
     DecisionConfirmation,
     DecisionDesigns,

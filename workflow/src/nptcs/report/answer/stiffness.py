@@ -8,18 +8,18 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.language import tr
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import IntervalRow, intervals
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import number_text, rounded, with_error
-from nptcs.tables.cases import Cases
-from nptcs.tables.published_stiffness import PUBLISHED, STIFFNESS
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty
+from nptcs.tables.published.stiffness import PUBLISHED, STIFFNESS
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.status import has_result
-from nptcs.tables.uncertainty import ResponseUncertainty
+from nptcs.tables.tyres.cases import Cases
 
 Row = Mapping[Hashable, Any]
 REFERENCE, RESPONSE = "reference", "secant_stiffness"

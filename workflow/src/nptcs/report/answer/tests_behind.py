@@ -6,9 +6,9 @@ from nptcs.language import tr, tr_count
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import Part, whole
-from nptcs.tables.flags import FlagsTable
+from nptcs.tables.laboratory.flags import FlagsTable
+from nptcs.tables.laboratory.statistics import StatisticsTable
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.statistics import StatisticsTable
 
 MODULUS = "modulus"
 

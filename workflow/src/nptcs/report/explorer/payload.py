@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.goals import GoalKind
-from nptcs.config.study import Study
+from nptcs.config.studies.goals import GoalKind
+from nptcs.config.studies.study import Study
 from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.explorer.models import CONFIDENCE, plain_surface
@@ -17,10 +17,10 @@ from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
-from nptcs.tables.cases import Cases
-from nptcs.tables.published_stiffness import DIFFERENCE, StiffnessAgainstPublished
+from nptcs.tables.published.stiffness import DIFFERENCE, StiffnessAgainstPublished
 from nptcs.tables.status import Status
-from nptcs.tables.tyre_responses import TyreResponses
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.tyre_responses import TyreResponses
 
 KEYS = {
     "spacing_mm": "s",

@@ -7,7 +7,7 @@ from typing import Any
 from scipy.interpolate import PchipInterpolator
 
 from nptcs.lca.section import section_stiffness
-from nptcs.lca.spoke_stiffness_table import SpokeStiffnessTable
+from nptcs.lca.spokes.stiffness_table import SpokeStiffnessTable
 from nptcs.report.data import Results
 
 Plain = dict[str, Any]

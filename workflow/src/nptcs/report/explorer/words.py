@@ -31,7 +31,7 @@ RESPONSE_TITLES: Mapping[str, str] = {
     "plate_mass": translatable("plate mass"),
     "plate_cost": translatable("plate cost"),
 }
-"""Responses as a reader names them; `nptcs.config.response.RESPONSE_KINDS` has the same names."""
+"""Responses as a reader names them; the names are those of `nptcs.config.studies.response`."""
 
 
 def page_words() -> dict[str, str]:

@@ -21,7 +21,7 @@ from nptcs.report.figures.style import (
     styled,
 )
 from nptcs.report.figures.theme import GREY, INK, PAPER
-from nptcs.tables.published_stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
+from nptcs.tables.published.stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
 """Differences marked in the parity figure, and the dashes of their lines."""

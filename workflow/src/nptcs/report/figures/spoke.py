@@ -10,7 +10,7 @@ from matplotlib.lines import Line2D
 from nptcs.language import tr, translatable
 from nptcs.report.figures.style import MARKERS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, INK, PAPER
-from nptcs.tables.spoke_stiffness import DIRECTIONS
+from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS
 
 TRAVEL = {
     "tension": translatable("elongation [mm]"),

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Hashable, Mapping
 from typing import Any
 
-from nptcs.config.decisions import Decision
+from nptcs.config.studies.decisions import Decision
 from nptcs.language import tr
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
@@ -14,7 +14,7 @@ from nptcs.report.plots import plot
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
-from nptcs.tables.decisions import (
+from nptcs.tables.analysis.decisions import (
     DecisionConfirmation,
     DecisionDesigns,
     DecisionFront,

@@ -10,10 +10,10 @@ from nptcs.report.figures.impact import ranked
 from nptcs.report.figures.lca import DIFFERENCES, SECTION_NAMES
 from nptcs.report.tables.headings import words
 from nptcs.report.text import with_error
-from nptcs.tables.impact import Impact
-from nptcs.tables.lca_validation import LcaValidation
-from nptcs.tables.published_stiffness import StiffnessErrors
-from nptcs.tables.surface import SurfaceQuality
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.surface import SurfaceQuality
+from nptcs.tables.published.lca_validation import LcaValidation
+from nptcs.tables.published.stiffness import StiffnessErrors
 
 
 def material_facts(results: Results) -> tuple[PageBlock, ...]:

@@ -27,11 +27,11 @@ from nptcs.report.sections.key_facts import lca_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.responses.displacement_by_load import same_tyres
-from nptcs.tables.cases import Cases
-from nptcs.tables.displacement_by_load import DisplacementByLoad
-from nptcs.tables.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 from nptcs.tables.result_table import ReportSection
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.displacement_by_load import DisplacementByLoad
+from nptcs.tables.tyres.neutral_line import NeutralLine
 
 
 def lca_section(results: Results, sheets: Sheets) -> Section:

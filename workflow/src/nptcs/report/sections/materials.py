@@ -21,8 +21,8 @@ from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
-from nptcs.tables.hyperelastic import ModelComparison, RangeTable
-from nptcs.tables.material_card import PUBLISHED_C10_MPA, RubberCard
+from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
+from nptcs.tables.laboratory.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection
 
 

@@ -15,9 +15,9 @@ from nptcs.report.sections.explorer import explorer_section
 from nptcs.report.sections.lca import lca_section
 from nptcs.report.sections.materials import materials_section
 from nptcs.report.sections.provenance import provenance_section
-from nptcs.report.sections.published_stiffness import published_stiffness_section
 from nptcs.report.sections.specimens import specimens_section
 from nptcs.report.sections.spokes import spoke_section
+from nptcs.report.sections.stiffness.published import published_stiffness_section
 from nptcs.report.sections.studies import (
     cases_section,
     design_section,
@@ -28,12 +28,12 @@ from nptcs.report.sections.tyre import tyre_section
 from nptcs.report.sections.uncertainty import uncertainty_section
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheet, Sheets
-from nptcs.tables.deformed_tyre import DeformedTyre
-from nptcs.tables.lca_validation import LcaNeutralLine
-from nptcs.tables.neutral_line import NeutralLine
+from nptcs.tables.published.lca_validation import LcaNeutralLine
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.spoke_stiffness import SpokeCurves
-from nptcs.tables.tyre_responses import PlateStress, TyreCurves
+from nptcs.tables.tyres.deformed_tyre import DeformedTyre
+from nptcs.tables.tyres.neutral_line import NeutralLine
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves
+from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves
 
 MOST_ROWS = 500
 """Rows beyond which the page names a table instead of printing it."""

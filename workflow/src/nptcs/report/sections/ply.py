@@ -6,7 +6,7 @@ from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import words
 from nptcs.report.text import joined, number_text
-from nptcs.tables.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 
 def ply_words(results: Results) -> str:

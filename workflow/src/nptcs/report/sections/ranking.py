@@ -12,7 +12,7 @@ from nptcs.report.table_view import table_view
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import Heading, words
 from nptcs.report.tables.names import factor_headings
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.impact import Impact
 
 FILE = "results/tables/impact.csv"
 

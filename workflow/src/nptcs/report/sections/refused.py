@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nptcs.compare.conditions import plate_faults, surface_faults
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.language import tr
 from nptcs.report.blocks import Text
 from nptcs.report.data import Results

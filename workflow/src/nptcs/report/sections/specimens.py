@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.language import tr
 from nptcs.mechanical_tests import TestType, is_property
-from nptcs.reduce.shear import shear_curve
+from nptcs.reduce.standards.shear import shear_curve
 from nptcs.report.blocks import Plot, Plots, Section, Text
 from nptcs.report.data import Results
 from nptcs.report.figures.specimens import NORMAL, SHEAR, Moduli, rubber_curves, stress_strain
@@ -18,12 +18,12 @@ from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
-from nptcs.tables.files import Files
-from nptcs.tables.material_card import PUBLISHED_PLY
-from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.laboratory.files import Files
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
+from nptcs.tables.laboratory.properties import PropertiesTable
+from nptcs.tables.laboratory.specimen import Specimen
+from nptcs.tables.laboratory.statistics import StatisticsTable
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.specimen import Specimen
-from nptcs.tables.statistics import StatisticsTable
 
 PUBLISHED_MODULI = {
     (TestType.TENSION, 0.0): ("E1", PUBLISHED_PLY["e1_mpa"]),

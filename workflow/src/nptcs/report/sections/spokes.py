@@ -14,7 +14,7 @@ from nptcs.report.sections.ply import ply_words
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.spoke_stiffness import DIRECTIONS, SpokeCurves, SpokeLines
+from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS, SpokeCurves, SpokeLines
 
 SHOWN = [
     "case_id",

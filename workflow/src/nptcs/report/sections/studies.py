@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
-from nptcs.config.study import Factor, MeasuredRubber, Study
+from nptcs.config.studies.study import Factor, MeasuredRubber, Study
 from nptcs.language import tr, translatable
 from nptcs.report.blocks import PageBlock, Plot, Plots, Section, TableView, Text
 from nptcs.report.data import Results, SolverFacts
@@ -27,12 +27,12 @@ from nptcs.report.tables.row_classes import by_status
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
 from nptcs.surface.cases import solved_cases
-from nptcs.tables.cases import RESPONSES, Cases
-from nptcs.tables.diagnostics import SurfaceInfluence
-from nptcs.tables.impact import Impact
+from nptcs.tables.analysis.diagnostics import SurfaceInfluence
+from nptcs.tables.analysis.impact import Impact
+from nptcs.tables.analysis.surface import SurfaceQuality, SurfaceTable
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.status import has_result
-from nptcs.tables.surface import SurfaceQuality, SurfaceTable
+from nptcs.tables.tyres.cases import RESPONSES, Cases
 
 COEFFICIENT_DIGITS = 10
 """Significant digits of coefficients: a reader can evaluate the surface from the page."""

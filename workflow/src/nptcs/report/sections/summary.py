@@ -15,8 +15,8 @@ from nptcs.report.sections.refused import all_refused
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined
-from nptcs.tables.files import Files, FileStatus
-from nptcs.tables.flags import FlagsTable
+from nptcs.tables.laboratory.files import Files, FileStatus
+from nptcs.tables.laboratory.flags import FlagsTable
 from nptcs.tables.result_table import ReportSection
 
 WARNING = "warning: "

@@ -22,11 +22,11 @@ from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
 from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES
-from nptcs.tables.cases import Cases
-from nptcs.tables.deformed_tyre import DeformedTyre
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.solver_names import PUBLISHED
-from nptcs.tables.tyre_responses import PlateStress, TyreCurves, TyreResponses
+from nptcs.tables.tyres.cases import Cases
+from nptcs.tables.tyres.deformed_tyre import DeformedTyre
+from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 TITLE = translatable("What the solved tyres do (section 4.1)")
 

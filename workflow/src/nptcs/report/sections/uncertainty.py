@@ -16,8 +16,8 @@ from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
 from nptcs.tables.result_table import Heading, ReportSection
-from nptcs.tables.uncertainty import ResponseUncertainty, UncertaintyShares
 
 KEYS = ["study", "solver", "design", "response", "at"]
 LARGEST = 3

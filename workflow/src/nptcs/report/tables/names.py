@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Mapping
 from functools import partial
 
-from nptcs.config.study import Study
+from nptcs.config.studies.study import Study
 from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.tables.headings import heading

@@ -8,7 +8,7 @@ import yaml
 from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.tables.entries import Entry
-from nptcs.tables.cases import Cases
+from nptcs.tables.tyres.cases import Cases
 
 
 def entries_table(entries: list[Entry]) -> pd.DataFrame:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Collection, Mapping
 from typing import assert_never
 
-from nptcs.tables.files import FileStatus
+from nptcs.tables.laboratory.files import FileStatus
 from nptcs.tables.result_table import RowMark
 
 Row = Mapping[str, object]

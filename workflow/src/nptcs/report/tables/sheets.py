@@ -17,12 +17,12 @@ from nptcs.report.tables.names import factor_headings
 from nptcs.report.tables.provenance import inputs_table, software_table
 from nptcs.report.tables.row_classes import RowClass, no_row, row_class
 from nptcs.report.tables.specimens import conditioning_table, sheet_table
-from nptcs.tables.cases import Cases
 from nptcs.tables.catalogue import file_of, result_files
-from nptcs.tables.files import Files
-from nptcs.tables.hyperelastic import ModelComparison
-from nptcs.tables.properties import PropertiesTable
+from nptcs.tables.laboratory.files import Files
+from nptcs.tables.laboratory.hyperelastic import ModelComparison
+from nptcs.tables.laboratory.properties import PropertiesTable
 from nptcs.tables.result_table import ReportSection, RowMark, SyntheticBy
+from nptcs.tables.tyres.cases import Cases
 
 LONGEST_SHEET = 5000
 """Rows of the longest table that is a sheet of the workbook; a longer one is a CSV file only."""

@@ -33,7 +33,7 @@ OWN_SHEETS = {
     DATA: "The numbers that the charts draw",
     DICTIONARY: "The meaning of each column of each table",
 }
-"""Sheets that are no table of the run, in the order of the index."""
+"""Sheets that are not tables of the run, in the order of the index."""
 
 
 def build_workbook(results: Results) -> bytes:

@@ -14,12 +14,12 @@ import pandas as pd
 from nptcs.arrays import Array
 from nptcs.report.data import Results
 from nptcs.report.factor_labels import factor_labels
-from nptcs.tables.hyperelastic import RangeTable
-from nptcs.tables.neutral_line import NeutralLine
-from nptcs.tables.published_stiffness import StiffnessAgainstPublished
-from nptcs.tables.sobol import MainEffects
-from nptcs.tables.spoke_stiffness import SpokeCurves
-from nptcs.tables.tyre_responses import TyreCurves
+from nptcs.tables.analysis.sobol import MainEffects
+from nptcs.tables.laboratory.hyperelastic import RangeTable
+from nptcs.tables.published.stiffness import StiffnessAgainstPublished
+from nptcs.tables.tyres.neutral_line import NeutralLine
+from nptcs.tables.tyres.spoke_stiffness import SpokeCurves
+from nptcs.tables.tyres.tyre_responses import TyreCurves
 
 MOST_POINTS = 120
 """Points of a line that a chart draws; a curve of a specimen has thousands."""

@@ -17,8 +17,8 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.datavalidation import DataValidation
 from openpyxl.worksheet.worksheet import Worksheet
 
-from nptcs.config.study import Study
-from nptcs.config.tyre import TyreGeometry
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.config.studies.study import Study
 from nptcs.report.data import Results
 from nptcs.report.tables.headings import words
 from nptcs.report.workbook.cells import (

@@ -10,7 +10,7 @@ import numpy as np
 from scipy import stats
 
 from nptcs.arrays import Array
-from nptcs.config.study import Level, MeasuredRubber, Study
+from nptcs.config.studies.study import Level, MeasuredRubber, Study
 from nptcs.report.data import Results
 from nptcs.surface.fit import Surface
 from nptcs.surface.kinds.linked import Bend, LinkedSurface

@@ -28,9 +28,9 @@ from nptcs.report.workbook.cells import (
 )
 from nptcs.report.workbook.layout import fit_heights, page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
-from nptcs.tables.decisions import DecisionConfirmation, Decisions
-from nptcs.tables.published_stiffness import StiffnessErrors
-from nptcs.tables.uncertainty import ResponseUncertainty
+from nptcs.tables.analysis.decisions import DecisionConfirmation, Decisions
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty
+from nptcs.tables.published.stiffness import StiffnessErrors
 
 TITLE = "Summary"
 FINDING_HEAD = ("question", "answer", "", "", "", "", "in words", "table")

@@ -11,8 +11,8 @@ from nptcs.errors import InputError
 from nptcs.surface.cases import as_realised
 from nptcs.surface.fit import coding, refuse_aliased
 from nptcs.surface.response_surface import box
-from nptcs.tables.coverage import CaseCoverage
 from nptcs.tables.status import has_result
+from nptcs.tables.tyres.coverage import CaseCoverage
 from nptcs.terms import parse
 
 MANY_VALUES = 10
@@ -28,7 +28,7 @@ class Planned:
     Parameters
     ----------
     design : DataFrame
-        `nptcs.tables.cases.Design`.
+        `nptcs.tables.tyres.cases.Design`.
     factors, solvers, terms : sequences of str
         As the configuration names them.
     least_cases : int
@@ -48,7 +48,7 @@ def coverage_table(cases: pd.DataFrame, studies: Mapping[str, Planned]) -> pd.Da
     Parameters
     ----------
     cases : DataFrame
-        `nptcs.tables.cases.Cases`.
+        `nptcs.tables.tyres.cases.Cases`.
     studies : mapping of str to Planned
         By name of the study.
     """

@@ -9,14 +9,14 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.surface import Choice
+from nptcs.config.studies.surface import Choice
 from nptcs.surface.diagnostics.anova import MEANING, anova, noise_of
 from nptcs.surface.diagnostics.influence import influence, term_tests
 from nptcs.surface.diagnostics.stationary import Direction, ridge_path, stationary_points
 from nptcs.surface.fit import Surface
 from nptcs.surface.kinds.selection import backward_steps
 from nptcs.surface.response_surface import inside_box
-from nptcs.tables.diagnostics import (
+from nptcs.tables.analysis.diagnostics import (
     SurfaceAnova,
     SurfaceInfluence,
     SurfaceSelection,

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from typing import assert_never
 
 from nptcs.arrays import Array
-from nptcs.config.study import Study
-from nptcs.config.surface import (
+from nptcs.config.studies.study import Study
+from nptcs.config.studies.surface import (
     GaussianProcessModel,
     LaminationModel,
     PolynomialModel,

@@ -8,7 +8,7 @@ import numpy as np
 from scipy import linalg
 
 from nptcs.arrays import Array
-from nptcs.config.surface import Choice, PolynomialModel
+from nptcs.config.studies.surface import Choice, PolynomialModel
 from nptcs.surface.fit import coding, refuse_aliased
 from nptcs.surface.kinds.linked import LINKS
 from nptcs.surface.response_surface import refuse_unusable

@@ -8,7 +8,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
-from nptcs.config.sensitivity import AveragingRule
+from nptcs.config.studies.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
 
 GRID_POINTS = 2_000_000

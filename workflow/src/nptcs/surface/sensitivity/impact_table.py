@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 import pandas as pd
 
-from nptcs.config.sensitivity import AveragingRule
+from nptcs.config.studies.sensitivity import AveragingRule
 from nptcs.surface.fit import Surface
 from nptcs.surface.sensitivity.gradients import impact
 from nptcs.surface.sensitivity.ties import near_ties
@@ -34,11 +34,11 @@ def impact_table(
     designs : mapping of str to DataFrame
         Design tables by study: the given values, and how many cases there should be.
     qualities : DataFrame
-        `nptcs.tables.surface.SurfaceQuality` of these surfaces.
+        `nptcs.tables.analysis.surface.SurfaceQuality` of these surfaces.
     rules : sequence of str
         Averaging rules.
     near_tie_ratio : float
-        `nptcs.config.sensitivity.Sensitivity.near_tie_ratio`.
+        `nptcs.config.studies.sensitivity.Sensitivity.near_tie_ratio`.
 
     Returns
     -------

@@ -11,7 +11,7 @@ import pandera.pandas as pa
 from scipy.stats import qmc
 
 from nptcs.arrays import Array
-from nptcs.config.sensitivity import Sensitivity
+from nptcs.config.studies.sensitivity import Sensitivity
 from nptcs.errors import InputError
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import box
@@ -20,9 +20,9 @@ from nptcs.surface.sensitivity.sobol_tables import variance_shares
 from nptcs.surface.sensitivity.ties import near_ties
 from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
 from nptcs.surface.tables import fit_measures
+from nptcs.tables.analysis.response_surfaces import ResponseImpact, ResponseSurfaces
+from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
 from nptcs.tables.problems import Problems, problems_table
-from nptcs.tables.response_surfaces import ResponseImpact, ResponseSurfaces
-from nptcs.tables.sobol import MainEffects, SobolIndices
 
 GRADIENT_POINTS = 4096
 """Points of a scrambled Sobol sequence over which slopes are averaged."""
@@ -110,7 +110,7 @@ def sensitivity_tables(
     registries : mapping of str to SurfaceRegistry
         By study.
     quality : DataFrame
-        `nptcs.tables.surface.SurfaceQuality` of all studies.
+        `nptcs.tables.analysis.surface.SurfaceQuality` of all studies.
     settings : Sensitivity
 
     Returns

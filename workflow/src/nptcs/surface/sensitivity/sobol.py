@@ -12,7 +12,7 @@ from SALib.sample import sobol as sobol_sample
 from scipy import stats
 
 from nptcs.arrays import Array
-from nptcs.config.sensitivity import Distribution, NormalFactor, Sobol, UniformFactor
+from nptcs.config.studies.sensitivity import Distribution, NormalFactor, Sobol, UniformFactor
 from nptcs.errors import InputError
 
 EFFECT_POINTS = 11

@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 import pandas as pd
 
-from nptcs.config.sensitivity import Sensitivity
+from nptcs.config.studies.sensitivity import Sensitivity
 from nptcs.errors import InputError
 from nptcs.surface.response_surface import ResponseSurface, box
 from nptcs.surface.sensitivity.sobol import Indices, Inputs, inputs_of, main_effect, sobol_indices
 from nptcs.surface.sensitivity.ties import near_ties
+from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
 from nptcs.tables.problems import problems_table
-from nptcs.tables.sobol import MainEffects, SobolIndices
 
 Models = Mapping[str, Mapping[str, Mapping[str, ResponseSurface]]]
 """Surfaces by study, solver and name."""

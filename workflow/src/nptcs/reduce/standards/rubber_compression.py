@@ -1,0 +1,55 @@
+"""Compression of rubber discs: ISO 7743 and ASTM D575."""
+
+from __future__ import annotations
+
+import numpy as np
+import pandas as pd
+
+from nptcs.arrays import Array
+from nptcs.config.materials.reduction import RubberCompressionRules
+from nptcs.reduce.rows import Property, finite_pair
+from nptcs.reduce.standards.rubber import stress_at
+
+UNIFORM = "lubricated"
+
+
+def reduce_rubber_compression(
+    branch: pd.DataFrame, rules: RubberCompressionRules, platens: str
+) -> list[Property]:
+    """Stress at given compressions and the secant modulus stress over strain there.
+
+    Nominal stress F/A0 against compression Δh/h0, both positive (ISO 7743: modulus at 10 and
+    20 %). With dry or bonded platens the disc barrels: both are those of the disc and of its
+    shape, not of the material.
+
+    Parameters
+    ----------
+    branch : DataFrame
+        Loading branch turned over (compression positive): stress_mpa, strain_axial.
+    rules : RubberCompressionRules
+        Section of the standard in force.
+    platens : str
+        "lubricated", "dry", "bonded", or empty where the sheet does not say.
+    """
+    strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
+    rows: list[Property] = []
+    for percent in rules.compressions_percent:
+        at = stress_at(strain, stress, percent, rules)
+        rows += [at, _secant(at, percent, strain, rules)]
+    return [row.flagged(_platen_words(platens)) for row in rows]
+
+
+def _secant(at: Property, percent: float, strain: Array, rules: RubberCompressionRules) -> Property:
+    rule = f"{rules.title}, stress over strain at {percent:g} % compression"
+    value = at.value / (percent / 100)
+    points = at.points if np.isfinite(value) else 0
+    name = f"compression_modulus_at_{percent:g}_percent"
+    return Property(name, value, "MPa", rule, points=points, flags=at.flags)
+
+
+def _platen_words(platens: str) -> list[str]:
+    if platens == UNIFORM:
+        return []
+    if not platens:
+        return ["lubrication of the platens not stated: friction stiffens the disc"]
+    return [f"{platens} platens: value of the disc and its shape, not of the material"]

@@ -1,0 +1,201 @@
+"""One iterate of the ring, compiled by numba: the formulas of `elementwise`, element by element."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+from numba import njit
+
+from nptcs.arrays import Array
+from nptcs.provenance import code_hash
+from nptcs.ring.kernel import elementwise
+from nptcs.ring.kernel.cyclic_elimination import eliminate
+from nptcs.ring.kernel.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.system import Ring, System, empty_system
+
+OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
+
+
+def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
+    """Compile the loops.
+
+    numba's cache goes by the text of a function, not by that of the functions it calls: the hash
+    `formulas`, which the loops close over, makes it compile again when one of them changes.
+    """
+
+    @njit(**OPTIONS)
+    def elements(stiffness, hardening, w, middle, length, u, rise, anchor, out):  # type: ignore[no-untyped-def]
+        """Add all elements, and the ground where they touch it."""
+        assert formulas != ""
+        diagonal, upper, lower, force_out, slope_out, row_out = out
+        count = len(u)
+        m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
+        by_x, by_y = np.empty(VARIABLES), np.empty(VARIABLES)
+        slope, row = np.empty(VARIABLES), np.empty(VARIABLES)
+        stress, stiff = np.empty(ALONG), np.empty((ALONG, ALONG))
+        reaction, reaction_slope = 0.0, 0.0
+        for i in range(count):
+            after = i + 1 if i + 1 < count else 0
+            by = 1.0 / length[i]
+            for a in range(UNKNOWNS):
+                m[a] = 0.5 * (u[i, a] + u[after, a])
+                d[a] = (u[after, a] - u[i, a]) * by
+            force = np.zeros(VARIABLES)
+            tangent = np.zeros((VARIABLES, VARIABLES))
+            elementwise.band(
+                stiffness, hardening, middle[i], length[i], m, d, force, tangent, stress, stiff
+            )
+            y = elementwise.surface_point(w, middle[i], length[i], m, d)[1]
+            if rise - w[OUTER] - y > 0.0:
+                push, drag, steep, slide, cross = elementwise.ground(
+                    w, middle[i], length[i], m, d, rise, anchor[i], by_x, by_y, tangent
+                )
+                reaction += push
+                reaction_slope += steep
+                for a in range(VARIABLES):
+                    force[a] += drag * by_x[a] - push * by_y[a]
+                    row[a] = -steep * by_y[a]
+                    slope[a] = row[a] + cross * by_x[a]
+                    for b in range(VARIABLES):
+                        tangent[a, b] += (
+                            slide * by_x[a] * by_x[b] - cross * by_x[a] * by_y[b]
+                        ) - row[a] * by_y[b]
+                for a in range(UNKNOWNS):
+                    b = a + UNKNOWNS
+                    slope_out[i, a] += 0.5 * slope[a] - slope[b] * by
+                    slope_out[after, a] += 0.5 * slope[a] + slope[b] * by
+                    row_out[i, a] += 0.5 * row[a] - row[b] * by
+                    row_out[after, a] += 0.5 * row[a] + row[b] * by
+            for a in range(UNKNOWNS):
+                force_out[i, a] += 0.5 * force[a] - force[a + UNKNOWNS] * by
+                force_out[after, a] += 0.5 * force[a] + force[a + UNKNOWNS] * by
+                for b in range(UNKNOWNS):
+                    both = 0.25 * tangent[a, b]
+                    ends = tangent[a + UNKNOWNS, b + UNKNOWNS] * by * by
+                    mixed = 0.5 * tangent[a, b + UNKNOWNS] * by
+                    turned = 0.5 * tangent[a + UNKNOWNS, b] * by
+                    diagonal[i, a, b] += both - mixed - turned + ends
+                    diagonal[after, a, b] += both + mixed + turned + ends
+                    upper[i, a, b] += both + mixed - turned - ends
+                    lower[i, a, b] += both - mixed + turned - ends
+        return reaction, reaction_slope
+
+    @njit(**OPTIONS)
+    def spokes(ring, u, coordinates, diagonal, force):  # type: ignore[no-untyped-def]
+        """Add all spokes."""
+        assert formulas != ""
+        w, theta, feet, height, low, high, coefficients, sides = ring
+        count, terms = coefficients.shape
+        chains = np.zeros((3, 3, max(count, sides.max() + 1)))
+        first, push = np.empty(3), np.empty(3)
+        second, stiff = np.empty((3, 3)), np.empty((3, 3))
+        point, radial = np.empty(3), np.empty((3, terms))
+        by = np.zeros((3, UNKNOWNS))
+        for k in range(len(feet)):
+            node = feet[k]
+            motion = elementwise.foot_motion(w, theta[node], u[node])
+            s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
+            point[0], point[1], point[2] = s, beta, phi
+            coordinates[k] = point
+            for axis in range(3):
+                scale = 2.0 / (high[axis] - low[axis])
+                x = (point[axis] - low[axis]) * scale - 1.0
+                value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
+                value[0], value[1] = 1.0, x
+                once[0], once[1] = 0.0, scale
+                twice[0], twice[1] = 0.0, 0.0
+                for i in range(2, count if axis == 0 else sides[:, axis - 1].max() + 1):
+                    value[i] = 2.0 * x * value[i - 1] - value[i - 2]
+                    once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
+                    twice[i] = 4.0 * scale * once[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
+            first[:] = 0.0
+            second[:] = 0.0
+            radial[:] = 0.0
+            for i in range(count):
+                for order in range(3):
+                    for term in range(terms):
+                        radial[order, term] += coefficients[i, term] * chains[0, order, i]
+            for term in range(terms):
+                r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
+                j, n = sides[term]
+                b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
+                p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
+                first[0] += r1 * b0 * p0
+                first[1] += r0 * b1 * p0
+                first[2] += r0 * b0 * p1
+                second[0, 0] += r2 * b0 * p0
+                second[1, 1] += r0 * b2 * p0
+                second[2, 2] += r0 * b0 * p2
+                second[0, 1] += r1 * b1 * p0
+                second[1, 2] += r0 * b1 * p1
+                second[0, 2] += r1 * b0 * p1
+            second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
+            elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
+            elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
+            for a in range(UNKNOWNS):
+                for i in range(3):
+                    force[node, a] += push[i] * by[i, a]
+                    for j in range(3):
+                        for b in range(UNKNOWNS):
+                            diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
+
+    return elements, spokes
+
+
+_elements, _spokes = _loops(code_hash(elementwise.__name__))
+_eliminate = njit(**OPTIONS)(eliminate)
+
+
+def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
+    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
+    system = empty_system(len(u), len(ring.feet))
+    out = (
+        system.diagonal,
+        system.upper,
+        system.lower,
+        system.force,
+        system.slope,
+        system.row,
+    )
+    system.reaction_n, system.reaction_slope = _elements(
+        ring.stiffness,
+        ring.hardening,
+        ring.dimensions,
+        ring.middle,
+        ring.length_mm,
+        u,
+        rise,
+        anchor,
+        out,
+    )
+    if len(ring.feet):
+        spokes = (
+            ring.dimensions,
+            ring.theta,
+            ring.feet,
+            ring.height_mm,
+            ring.low,
+            ring.high,
+            ring.coefficients,
+            ring.sides,
+        )
+        _spokes(spokes, u, system.coordinates, system.diagonal, system.force)
+    return system
+
+
+def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
+    """Solve the cyclic system for one or two right-hand sides (nodes, 5, n).
+
+    Raises
+    ------
+    FloatingPointError
+        If the matrix is singular.
+    """
+    found = np.zeros((len(rhs), UNKNOWNS, 2))
+    found[:, :, : rhs.shape[2]] = rhs
+    _eliminate(diagonal.copy(), upper, lower, found)
+    if not np.isfinite(found).all():
+        raise FloatingPointError("the tangent is singular")
+    return found[:, :, : rhs.shape[2]]

@@ -1,0 +1,102 @@
+"""The linear system of one iterate, block by block around the ring."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+
+import numpy as np
+
+from nptcs.arrays import Array, Index
+from nptcs.ring.kernel.elementwise import UNKNOWNS
+from nptcs.ring.kernel.spokes import SpokePolynomial
+
+
+@dataclass(frozen=True)
+class Ring:
+    """Everything about a ring that the kernels read.
+
+    Parameters
+    ----------
+    stiffness : array (7, 7)
+        C of the section.
+    hardening : array (4, 4, 4)
+        D of the section.
+    dimensions : array (13,)
+        Constants of the section and the ground, places as in `elementwise`.
+    theta, middle, length_mm : arrays (nodes,)
+    feet : array (spokes,)
+        Node of each spoke.
+    height_mm, narrowing : float
+        Of the spokes' table.
+    low, high : arrays (3,)
+    coefficients : array (degrees, side terms)
+    sides : array (side terms, 2)
+    """
+
+    stiffness: Array
+    hardening: Array
+    dimensions: Array
+    theta: Array
+    middle: Array
+    length_mm: Array
+    feet: Index
+    height_mm: float
+    narrowing: float
+    low: Array
+    high: Array
+    coefficients: Array
+    sides: Index
+
+    @cached_property
+    def polynomial(self) -> SpokePolynomial:
+        """The spokes' energy."""
+        return SpokePolynomial(
+            self.height_mm, self.low, self.high, self.narrowing, self.coefficients, self.sides
+        )
+
+
+@dataclass
+class System:
+    """Residual and tangent of an iterate of n nodes.
+
+    Parameters
+    ----------
+    diagonal, upper, lower : arrays (n, 5, 5)
+        Blocks of node i with itself, with node i + 1, and of node i + 1 with node i; cyclic.
+    force : array (n, 5)
+        Residual, internal minus external.
+    slope : array (n, 5)
+        Its derivative by the ground's rise.
+    row : array (n, 5)
+        Derivative of the reaction by the unknowns.
+    reaction_n, reaction_slope : float
+        Vertical force on the ground and its derivative by the rise.
+    coordinates : array (spokes, 3)
+        (s, β, φ) of the spokes.
+    """
+
+    diagonal: Array
+    upper: Array
+    lower: Array
+    force: Array
+    slope: Array
+    row: Array
+    reaction_n: float
+    reaction_slope: float
+    coordinates: Array
+
+    def transposed(self) -> tuple[Array, Array, Array]:
+        """Blocks of the transposed matrix: diagonal, upper, lower."""
+        diagonal, upper, lower = (
+            np.ascontiguousarray(block.swapaxes(1, 2))
+            for block in (self.diagonal, self.lower, self.upper)
+        )
+        return diagonal, upper, lower
+
+
+def empty_system(nodes: int, spokes: int) -> System:
+    """Return a system of zeros."""
+    diagonal, upper, lower = (np.zeros((nodes, UNKNOWNS, UNKNOWNS)) for _ in range(3))
+    force, slope, row = (np.zeros((nodes, UNKNOWNS)) for _ in range(3))
+    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, np.zeros((spokes, 3)))
