@@ -136,7 +136,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="2",
+    version="3",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,
