@@ -5,7 +5,7 @@ The generalised strains of the ring are, in this order,
     v = (e, κs, κf, s', q, γ, s)
 
 stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
-κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ - θ of the core and shift s
+κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ + q - θ of the core and shift s
 of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
 v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in compression than
 in tension, and above the contact the tread is compressed by three per cent.
@@ -27,7 +27,7 @@ from nptcs.ring.rubber import Rubber
 STRAINS = 7
 # those that stretch the rubber along the ring
 ALONG = 4
-POINTS = 8
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(8)
 # of a circular section (Cowper 1966, Poisson's ratio 0.3)
 SHEAR_CORRECTION = 0.886
 
@@ -143,8 +143,7 @@ class _Depths:
 def _assembled(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
 ) -> tuple[Array, Array, Array]:
-    """Stiffness, hardening and thickening by one shape of the tread's shear; flat if R is infinite.
-    """
+    """Stiffness, hardening and thickening by one shape of the tread's shear; flat if R is infinite."""
     half, row, cover, surface = depths.half, depths.row, depths.cover, depths.surface
     stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
     for sign in (-1.0, 1.0):
@@ -199,9 +198,8 @@ class _Layer:
 
     def rule(self) -> tuple[Array, Array]:
         """Points z and weights across the layer."""
-        points, weights = np.polynomial.legendre.leggauss(POINTS)
         low, high = self.limits
-        return 0.5 * (low + high) + 0.5 * (high - low) * points, 0.5 * (high - low) * weights
+        return 0.5 * (low + high) + 0.5 * (high - low) * POINTS, 0.5 * (high - low) * WEIGHTS
 
     def add(self, stiffness: Array, hardening: Array, radius: float, width: float) -> None:
         """Add ½ E b ∫ (ε² - ε³) J dz."""
