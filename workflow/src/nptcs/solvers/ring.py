@@ -90,9 +90,10 @@ def solve(inputs: CaseInputs) -> SolverResult:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
     plates, rubber, note = _inside(options, design, table, tyre.spoke_motion(last.u))
+    notes = [*options.geometry.axial_notes(options.axial), *([note] if note else [])]
     return SolverResult(
         status=Status.OK,
-        message=note,
+        message="; ".join(notes),
         vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
         displacement_mm=last.rise_mm,
         extra={
