@@ -5,10 +5,10 @@ The generalised strains of the ring are, in this order,
     v = (e, κs, κf, s', q, γ, s)
 
 stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
-κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ + q - θ of the core and shift s
-of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
-v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in compression than
-in tension, and above the contact the tread is compressed by three per cent.
+κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ + q - θ of the core and
+shift s of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j +
+⅙ D_ijk v_i v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in
+compression than in tension, and above the contact the tread is compressed by three per cent.
 """
 
 from __future__ import annotations
@@ -143,7 +143,10 @@ class _Depths:
 def _assembled(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
 ) -> tuple[Array, Array, Array]:
-    """Stiffness, hardening and thickening by one shape of the tread's shear; flat if R is infinite."""
+    """Give stiffness, hardening and thickening by one shape of the tread's shear.
+
+    An infinite radius is a flat section.
+    """
     half, row, cover, surface = depths.half, depths.row, depths.cover, depths.surface
     stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
     for sign in (-1.0, 1.0):
@@ -173,7 +176,7 @@ def _assembled(
 def _strip(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths
 ) -> list[RubberLayer | WireSheet]:
-    """Layers of the flat section, from the inside to the outside."""
+    """List the layers of the flat section, from the inside to the outside."""
     stretch = _wire_area_mm2(tyre) * tyre.wire_modulus_mpa / tyre.tread_width_mm
     wires = WireSheet(stretch, stretch * tyre.wire_diameter_mm**2 / 16.0, 2.0 * depths.row)
     cover = RubberLayer(band, depths.cover - depths.row)
