@@ -164,7 +164,8 @@ def surface_point(
     """Place (x, y) of the tread's surface over an element's middle: r + reach n(ψ) + shift t(ψ).
 
     The core's shear moves its upper face along by c (ψ - θ) and keeps the thickness, as simple
-    shear does. The tread thickens where it is shortened along the ring; the arc rises above its chord.
+    shear does. The tread thickens where it is shortened along the ring; the arc rises above its
+    chord.
 
     Returns
     -------
