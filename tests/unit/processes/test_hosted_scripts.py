@@ -14,9 +14,7 @@ import pytest
 
 from nptcs.processes.hosted import HostGoneError, ScriptHost, environment_of, host_scripts
 
-pytestmark = pytest.mark.skipif(
-    sys.platform != "linux", reason="scripts run in forks on Linux only"
-)
+pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="scripts run in forks on Linux only")
 
 
 @pytest.fixture
@@ -112,9 +110,7 @@ def test_scripts_run_side_by_side(host, script, tmp_path):
         "\n    time.sleep(0.01)\n",
         "first.py",
     )
-    second = script(
-        f"from pathlib import Path\nPath({str(tmp_path / 'b')!r}).touch()\n", "second.py"
-    )
+    second = script(f"from pathlib import Path\nPath({str(tmp_path / 'b')!r}).touch()\n", "second.py")
     codes = []
     waiting = threading.Thread(target=lambda: codes.append(host.run(first, {})))
     waiting.start()
@@ -209,11 +205,7 @@ def test_only_plain_scripts_of_the_folder_are_hosted(patched, script, tmp_path):
     Script(file).execute_script(file)
     Script(tmp_path / "rules/../script.py").execute_script(file)  # as rules name their scripts
     assert Script.started == []
-    for other in (
-        Script(file, conda_env="env"),
-        Script(file, bench_record=1),
-        Script("/else/a.py"),
-    ):
+    for other in (Script(file, conda_env="env"), Script(file, bench_record=1), Script("/else/a.py")):
         other.execute_script(file)
     Script(file).execute_script(file, edit=True)
     assert len(Script.started) == 4

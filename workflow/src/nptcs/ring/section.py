@@ -143,7 +143,8 @@ class _Depths:
 def _assembled(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
 ) -> tuple[Array, Array, Array]:
-    """Stiffness, hardening and thickening by one shape of the tread's shear; flat if R is infinite."""
+    """Stiffness, hardening and thickening by one shape of the tread's shear; flat if R is infinite.
+    """
     half, row, cover, surface = depths.half, depths.row, depths.cover, depths.surface
     stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
     for sign in (-1.0, 1.0):
