@@ -128,7 +128,7 @@ HEAD = (
 
 MEASURE = ("ingest_", "reduce", "calibrate_")
 """Beginnings of the rules' names; ingest has a rule for each batch of specimens."""
-PAGES = {"account", "configuration", "identity", "problems", "report", "verdict"}
+PAGES = {"account", "configuration", "identity", "problems", "report", "verdict", "workbook"}
 
 
 def summary(jobs: dict[str, int], cases: int) -> dict[str, Any]:

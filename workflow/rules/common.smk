@@ -24,9 +24,7 @@ from nptcs.threads import one_thread_per_process
 STARTED = time.time()
 # unquoted, also where another workflow that uses this one as a module has read this file before
 PYTHON = (
-    sys.executable
-    if Path(sys.executable).exists()
-    else shlex.split(sys.executable)[0]
+    sys.executable if Path(sys.executable).exists() else shlex.split(sys.executable)[0]
 )
 
 look_for_pandas_only_if_imported(PersistenceBase)

@@ -2,8 +2,8 @@
 
 Run as a script: ``script_host.py DESCRIPTOR``. Through the connection of that number come
 ``(number, script, environment)``; back go ``(number, exit code)``. With a number of None nothing is
-run: what the script imports is imported when there is nothing else to do. The host ends when it gets
-None or the connection closes (`nptcs.processes.hosted.ScriptHost`), and its jobs end with it.
+run: what the script imports is imported when there is nothing else to do. The host ends when it
+gets None or the connection closes (`nptcs.processes.hosted.ScriptHost`), and its jobs with it.
 
 Starting Python with pandas, pandera and SciPy takes more processor time than most jobs need for
 their work; a fork takes a few milliseconds. The host has one thread and computes nothing, so that a
