@@ -22,6 +22,10 @@ from nptcs.tables.laboratory.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()
+# found from this file: the workflow may be the top Snakefile, or a module of another
+SCRIPTS = (
+    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
+)
 # unquoted, also where another workflow that uses this one as a module has read this file before
 PYTHON = (
     sys.executable if Path(sys.executable).exists() else shlex.split(sys.executable)[0]
@@ -94,6 +98,7 @@ try:
             SHEET,
             *Path(CONFIG.lab_data.formats).glob("*.yaml"),
             *own_solvers(),
+            *SCRIPTS.glob("*.py"),
         ],
         find_facts,
     )
@@ -124,12 +129,6 @@ def plain(section):
     Snakemake notices each change of them. Remarks decide nothing; only the report shows them.
     """
     return section.model_dump(mode="json", exclude={"remarks"})
-
-
-# found from this file: the workflow may be the top Snakefile, or a module of another
-SCRIPTS = (
-    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
-)
 
 
 def code_of(script, *modules, words=False):
