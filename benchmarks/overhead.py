@@ -7,8 +7,8 @@ copied and not touched. In the copy, in turn: ``snakemake --version``, a run wit
 report alone with the figures that it keeps and with all figures drawn anew, and a run from the raw
 files in which every case is known, so that it is all that the default study does outside its
 solvers. A study that is not finished, or was made by other code, is first brought up to date, which
-may take as long as the study. Processor seconds hold on a busy machine, too; wall seconds are of the
-same minutes.
+may take as long as the study. Processor seconds hold on a busy machine, too; wall seconds are of
+the same minutes.
 """
 
 from __future__ import annotations
