@@ -4,8 +4,9 @@
 
 A small study of a stub solver, which runs a command for each case, is started by Snakemake and hit:
 SIGKILL to the whole process group, to Snakemake alone, to the host of the scripts, to the script of
-the rule, to the process of a case, to the solver's command; SIGTERM and SIGINT to Snakemake. After some such trials the same
-command runs to its end, and its table is compared with that of a run that nobody disturbed.
+the rule, to the process of a case, to the solver's command; SIGTERM and SIGINT to Snakemake. After
+some such trials the same command runs to its end, and its table is compared with that of a run that
+nobody disturbed.
 
 Exit code 1 if anything was half written, lost, solved twice, left behind, or needed a hand.
 """

@@ -44,7 +44,8 @@ def serve(channel: Connection) -> None:
         for sentinel in ended.keys() & set(ready):
             process = jobs.pop(ended[sentinel])
             process.join()
-            channel.send((ended[sentinel], process.exitcode))
+            with suppress(OSError):  # nobody asks any more: the next message will say so
+                channel.send((ended[sentinel], process.exitcode))
             process.close()
         if channel in ready:
             message = receive(channel)
