@@ -16,6 +16,7 @@ from nptcs.files import remove_unfinished, sha256_of_file
 from nptcs.processes.runs import begin_job, begin_run
 from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.report.stale import refused
+from nptcs.runs.identity import WORDS_ONLY
 from nptcs.start.facts import known_facts
 from nptcs.start.pandas_values import look_for_pandas_only_if_imported
 from nptcs.tables.laboratory.specimens import read_sheet
@@ -80,6 +81,15 @@ def own_solvers():
     ]
 
 
+def decisive():
+    """The configuration without words of the report, which decide nothing that the rules must know.
+
+    With files of the laboratory's own for the report, which are checked at the start, it is whole.
+    """
+    own = CONFIG.laboratory.logo or CONFIG.report.templates
+    return CONFIG.model_dump(mode="json", exclude=set() if own else set(WORDS_ONLY))
+
+
 def find_facts():
     """What the rules must know, found with the whole package; see `nptcs.start`."""
     from nptcs.start.survey import survey
@@ -93,7 +103,7 @@ try:
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
     FACTS = known_facts(
         ".snakemake/nptcs/start.json",
-        CONFIG.model_dump(mode="json"),
+        decisive(),
         [
             SHEET,
             *Path(CONFIG.lab_data.formats).glob("*.yaml"),
