@@ -70,7 +70,7 @@ def main() -> None:
 
     ply = source.materials.ply
     assert ply is not None
-    fitted = source.fit(ResponseName("secant_stiffness", "5000 N"), config.uncertainty.surface)
+    fitted = source.fit(ResponseName("secant_stiffness", "5000 N"))
     pitch = config.tyre.tread_width_mm / config.tyre.plates_across(reference["spacing_mm"])
     point = np.array([[{**reference, "spacing_mm": pitch}[n] for n in fitted.model.factors]])
     base, nominal = solved(reference, ply, {}), fitted.model.value(point, {})[0]

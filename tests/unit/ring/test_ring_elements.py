@@ -116,7 +116,7 @@ def test_the_contact_law_with_a_compliance_in_series(tyre):
     np.testing.assert_allclose(slope[inner], numeric[inner], rtol=0.05)
 
 
-@pytest.mark.skipif(not HAS_NUMBA, reason="needs numba: pip install nptcs[fast]")
+@pytest.mark.skipif(not HAS_NUMBA, reason="needs numba")
 def test_compiled_kernel_gives_the_same_system(tyre, state):
     from nptcs.ring.kernel import numba_kernel
 

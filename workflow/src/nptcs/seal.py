@@ -19,7 +19,7 @@ FORMATS: Mapping[str, int] = {
     "CaseRecord": 1,
     "CaseRecords": 1,
     "Figure": 1,
-    "FittedSurfaces": 1,
+    "FittedSurfaces": 2,
     "IngestRecord": 1,
     "MaterialCard": 1,
     "PlyCard": 1,

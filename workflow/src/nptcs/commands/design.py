@@ -65,7 +65,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     )
     parser.add_argument("--study", help="default: the only study whose cases vary the plates")
     parser.add_argument("--solver", help="default: the only one of the study that solves designs")
-    parser.add_argument("--surface", help="for the stiffness; default: that of `uncertainty`")
+    parser.add_argument("--surface", help="default: that of `uncertainty`, or the best")
     parser.add_argument(
         "--hold", action="append", default=[], metavar="FACTOR=VALUE", help="a factor's value"
     )
@@ -193,6 +193,7 @@ def as_text(done: Answer) -> str:
         f"{len(found.candidates.x)} candidates meet all targets and bounds",
         "",
     ]
+    lines[-1:] = [_surfaces_line(outcome), ""]
     if not found.feasible:
         lines += [outcome.why, "", "nearest design:"]
     elif outcome.why:
@@ -201,6 +202,15 @@ def as_text(done: Answer) -> str:
     lines += ["", "± is one standard deviation: materials, tolerances and surface; * is the choice"]
     lines += [f"not assessed: {', '.join(outcome.not_assessed)}"] if outcome.not_assessed else []
     return "\n".join([*lines, *_round_lines(done), f"fit and search: {done.cpu_s:.1f} s of CPU"])
+
+
+def _surfaces_line(outcome: Outcome) -> str:
+    """Say through which surface each response is predicted."""
+    by_surface: dict[str, list[str]] = {}
+    for response, fitted in outcome.problem.fitted.items():
+        by_surface.setdefault(fitted.surface, []).append(str(response))
+    said = (f"{', '.join(responses)} by {name}" for name, responses in by_surface.items())
+    return f"predicted: {'; '.join(said)}"
 
 
 def _designs_table(outcome: Outcome) -> str:
@@ -286,8 +296,7 @@ def _append(path: Path, decision: Decision, designs: list[dict[str, float]]) -> 
 
 
 def _complete(values: dict[str, Any], config: Config) -> None:
-    """Fill in study and solver where there is only one, and the surface of `uncertainty`."""
-    from nptcs.config.studies.surface import name_of
+    """Fill in study and solver where there is only one."""
     from nptcs.errors import InputError
 
     with_plates = [
@@ -318,9 +327,6 @@ def _complete(values: dict[str, Any], config: Config) -> None:
                 "which solver?", column="--solver", remedy=f"name one of {', '.join(solvers)}"
             )
         values["solver"] = solvers[0]
-    of_study = [name_of(model) for model in names[values["study"]].surfaces]
-    if config.uncertainty.surface in of_study:
-        values.setdefault("surface", config.uncertainty.surface)
 
 
 def _assignment(text: str) -> tuple[str, float]:

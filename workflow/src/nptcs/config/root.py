@@ -186,6 +186,16 @@ class Config(Strict):
         )
 
     @model_validator(mode="after")
+    def _surface_is_of_a_study(self) -> Self:
+        known = [name for study in self.studies if study.terms for name in surface_names(study)]
+        if (name := self.uncertainty.surface) is not None and known and name not in known:
+            raise ValueError(
+                f"uncertainty.surface: no study has a surface {name!r}; there are "
+                f"{', '.join(dict.fromkeys(known))}"
+            )
+        return self
+
+    @model_validator(mode="after")
     def _decisions_are_of_studies(self) -> Self:
         names = [decision.name for decision in self.decisions]
         if len(set(names)) < len(names):
@@ -219,12 +229,11 @@ class Config(Strict):
                 f"{key}.solver: study {study.name} is solved by {', '.join(study.solvers)}, not by "
                 f"{decision.solver!r}"
             )
-        process = name_of(GaussianProcessModel(kind="gaussian_process"))
-        known = ["polynomial", *map(name_of, study.surfaces), process]
-        if decision.surface not in known:
+        known = surface_names(study)
+        if decision.surface is not None and decision.surface not in known:
             raise ValueError(
                 f"{key}.surface: no surface {decision.surface!r} in study {study.name}; it has "
-                f"{', '.join(dict.fromkeys(known))}"
+                f"{', '.join(known)}"
             )
         factors = [factor.name for factor in study.factors]
         if stray := sorted({*decision.hold, *decision.steps} - set(factors)):
@@ -275,3 +284,9 @@ def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> 
         return Config.model_validate(values)
     except ValidationError as error:
         raise InputError(describe(error, Config), file=file) from None
+
+
+def surface_names(study: Study) -> list[str]:
+    """Name the surfaces that can answer for a study with terms, each once."""
+    process = GaussianProcessModel(kind="gaussian_process")
+    return list(dict.fromkeys(["polynomial", *map(name_of, study.surfaces), name_of(process)]))

@@ -278,7 +278,7 @@ def _references(
             source = source_of(run, study, solver, None)
             stiffness, *further = map(source.results.at_its_load, _responses_of(study))
             given = [stiffness, *filter(source.results.gives, further)]
-            fitted = tuple(source.fit(name, run.config.uncertainty.surface) for name in given)
+            fitted = tuple(source.fit(name) for name in given)
             point = np.array([values[name] for name in fitted[0].model.factors])
             _refuse_outside(fitted[0].model.inside(point[None, :])[0], study, values)
         except InputError as error:

@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 
 from nptcs.ingest.conditioning.declared_test import loadings_in_name, loadings_named
+from nptcs.ingest.runs_of_pieces import piece_of
 from nptcs.tables.laboratory.specimens import TestType
 
 ROLE_WORDS = frozenset(
@@ -203,7 +204,8 @@ def series_names(files: Iterable[str]) -> dict[str, str]:
 
 def _series(name: str) -> str:
     path = PurePosixPath(name)
-    stem = specimen_id(_LAST_NUMBER.sub("", path.stem) + ".x")
+    piece = piece_of(specimen_id(name)) or path.stem
+    stem = specimen_id(_LAST_NUMBER.sub("", piece) + ".x")
     return path.parent.name if stem in ("", "specimen") and path.parent.name else stem
 
 

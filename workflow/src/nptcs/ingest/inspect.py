@@ -9,8 +9,10 @@ from pathlib import Path
 
 from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.columns.quantities import NEEDS, Test, tests_in, unit_of
-from nptcs.ingest.reading.find_tables import find_tables
+from nptcs.ingest.reading.columns.head_units import add_units_of_head
+from nptcs.ingest.reading.columns.names import ACROSS
+from nptcs.ingest.reading.columns.quantities import NEEDS, Test, unit_of
+from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
 from nptcs.ingest.reading.raw_file import header_labels, matching, sources_of
@@ -61,6 +63,8 @@ class Inspection:
         for quantity, column in test.quantities.items():
             if quantity == "force" and "strain_xx" in test.quantities and not column.unit:
                 continue  # told from the machine's own file
+            if quantity in ACROSS or (quantity == "time" and test.serves("force and strain")):
+                continue  # not needed: left out with a note
             try:
                 unit_of(quantity, column, self.profile, stated, self.opened.path, 0)
             except InputError as error:
@@ -100,8 +104,9 @@ def _inspect(
     try:
         sources, result.dialect = sources_of(opened, result.profile)
         for source in sources:
-            found_tables = find_tables(source, opened.path, profile.unnamed_columns)
-            result.tests += tests_in(source, found_tables, profile, opened.path, plain)
+            result.tests += tests_of(source, profile, opened.path, plain)
+        for test in result.tests:
+            add_units_of_head(test)
     except InputError as error:
         result.problem = error
     return result

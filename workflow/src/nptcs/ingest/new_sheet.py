@@ -30,6 +30,7 @@ from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.columns.quantities import Test
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
+from nptcs.ingest.runs_of_pieces import mark_runs
 from nptcs.ingest.strain_fields import FEWEST_FRAMES
 from nptcs.mechanical_tests import TestType
 from nptcs.tables.laboratory.specimens import COLUMNS
@@ -125,6 +126,8 @@ def propose_sheet(
     }
     for number, own in unique_ids(names).items():
         proposal.rows[number]["specimen"] = own
+    mark_runs(proposal.rows)
+    for number in names:
         _remark(proposal.rows[number], proposal.travel_only)
     if not proposal.rows:
         raise InputError(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Sequence
+from pathlib import PurePosixPath
 
 from nptcs.ingest.dimension_tables import Dimensions
-from nptcs.ingest.file_names import tokens
+from nptcs.ingest.file_names import specimen_id, tokens
+from nptcs.ingest.runs_of_pieces import piece_of
 
 
 def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict[str, str]:
@@ -58,7 +60,10 @@ def _says_the_same(words: Counter[str], others: Counter[str]) -> bool:
 def add_dimensions(rows: Sequence[dict[str, str]], dimensions: Sequence[Dimensions]) -> None:
     """Fill in the dimensions whose row names one test, and is named by no other row."""
     for row in rows:
-        words = tokens(row["force_file"]) + tokens(row["force_part"] + ".x")
+        path = PurePosixPath(row["force_file"])
+        piece = piece_of(specimen_id(path.name))
+        file = str(path.with_name(piece + ".x")) if piece else row["force_file"]
+        words = tokens(file) + tokens(row["force_part"] + ".x")
         fitting = [one for one in dimensions if one.words and one.words <= words]
         most = max((sum(one.words.values()) for one in fitting), default=0)
         fitting = [one for one in fitting if sum(one.words.values()) == most]

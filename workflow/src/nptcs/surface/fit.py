@@ -89,6 +89,10 @@ class Surface:
         """Evaluate the surface at points in natural units, shape (m, n) → (m,)."""
         return self.polynomial.matrix(self.coded(x)) @ self.coefficients_coded
 
+    def slopes(self, x: Array) -> Array:
+        """Differentiate the surface by its coded coefficients, shape (m, n) → (m, p)."""
+        return self.polynomial.matrix(self.coded(x)).astype(float)
+
     def gradient(self, x: Array, factor: str) -> Array:
         """Evaluate ∂f/∂(factor) in natural units at points of shape (m, n) → (m,)."""
         half = self.coding()[1][self.polynomial.factors.index(factor)]

@@ -13,7 +13,7 @@ from nptcs.errors import InputError
 from nptcs.files import REWRITE, read_stored
 from nptcs.seal import BrokenSealError, open_object, sealed_object
 from nptcs.surface.fit import Surface
-from nptcs.surface.kinds.gaussian_process import GaussianProcess
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, Mean
 from nptcs.surface.kinds.lamination import Lamination
 from nptcs.surface.kinds.linked import LinkedSurface
 from nptcs.surface.kinds.spoke_process import SpokeProcess
@@ -182,8 +182,9 @@ def _process(content: Mapping[str, Any]) -> GaussianProcess:
         factor_names=tuple(content["factor_names"]),
         x=np.array(content["x"]),
         y=np.array(content["y"]),
-        mean=None if content["mean"] is None else from_plain(content["mean"]),
+        mean=None if content["mean"] is None else MEANS[content["mean"]["kind"]](content["mean"]),
         theta=np.array(content["theta"]),
+        spread=np.array(content["spread"]),
     )
 
 
@@ -198,10 +199,14 @@ def _spoke_process(content: Mapping[str, Any]) -> SpokeProcess:
     )
 
 
-READERS: dict[str, Callable[[Mapping[str, Any]], ResponseSurface]] = {
+MEANS: dict[str, Callable[[Mapping[str, Any]], Mean]] = {
     Surface.__name__: _polynomial,
     LinkedSurface.__name__: _linked,
     Lamination.__name__: _lamination,
+}
+
+READERS: dict[str, Callable[[Mapping[str, Any]], ResponseSurface]] = {
+    **MEANS,
     GaussianProcess.__name__: _process,
     SpokeProcess.__name__: _spoke_process,
 }

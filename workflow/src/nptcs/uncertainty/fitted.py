@@ -11,7 +11,6 @@ from nptcs.arrays import Array, Mask
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.goals import ResponseName
 from nptcs.config.studies.surface import (
-    GaussianProcessModel,
     LaminationModel,
     PolynomialModel,
     SurfaceModel,
@@ -26,6 +25,7 @@ from nptcs.surface.kinds.models import Cases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box
+from nptcs.uncertainty.answering_surface import ALWAYS
 from nptcs.uncertainty.inputs import RUBBERS
 from nptcs.uncertainty.response_model import (
     Changes,
@@ -162,9 +162,6 @@ def fit_response(
     )
 
 
-GAUSSIAN_PROCESS = GaussianProcessModel(kind="gaussian_process")
-
-
 def _surface(
     results: StudyResults,
     response: ResponseName,
@@ -176,7 +173,7 @@ def _surface(
     stored = registry_surface(registry, results, response, name)
     if stored is not None and len(stored.surface.y) == len(cases.y):
         return stored
-    chosen = name if response.name in STIFFNESS else name_of(GAUSSIAN_PROCESS)
+    chosen = name if response.name in STIFFNESS else name_of(ALWAYS)
     model = _model(results, chosen)
     if len(cases.y) < results.study.least_solved_cases():
         raise InputError(
@@ -225,7 +222,7 @@ def registry_surface(
 
 
 def _model(results: StudyResults, surface: str) -> SurfaceModel:
-    models = {name_of(GAUSSIAN_PROCESS): GAUSSIAN_PROCESS, **models_of(results.study)}
+    models = {name_of(ALWAYS): ALWAYS, **models_of(results.study)}
     if surface not in models:
         raise InputError(
             f"study {results.study.name} has no such surface",

@@ -9,6 +9,7 @@ from nptcs.config.studies.goals import ResponseName
 from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard
+from nptcs.uncertainty.answering_surface import answering_surface
 from nptcs.uncertainty.fitted import FittedResponse, fit_response
 from nptcs.uncertainty.inputs import Inputs, uncertain_inputs
 from nptcs.uncertainty.study_results import StudyResults
@@ -56,11 +57,13 @@ class Source:
     whole_plates: bool
     settings: Uncertainty
 
-    def fit(self, response: ResponseName, surface: str) -> FittedResponse:
-        """Return the model of a response."""
+    def fit(self, response: ResponseName, surface: str | None = None) -> FittedResponse:
+        """Return the model of a response, through a named surface or that which answers."""
+        study, solver = self.results.study, self.results.solver
+        name = answering_surface(surface, self.settings.surface, study, solver, self.registry)
         ply = self.materials.ply.values() if self.materials.ply is not None else None
         return fit_response(
-            self.results, response, surface, self.tyre, ply, self.rubbers, self.registry
+            self.results, response, name, self.tyre, ply, self.rubbers, self.registry
         )
 
     def inputs(self) -> Inputs:

@@ -23,10 +23,11 @@ class Decision(Strict):
     title: str = Field("", description="Heading in the report; empty: the goals in words")
     study: str = Field("", description="The study that asks; may be left out")
     solver: Name = Field(description="Solver whose cases are used, and which confirms the design")
-    surface: str = Field(
-        "gaussian process on the mean",
-        description="Surface of the study through which the stiffness is predicted; other "
-        "responses are predicted by a Gaussian process on their mean",
+    surface: str | None = Field(
+        None,
+        description="Surface of the study through which the stiffness is predicted; empty: "
+        "`uncertainty.surface`, or the best of the study as described there. Other responses are "
+        "predicted by the surface of that name or the best that they have",
     )
     targets: tuple[str, ...] = Field((), description="Such as K=300±5@5000; must hold")
     at_least: tuple[str, ...] = Field((), description="Such as K=250@3000; must hold")

@@ -69,9 +69,11 @@ class Uncertainty(Strict):
         description="Study whose surface tells what the rubbers do in studies that hold them "
         "fixed; the relative change of the response is carried over to other plates",
     )
-    surface: str = Field(
-        "polynomial",
-        description="Name of the surface through which a study's reference design is assessed",
+    surface: str | None = Field(
+        None,
+        description="Surface through which reference designs are assessed and decisions are "
+        "taken that name no other; empty, or in a study that has no such surface: that of the "
+        "study's surfaces with the smallest rms error at left-out cases of its stiffness",
     )
     confidence: float = Field(0.95, gt=0, lt=1, description="Confidence level of the intervals")
     samples: int = Field(

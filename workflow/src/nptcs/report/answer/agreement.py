@@ -12,6 +12,8 @@ from nptcs.report.sketches import BarRow, bars
 from nptcs.tables.analysis.surface import SurfaceComparison
 from nptcs.tables.published.stiffness import StiffnessErrors
 from nptcs.tables.result_table import ReportSection
+from nptcs.tables.analysis.surface import SurfaceComparison
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty
 
 MOST_BARS = 6
 
@@ -83,9 +85,11 @@ def _bar(row: pd.Series, first: bool) -> BarRow:
 
 def _left_out(results: Results) -> str:
     """Say how well the surface behind the leading numbers predicts cases that were left out."""
-    table = results.table(SurfaceComparison)
-    name = results.config.uncertainty.surface or ""
-    table = table[table["surface"].eq(name) & table["leave_one_out_rms"].notna()]
+    said = results.table(ResponseUncertainty)
+    said = said.loc[said["response"] == "secant_stiffness", ["study", "solver", "surface"]]
+    said = said.drop_duplicates()
+    table = results.table(SurfaceComparison).merge(said, on=["study", "solver", "surface"])
+    table = table[table["leave_one_out_rms"].notna()]
     for study in results.config.studies:
         mine = table[table["study"] == study.name]
         if mine.empty:

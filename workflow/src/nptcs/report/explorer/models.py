@@ -91,12 +91,18 @@ def _process(surface: GaussianProcess) -> Plain:
     return {
         "centre": fitted.centre.tolist(),
         "half": fitted.half.tolist(),
-        "theta": surface.theta.tolist(),
-        "weights": fitted.weights.tolist(),
+        "components": [
+            {
+                "theta": one.theta.tolist(),
+                "weights": one.weights.tolist(),
+                "mean_covariance": _upper(one.mean_covariance),
+            }
+            for one in fitted.components
+        ],
         "scale": fitted.scale,
         "nugget": NUGGET,
         "mean": float(surface.y.mean()) if surface.mean is None else plain_surface(surface.mean),
-        "quantile": _normal() * fitted.inflation,
+        "quantile": fitted.factor,
     }
 
 

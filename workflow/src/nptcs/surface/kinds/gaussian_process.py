@@ -9,20 +9,21 @@ from typing import Any
 
 import numpy as np
 from scipy import stats
+from scipy.linalg import cho_solve, cholesky
 from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, WhiteKernel
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.likelihood import SearchError, bounds_are_answers, left_out_inflation, maximise
-from nptcs.surface.fit import coding
-from nptcs.surface.response_surface import (
-    Groups,
-    Outside,
-    ResponseSurface,
-    refuse_unusable,
-    single_cases,
-)
+from nptcs.likelihood import SearchError, bounds_are_answers, maximise
+from nptcs.surface.fit import Surface, coding
+from nptcs.surface.kinds.lamination import Lamination
+from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
+from nptcs.surface.kinds.linked import LinkedSurface
+from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
+
+Mean = Surface | LinkedSurface | Lamination
+"""Surfaces that can lie under a process: those that say their slopes by their coefficients."""
 
 NUGGET = 1e-8
 """Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
@@ -36,31 +37,58 @@ VARIANCE_BOUNDS = (1e-3, 1e3)
 
 
 @dataclass(frozen=True)
+class Component:
+    """A process with one choice of lengths; what a prediction is averaged over.
+
+    Parameters
+    ----------
+    theta : ndarray of shape (h,)
+        Logarithms of its hyperparameters, its variance estimated without bias by the mean.
+    kernel : Kernel
+    lower : ndarray of shape (m, m)
+        Cholesky factor of the covariance of the cases.
+    weights : ndarray of shape (m,)
+        K⁻¹ of the scaled residuals.
+    mean_covariance : ndarray of shape (p, p)
+        Of the mean's coefficients, which least squares have found from residuals that vary as the
+        process does: B K Bᵀ with the pseudo-inverse B of the mean's slopes, in units of `scale`.
+    """
+
+    theta: Array
+    kernel: Kernel
+    lower: Array
+    weights: Array
+    mean_covariance: Array
+
+
+@dataclass(frozen=True)
 class Weights:
-    """What the mean of a fitted process is made of.
+    """What a program needs that evaluates a process without this package.
 
     Parameters
     ----------
     centre, half : ndarray of shape (n,)
         Coding of the factors.
-    weights : ndarray of shape (m,)
-        Of the covariance with each case, in units of `scale`: K⁻¹ residual/scale.
+    components : tuple of Component
     scale : float
-        In the unit of the response.
-    inflation : float
-        Factor of the standard error.
+        Of weights and variances, in the unit of the response.
+    factor : float
+        Half width of the 95 % interval in standard deviations.
     """
 
     centre: Array
     half: Array
-    weights: Array
+    components: tuple[Component, ...]
     scale: float
-    inflation: float
+    factor: float
 
 
 @dataclass(frozen=True)
 class GaussianProcess:
     """A Matérn 5/2 process in coded units that follows the residuals of its mean.
+
+    Its error has three parts: that of the process away from the cases, that of the mean's
+    coefficients, and that of lengths which the cases do not tell (`lengths`).
 
     Parameters
     ----------
@@ -68,18 +96,21 @@ class GaussianProcess:
         Names of the n factors.
     x, y : ndarray of shape (m, n) and (m,)
         Cases, natural units.
-    mean : ResponseSurface or None
+    mean : Surface, LinkedSurface, Lamination or None
         Surface under the process; None: the mean of the responses.
-    theta : ndarray
-        Logarithms of the hyperparameters: variance, a length for each factor and, where cases
-        are repeated with different responses, the noise. Maximum of the likelihood.
+    theta : ndarray of shape (h,)
+        Logarithms of the most likely hyperparameters: variance, a length for each factor and,
+        where cases are repeated with different responses, the noise.
+    spread : ndarray of shape (c, h)
+        Hyperparameters that predictions are averaged over, relative to `theta`.
     """
 
     factor_names: tuple[str, ...]
     x: Array
     y: Array
-    mean: ResponseSurface | None
+    mean: Mean | None
     theta: Array
+    spread: Array
     outside = Outside.REFUSED
 
     @property
@@ -94,22 +125,29 @@ class GaussianProcess:
 
     def predict(self, x: Array) -> Array:
         """Evaluate the process at points of shape (m, n) → (m,)."""
-        value: Array = self._process.predict(self._coded(x))
-        return value * self._scale + self._mean_at(x)
+        coded = self._coded(x)
+        rise = [one.kernel(coded, self._points) @ one.weights for one in self._components]
+        return self._scale * np.mean(rise, axis=0) + self._mean_at(x)
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
-        """Bounds of the interval of the process, at least as wide as left-out cases ask for."""
-        value, deviation = self._process.predict(self._coded(x), return_std=True)
-        middle = value * self._scale + self._mean_at(x)
-        factor = stats.norm.ppf(0.5 + confidence / 2) * self._scale * self._inflation
-        return middle - factor * deviation, middle + factor * deviation
+        """Bounds of the prediction interval, at least as wide as left-out cases ask for."""
+        coded, slopes = self._coded(x), self._slopes(x)
+        found = [self._moments(one, coded, slopes) for one in self._components]
+        means, variances = np.array([m for m, _ in found]), np.array([v for _, v in found])
+        deviation = np.sqrt(variances.mean(axis=0) + means.var(axis=0))
+        middle = self._scale * means.mean(axis=0) + self._mean_at(x)
+        half = self._factor(confidence) * self._scale * deviation
+        return middle - half, middle + half
 
     def refit(self, x: Array, y: Array) -> GaussianProcess:
-        """Fit mean and hyperparameters to other cases, from those found here."""
+        """Fit mean and hyperparameters to other cases, from those found here.
+
+        Which lengths are not told, and how far they reach, is kept.
+        """
         mean = None
         if self.mean is not None:
             mean = self.mean.refit(x[:, self._mean_columns()], y)
-        return _fitted(self.factor_names, x, y, mean, self.theta, restarts=0)
+        return _fitted(self.factor_names, x, y, mean, self.theta, self.spread)
 
     def groups(self) -> Groups:
         """Tell which cases are left out together: each alone."""
@@ -122,12 +160,30 @@ class GaussianProcess:
             "x": self.x.tolist(),
             "y": self.y.tolist(),
             "theta": self.theta.tolist(),
+            "spread": self.spread.tolist(),
         }
 
     def regressor(self) -> Weights:
         """Return what a program needs that evaluates the process without this package."""
-        weights = np.ravel(self._process.alpha_)
-        return Weights(*coding(self.x), weights, self._scale, self._inflation)
+        return Weights(*coding(self.x), self._components, self._scale, self._factor(0.95))
+
+    def _factor(self, confidence: float) -> float:
+        """Half width of the interval in standard deviations.
+
+        Student's t, because the variance is known from the cases alone, times the factor that
+        left-out cases ask for.
+        """
+        freedom = len(self.y) - self.coefficients
+        return float(stats.t.ppf(0.5 + confidence / 2, freedom)) * self._inflation
+
+    def _moments(self, one: Component, coded: Array, slopes: Array) -> tuple[Array, Array]:
+        """Mean and variance of a component over the mean surface, scaled, two of shape (m,)."""
+        near = one.kernel(coded, self._points)
+        solved = cho_solve((one.lower, True), near.T)
+        alone = np.maximum(one.kernel.diag(coded) - np.einsum("ij,ji->i", near, solved), 0.0)
+        lever = slopes - solved.T @ self._basis
+        by_mean = np.einsum("ij,jk,ik->i", lever, one.mean_covariance, lever)
+        return near @ one.weights, alone + np.maximum(by_mean, 0.0)
 
     def _coded(self, x: Array) -> Array:
         centre, half = coding(self.x)
@@ -138,10 +194,24 @@ class GaussianProcess:
             return np.full(len(x), self.y.mean())
         return self.mean.predict(x[:, self._mean_columns()])
 
+    def _slopes(self, x: Array) -> Array:
+        if self.mean is None:
+            return np.ones((len(x), 1))
+        return self.mean.slopes(x[:, self._mean_columns()])
+
     def _mean_columns(self) -> list[int]:
         """Columns of the points in the order of the mean's factors."""
         factors = self.factor_names if self.mean is None else self.mean.factors
         return [self.factor_names.index(name) for name in factors]
+
+    @cached_property
+    def _points(self) -> Array:
+        return self._coded(self.x)
+
+    @cached_property
+    def _basis(self) -> Array:
+        """Slopes of the mean at the cases."""
+        return self._slopes(self.x)
 
     @cached_property
     def _residual(self) -> Array:
@@ -153,22 +223,53 @@ class GaussianProcess:
         return float(np.sqrt(np.mean(self._residual**2))) or 1.0
 
     @cached_property
-    def _inflation(self) -> float:
-        """Factor of the standard error: what cases that are left out show of it, at least 1."""
-        return left_out_inflation(self._process)
+    def _components(self) -> tuple[Component, ...]:
+        return tuple(self._component(self.theta + shift) for shift in self.spread)
+
+    def _component(self, theta: Array) -> Component:
+        kernel, residual = kernel_of(self.x, self.y), self._residual / self._scale
+        theta = np.clip(theta, kernel.bounds[:, 0], kernel.bounds[:, 1])
+        theta = theta + np.log(
+            restricted_variance(self._lower(kernel, theta), self._basis, residual)
+        ) * _of_variance(theta, self.x.shape[1])
+        lower = self._lower(kernel, theta)
+        sizes = np.linalg.norm(self._basis, axis=0)
+        sizes[sizes == 0] = 1.0
+        inverse = np.linalg.pinv(self._basis / sizes, rcond=1e-12) / sizes[:, None]
+        spread = inverse @ lower
+        return Component(
+            theta,
+            kernel.clone_with_theta(theta),
+            lower,
+            cho_solve((lower, True), residual),
+            spread @ spread.T,
+        )
+
+    def _lower(self, kernel: Kernel, theta: Array) -> Array:
+        covariance = kernel.clone_with_theta(theta)(self._points)
+        covariance[np.diag_indices_from(covariance)] += NUGGET
+        lower: Array = cholesky(covariance, lower=True)
+        return lower
 
     @cached_property
-    def _process(self) -> GaussianProcessRegressor:
-        kernel = kernel_of(self.x, self.y).clone_with_theta(self.theta)
-        process = GaussianProcessRegressor(kernel, alpha=NUGGET, optimizer=None)
-        return process.fit(self._coded(self.x), self._residual / self._scale)
+    def _inflation(self) -> float:
+        """Factor of the standard error: what cases that are left out show of it, at least 1.
+
+        With the hyperparameters and the mean kept, the error at a left-out case in standard errors
+        is (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms.
+        """
+        scores = []
+        for one in self._components:
+            inverse = cho_solve((one.lower, True), np.eye(len(one.lower)))
+            scores.append(one.weights / np.sqrt(np.diag(inverse)))
+        return max(1.0, float(np.sqrt(np.mean(np.square(scores)))))
 
 
 def fit_process(
     x: Array,
     y: Array,
     factors: tuple[str, ...],
-    fit_mean: Callable[[], ResponseSurface] | None = None,
+    fit_mean: Callable[[], Mean] | None = None,
 ) -> GaussianProcess:
     """Fit a Gaussian process to points of shape (m, n) with responses of shape (m,).
 
@@ -187,7 +288,7 @@ def fit_process(
     """
     refuse_unusable(x, y, factors, x.shape[1] + 1)
     mean = fit_mean() if fit_mean is not None else None
-    return _fitted(factors, x, y, mean, kernel_of(x, y).theta, restarts=3)
+    return _fitted(factors, x, y, mean)
 
 
 def kernel_of(x: Array, y: Array) -> Kernel:
@@ -203,26 +304,38 @@ def _fitted(
     factors: tuple[str, ...],
     x: Array,
     y: Array,
-    mean: ResponseSurface | None,
-    theta: Array,
-    restarts: int,
+    mean: Mean | None,
+    theta: Array | None = None,
+    spread: Array | None = None,
 ) -> GaussianProcess:
-    """Maximise the likelihood from given hyperparameters and from random ones (fixed seed)."""
+    """Find the most likely hyperparameters from given ones, or from random ones (fixed seed)."""
     kernel = kernel_of(x, y)
-    start = theta if len(theta) == len(kernel.theta) else kernel.theta
-    draft = GaussianProcess(factors, x, y, mean, start)
+    given = theta is not None and len(theta) == len(kernel.theta)
+    start = theta if theta is not None and given else kernel.theta
+    draft = GaussianProcess(factors, x, y, mean, start, np.zeros((1, len(start))))
+    points, residual = draft._points, draft._residual / draft._scale
     process = GaussianProcessRegressor(
         kernel.clone_with_theta(start),
         alpha=NUGGET,
         optimizer=maximise,
-        n_restarts_optimizer=restarts,
+        n_restarts_optimizer=0 if given else 3,
         random_state=0,
     )
     try:
         with bounds_are_answers():
-            process.fit(draft._coded(x), draft._residual / draft._scale)
+            process.fit(points, residual)
     except SearchError as error:
         raise InputError(
             str(error), column="surfaces", remedy="leave this surface out, or change its mean"
         ) from None
-    return GaussianProcess(factors, x, y, mean, np.asarray(process.kernel_.theta))
+    best = np.asarray(process.kernel_.theta)
+    if spread is None or not given:
+        spread = lengths_as_likely(process.kernel_, points, residual, NUGGET) - best
+    return GaussianProcess(factors, x, y, mean, best, spread)
+
+
+def _of_variance(theta: Array, factors: int) -> Array:
+    """One where a hyperparameter is a variance, zero where it is a length."""
+    kind = np.ones_like(theta)
+    kind[1 : 1 + factors] = 0.0
+    return kind

@@ -94,9 +94,13 @@ class Lamination:
         """
         return _stiffness(self.parameters, self.shape, x, laminates(x, ply))
 
+    def slopes(self, x: Array) -> Array:
+        """Differentiate the stiffness by the parameters, shape (m, 3) → (m, p)."""
+        return _jacobian(self.parameters, self.shape, x, laminates(x, self.ply))
+
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
         """Bounds of the prediction interval, linear in the parameters: two of shape (m,)."""
-        jacobian = _jacobian(self.parameters, self.shape, x, laminates(x, self.ply))
+        jacobian = self.slopes(x)
         variance = np.einsum("ij,jk,ik->i", jacobian, self.covariance, jacobian)
         quantile = stats.t.ppf(0.5 + confidence / 2, len(self.y) - self.coefficients)
         half_width = quantile * np.sqrt(variance + self.residual_sd**2)

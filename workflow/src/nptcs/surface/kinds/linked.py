@@ -58,6 +58,12 @@ class LinkedSurface:
         """Evaluate the response at points in natural units, shape (m, n) → (m,)."""
         return INVERSES[self.link](self.inner.predict(x))
 
+    def slopes(self, x: Array) -> Array:
+        """Differentiate the response by the coefficients of the polynomial, (m, n) → (m, p)."""
+        value = self.predict(x)
+        by_polynomial = value if self.link == "log" else -(value**2)
+        return by_polynomial[:, None] * self.inner.slopes(x)
+
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
         """Bounds of the prediction interval: those of the polynomial, transformed back.
 

@@ -18,7 +18,7 @@ from nptcs.config.studies.surface import (
 )
 from nptcs.errors import InputError
 from nptcs.surface.fit import Surface, fit_points
-from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, Mean, fit_process
 from nptcs.surface.kinds.lamination import Lamination, fit_lamination
 from nptcs.surface.kinds.linked import LinkedSurface, fit_linked
 from nptcs.surface.kinds.selection import chosen_terms
@@ -103,5 +103,15 @@ def _process(model: GaussianProcessModel, cases: Cases) -> GaussianProcess:
             column="surfaces",
         )
     mean = model.mean
-    fit_mean = None if mean is None else (lambda: fit_model(mean, cases))
+    fit_mean = None if mean is None else (lambda: _mean(mean, cases))
     return fit_process(cases.x, cases.y, tuple(cases.factors), fit_mean)
+
+
+def _mean(model: PolynomialModel | LaminationModel, cases: Cases) -> Mean:
+    match model:
+        case PolynomialModel():
+            return _polynomial(model, cases)
+        case LaminationModel():
+            return _lamination(model, cases)
+        case _:
+            assert_never(model)

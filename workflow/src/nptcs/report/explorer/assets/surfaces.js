@@ -72,18 +72,26 @@ function cholesky(matrix) {
   return lower;
 }
 
-// |L⁻¹ b|²
-function whitened(lower, right) {
+// (L Lᵀ)⁻¹ b
+function solveFactored(lower, right) {
   const size = right.length;
   const solved = new Float64Array(size);
-  let sum = 0;
   for (let i = 0; i < size; i++) {
     let value = right[i];
     const row = lower[i];
     for (let k = 0; k < i; k++) value -= row[k] * solved[k];
     solved[i] = value / row[i];
-    sum += solved[i] * solved[i];
   }
+  for (let i = size - 1; i >= 0; i--) {
+    solved[i] /= lower[i][i];
+    for (let k = 0; k < i; k++) solved[k] -= lower[i][k] * solved[i];
+  }
+  return solved;
+}
+
+function dot(a, b) {
+  let sum = 0;
+  for (let i = 0; i < a.length; i++) sum += a[i] * b[i];
   return sum;
 }
 
@@ -104,6 +112,7 @@ function polynomialSurface(plain) {
   const value = (row) => row.reduce((sum, term, i) => sum + term * plain.coefficients[i], 0);
   return {
     predict: (point) => value(terms(point)),
+    slopes: terms,
     interval(point) {
       const row = terms(point);
       const middle = value(row);
@@ -118,11 +127,13 @@ function linkedSurface(plain) {
   if (plain.link === "log") {
     return {
       predict: (point) => Math.exp(inner.predict(point)),
+      slopes: (point) => inner.slopes(point).map((slope) => slope * Math.exp(inner.predict(point))),
       interval: (point) => inner.interval(point).map(Math.exp),
     };
   }
   return {
     predict: (point) => 1 / inner.predict(point),
+    slopes: (point) => inner.slopes(point).map((slope) => -slope / inner.predict(point) ** 2),
     interval(point) {
       const [low, high] = inner.interval(point);
       return [1 / high, low > 0 ? 1 / low : Infinity];
@@ -191,17 +202,20 @@ function laminationSurface(plain) {
     return 1 / (parameters[0] + parameters[1] * spacing + parameters[2] * plates);
   };
   const plateOf = (point) => laminate(plain.ply, point[2], point[1]);
+  const slopesOn = (point, plate) =>
+    plain.parameters.map((value, i) => {
+      const step = 1e-5 * (i < 3 ? Math.abs(value) : 1);
+      const moved = (side) => plain.parameters.map((p, j) => (i === j ? p + side * step : p));
+      return (stiffness(moved(1), point, plate) - stiffness(moved(-1), point, plate)) / (2 * step);
+    });
   return {
     predict: (point) => stiffness(plain.parameters, point, plateOf(point)),
+    slopes: (point) => slopesOn(point, plateOf(point)),
     interval(point) {
       const plate = plateOf(point);
-      const slopes = plain.parameters.map((value, i) => {
-        const step = 1e-5 * (i < 3 ? Math.abs(value) : 1);
-        const moved = (side) => plain.parameters.map((p, j) => (i === j ? p + side * step : p));
-        return (stiffness(moved(1), point, plate) - stiffness(moved(-1), point, plate)) / (2 * step);
-      });
       const middle = stiffness(plain.parameters, point, plate);
-      const half = plain.quantile * Math.sqrt(quadratic(covariance, slopes) + plain.sd ** 2);
+      const spread = quadratic(covariance, slopesOn(point, plate));
+      const half = plain.quantile * Math.sqrt(spread + plain.sd ** 2);
       return [middle - half, middle + half];
     },
   };
@@ -244,29 +258,53 @@ function makeProcess(theta, places, weights, nugget, shape) {
     return lower;
   };
   return {
-    mean(place) {
+    mean: (place) => dot(withCases(place), weights),
+    // variance away from the cases, and the weight of each case in the prediction
+    error(place) {
       const row = withCases(place);
-      let sum = 0;
-      for (let i = 0; i < row.length; i++) sum += row[i] * weights[i];
-      return sum;
+      const shares = solveFactored(factor(), row);
+      return [Math.max(0, variance + noise - dot(row, shares)), shares];
     },
-    deviation: (place) => Math.sqrt(Math.max(0, variance + noise - whitened(factor(), withCases(place)))),
   };
 }
 
 function gaussianProcess(plain, cases) {
   const coded = (point) => point.map((value, i) => (value - plain.centre[i]) / plain.half[i]);
-  const process = makeProcess(plain.theta, cases.map(coded), plain.weights, plain.nugget, matern);
+  const places = cases.map(coded);
+  const processes = plain.components.map((one) =>
+    makeProcess(one.theta, places, one.weights, plain.nugget, matern),
+  );
   const constant = typeof plain.mean === "number";
   const under = constant ? null : makeSurface(plain.mean, cases);
   const columns = constant ? [] : plain.mean.factors.map((name) => plain.factors.indexOf(name));
   const meanAt = (point) => (constant ? plain.mean : under.predict(columns.map((i) => point[i])));
-  const predict = (point) => process.mean(coded(point)) * plain.scale + meanAt(point);
+  const slopesAt = (point) => (constant ? [1] : under.slopes(columns.map((i) => point[i])));
+  const average = (values) => values.reduce((sum, value) => sum + value, 0) / values.length;
+  const predict = (point) =>
+    average(processes.map((one) => one.mean(coded(point)))) * plain.scale + meanAt(point);
+  let basis = null;
+  // what the error of the mean's coefficients adds: the cases take a part of it up
+  const meanVariance = (one, slopes, shares) => {
+    const lever = slopes.map((slope, j) => {
+      let sum = slope;
+      for (let i = 0; i < shares.length; i++) sum -= shares[i] * basis[i][j];
+      return sum;
+    });
+    return Math.max(0, quadratic(symmetric(one.mean_covariance, lever.length), lever));
+  };
   return {
     predict,
     interval(point) {
+      if (basis === null) basis = cases.map(slopesAt);
+      const slopes = slopesAt(point);
+      const means = processes.map((one) => one.mean(coded(point)));
+      const variances = processes.map((one, i) => {
+        const [alone, shares] = one.error(coded(point));
+        return alone + meanVariance(plain.components[i], slopes, shares);
+      });
+      const between = average(means.map((value) => (value - average(means)) ** 2));
       const middle = predict(point);
-      const half = plain.quantile * process.deviation(coded(point)) * plain.scale;
+      const half = plain.quantile * Math.sqrt(average(variances) + between) * plain.scale;
       return [middle - half, middle + half];
     },
   };
@@ -313,7 +351,7 @@ function spokeProcess(plain) {
     processes.forEach((one, i) => {
       const weight = along(plain.directions[i]);
       value += weight * (one.process.mean(unit) * one.spread + one.middle);
-      if (errors) variance += (one.inflation * weight * one.process.deviation(unit) * one.spread) ** 2;
+      if (errors) variance += (one.inflation * weight * one.spread) ** 2 * one.process.error(unit)[0];
     });
     return [value, Math.sqrt(variance)];
   };
