@@ -205,3 +205,57 @@ def test_check_names_a_missing_length_and_a_file_that_cannot_be_read(lab, profil
     assert set(told) == {"R", "S", "E", "W"}
     assert notes[0].startswith("T: no strain: gauge_length_mm is empty")
     assert notes[1].startswith("Q: no transverse strain: column 'Transverse extensometer'")
+
+
+def write_names(lab, folder, names):
+    for number, name in enumerate(names):
+        machine(lab, folder / name, 1 + 0.01 * number)
+
+
+@pytest.mark.parametrize(
+    ("names", "series"),
+    [
+        (["2024-05-01_CFRP_01.txt", "2024-05-02_CFRP_02.txt"], {"CFRP": 2}),
+        (["T0-1/machine.csv", "T0-2/machine.csv"], {"T0": 2}),
+        (["0deg/1.csv", "0deg/2.csv", "90deg/1.csv"], {"0deg": 2, "90deg": 1}),
+        (["S1/run1.csv", "S1/run2.csv", "S2/run1.csv", "S2/run2.csv"], {"S": 4}),
+        ([f"UD{k}.is_tens_RawData/Specimen_RawData_1.csv" for k in (1, 2)], {"UD1": 1, "UD2": 1}),
+    ],
+)
+def test_series_of_folders_and_days(lab, profiles, tmp_path, names, series):
+    write_names(lab, tmp_path, names)
+    proposal = propose_sheet(tmp_path, profiles)
+    assert {name: count for name, (count, _) in proposal.open_series().items()} == series
+    ids = [row["specimen"] for row in proposal.rows]
+    assert len(set(ids)) == len(ids)
+    assert not any("RawData" in one or one.endswith("specimen") for one in ids)
+
+
+def test_cameras_that_count_from_zero_are_not_paired_by_number(lab, profiles, tmp_path):
+    write_names(lab, tmp_path, [f"MTS/sp_{number}.csv" for number in (1, 2, 3)])
+    for number in (0, 1, 2):
+        camera(lab, tmp_path / "DIC" / f"sp_{number}.csv")
+    proposal = propose_sheet(tmp_path, profiles)
+    assert not any(row.get("strain_file") for row in proposal.rows)
+    assert "pair them by hand" in proposal.left["DIC/sp_0.csv"]
+
+
+def test_a_table_of_dimensions_may_lie_on_its_side(lab, profiles, tmp_path):
+    write_names(lab, tmp_path, ["UD-1.csv", "UD-2.csv"])
+    table = "Specimen,UD-1,UD-2\nWidth (mm),10,10.1\nThickness (mm),1,1.02\n"
+    (tmp_path / "dimensions.csv").write_text(table)
+    rows = propose_sheet(tmp_path, profiles).rows
+    assert [(row["width_mm"], row["thickness_mm"]) for row in rows] == [
+        ("10", "1"), ("10.1", "1.02")]  # fmt: skip
+
+
+def test_a_length_or_span_that_is_needed_is_listed(lab, profiles, tmp_path):
+    pull = {"Time (s)": TIME, "Load (N)": FORCE}
+    lab.write(tmp_path / "TPU_75A_1.csv", pull | {"Extensometer (mm)": TIME})
+    lab.write(tmp_path / "3PB_1.csv", pull | {"Deflection (mm)": 0.1 * TIME})
+    lab.write(tmp_path / "zug_1.csv", pull | {"Crosshead (mm)": 0.1 * TIME, "Strain (%)": TIME})
+    series = propose_sheet(tmp_path, profiles).open_series()
+    wanted = {name: cells for name, (_, cells) in series.items()}
+    assert "gauge_length_mm" in wanted["TPU_75A"]
+    assert "span_mm" in wanted["3PB"]
+    assert "gauge_length_mm" not in wanted["zug"]

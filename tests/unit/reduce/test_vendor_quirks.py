@@ -92,8 +92,10 @@ def blocks(head: Sequence[str], names: bool) -> str:
 
 PULL = {"Time [s]": TIME, "Force [N]": FORCE}
 BARS = "| {0:.2f} | {1:.4f} | {2:.6f} |"
-LABVIEW = ["LabVIEW Measurement", "Separator\tTab", "***End_of_Header***\t", "",
-           "Channels\t3", "Y_Unit_Label\tNewtons\tmm\tStrain", "***End_of_Header***\t\t\t"]  # fmt: skip
+LABVIEW = [
+    *("LabVIEW Measurement", "Separator\tTab", "***End_of_Header***\t", "", "Channels\t3"),
+    *("Y_Unit_Label\tNewtons\tmm\tStrain", "***End_of_Header***\t\t\t"),
+]
 READ: dict[str, tuple[str | bytes, Mapping[str, float | None], dict[str, Any]]] = {
     "bluehill fr": (bluehill(["Temps", "Extension", "Charge",
                               "Déformation en traction (Déformation 1)"], ";", ","), FULL, {}),
@@ -219,13 +221,14 @@ READ: dict[str, tuple[str | bytes, Mapping[str, float | None], dict[str, Any]]] 
         export(PULL | {"Strain [%]": PERCENT, "Stress": [""] * 3 + ["1440"] + [""] * 308}),
         FULL, {}),
 }  # fmt: skip
-for written, factor in {"10^-6": 1e6, "E-6": 1e6, "×10-6": 1e6, "10-6 m/m": 1e6, "ppm": 1e6,
-                        "%o": 1e3, "x10-3": 1e3, "mStrain": 1e3, "per cent": 1e2}.items():  # fmt: skip
-    READ[f"strain in {written}"] = (
-        export(PULL | {f"Strain [{written}]": factor * STRAIN}),
-        FULL,
-        {},
-    )
+UNITS = {
+    **dict.fromkeys(("10^-6", "E-6", "×10-6", "10-6 m/m", "ppm"), 1e6),
+    **dict.fromkeys(("%o", "x10-3", "mStrain"), 1e3),
+    "per cent": 1e2,
+}
+for written, factor in UNITS.items():
+    scaled = export(PULL | {f"Strain [{written}]": factor * STRAIN})
+    READ[f"strain in {written}"] = (scaled, FULL, {})
 
 
 @pytest.mark.parametrize("name", READ)
@@ -246,7 +249,8 @@ REFUSED = {
     "a ton of some country": (export({"Time [s]": TIME, "Force [ton]": FORCE,
                                       "Strain [%]": PERCENT}), "not a unit of force"),
     "a gauge with its sign turned": (export(PULL | {"Strain [%]": -PERCENT}), "falls while"),
-    "a stretch in percent": (export(PULL | {"Stretch [%]": 100 + PERCENT}), "not a unit of stretch"),
+    "a stretch in percent": (export(PULL | {"Stretch [%]": 100 + PERCENT}),
+                             "not a unit of stretch"),
 }  # fmt: skip
 
 

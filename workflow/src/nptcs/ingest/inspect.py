@@ -10,7 +10,7 @@ from pathlib import Path
 from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.head_units import add_units_of_head
-from nptcs.ingest.reading.columns.names import ACROSS
+from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
 from nptcs.ingest.reading.columns.quantities import NEEDS, Test, unit_of
 from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
@@ -39,6 +39,11 @@ class Inspection:
         if self.problem is not None:
             return -1
         return max((len(test.quantities) for test in self.tests), default=0)
+
+    @property
+    def has_strain(self) -> bool:
+        """Tell whether a table holds more of the strain than the travel of the crosshead."""
+        return any(set(STRAINS) & set(test.quantities) for test in self.tests)
 
     @property
     def usable(self) -> bool:
@@ -89,12 +94,16 @@ def inspect_file(
     if declared is not None:
         return _inspect(opened, declared, "named on the command line", profiles[PLAIN])
     fitting, reason = matching(opened, profiles)
-    for plain in (None, profiles[PLAIN]):
-        inspections = [_inspect(opened, profile, reason, plain) for profile in fitting]
-        best = max(inspections, key=lambda one: (one.usable, one.understood))
-        if best.usable:
-            break
-    return best
+    best = max((_inspect(opened, one, reason, None) for one in fitting), key=_worth)
+    if best.usable and best.has_strain:
+        return best
+    # as in reading: the names of PLAIN may tell a strain next to the travel that the profile knows
+    again = (_inspect(opened, one, reason, profiles[PLAIN]) for one in fitting)
+    return max([best, *again], key=_worth)
+
+
+def _worth(inspection: Inspection) -> tuple[bool, bool, int]:
+    return inspection.usable, inspection.has_strain, inspection.understood
 
 
 def _inspect(
