@@ -19,12 +19,14 @@ from nptcs.report.blocks import (
     MoreTables,
     PageBlock,
     ParagraphKind,
+    Plot,
     Plots,
     TableView,
     Text,
     macro_of,
 )
 from nptcs.report.page_templates import page_environment
+from nptcs.report.sections.plan import folded_blocks
 from nptcs.tables.result_table import ReportSection
 
 TEMPLATES = resources.files("nptcs.report") / "templates"
@@ -77,3 +79,28 @@ def test_each_kind_of_paragraph_looks_different(kind):
         return
     assert re.search(rf"\.{kind}\b", (TEMPLATES / "report.css").read_text("utf-8"))
     assert f'class="{kind}"' in written(Text("x", kind))
+
+
+def test_a_folded_table_opens_on_demand_and_says_how_long_it_is():
+    view = TableView(ENTRY, "a long table", (), (), (("", ()),) * 9, all_rows=61, folded=True)
+    page = written(view)
+    assert re.search(
+        r"<details[^>]*>\s*<summary>a long table.*61 rows.*<table>.*</details>", page, re.S
+    )
+    assert "<details" not in written(TableView(ENTRY, "a short table", (), (), ()))
+
+
+@pytest.mark.parametrize(("shown", "open_", "folded"), [(None, 3, 0), (2, 2, 1), (0, 0, 3)])
+def test_further_figures_open_on_demand(shown, open_, folded):
+    plots = tuple(Plot("<svg/>", f"words {n}", f"figure{n}") for n in range(3))
+    before, _, after = written(Plots("a caption", plots, shown)).partition("<details")
+    assert (before.count("<svg/>"), after.count("<svg/>")) == (open_, folded)
+    assert "a caption" in before
+    assert all(f"words {n}" in after for n in range(open_, 3))
+
+
+def test_a_section_folds_long_tables_only_next_to_something_else():
+    long_ = TableView(ENTRY, "long", (), (), (("", ()),) * 7)
+    short = TableView(ENTRY, "short", (), (), (("", ()),) * 6)
+    assert [view.folded for view in folded_blocks([Text("x"), long_, short])[1:]] == [True, False]
+    assert [view.folded for view in folded_blocks([long_, short])] == [False, False]

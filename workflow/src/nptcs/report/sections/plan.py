@@ -104,12 +104,15 @@ def build_sections(results: Results, sheets: Sheets) -> list[Section]:
             and sheet.entry.contract not in plan.drawn
         ]
         if section.blocks or rest:
-            blocks = (*_folded(section.blocks), *_further_tables(rest, folded=bool(section.blocks)))
+            blocks = (
+                *folded_blocks(section.blocks),
+                *_further_tables(rest, folded=bool(section.blocks)),
+            )
             sections.append(replace(section, blocks=blocks))
     return sections
 
 
-def _folded(blocks: Sequence[PageBlock]) -> list[PageBlock]:
+def folded_blocks(blocks: Sequence[PageBlock]) -> list[PageBlock]:
     """Fold the long tables of a section that has something else to show."""
     if all(isinstance(block, TableView) for block in blocks):
         return list(blocks)
