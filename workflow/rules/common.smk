@@ -16,17 +16,20 @@ from nptcs.files import remove_unfinished, sha256_of_file
 from nptcs.processes.runs import begin_job, begin_run
 from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.report.stale import refused
+from nptcs.runs.identity import WORDS_ONLY
 from nptcs.start.facts import known_facts
 from nptcs.start.pandas_values import look_for_pandas_only_if_imported
 from nptcs.tables.laboratory.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()
+# found from this file: the workflow may be the top Snakefile, or a module of another
+SCRIPTS = (
+    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
+)
 # unquoted, also where another workflow that uses this one as a module has read this file before
 PYTHON = (
-    sys.executable
-    if Path(sys.executable).exists()
-    else shlex.split(sys.executable)[0]
+    sys.executable if Path(sys.executable).exists() else shlex.split(sys.executable)[0]
 )
 
 look_for_pandas_only_if_imported(PersistenceBase)
@@ -78,6 +81,15 @@ def own_solvers():
     ]
 
 
+def decisive():
+    """The configuration without words of the report, which decide nothing that the rules must know.
+
+    With files of the laboratory's own for the report, which are checked at the start, it is whole.
+    """
+    own = CONFIG.laboratory.logo or CONFIG.report.templates
+    return CONFIG.model_dump(mode="json", exclude=set() if own else set(WORDS_ONLY))
+
+
 def find_facts():
     """What the rules must know, found with the whole package; see `nptcs.start`."""
     from nptcs.start.survey import survey
@@ -91,11 +103,12 @@ try:
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
     FACTS = known_facts(
         ".snakemake/nptcs/start.json",
-        CONFIG.model_dump(mode="json"),
+        decisive(),
         [
             SHEET,
             *Path(CONFIG.lab_data.formats).glob("*.yaml"),
             *own_solvers(),
+            *SCRIPTS.glob("*.py"),
         ],
         find_facts,
     )
@@ -126,12 +139,6 @@ def plain(section):
     Snakemake notices each change of them. Remarks decide nothing; only the report shows them.
     """
     return section.model_dump(mode="json", exclude={"remarks"})
-
-
-# found from this file: the workflow may be the top Snakefile, or a module of another
-SCRIPTS = (
-    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
-)
 
 
 def code_of(script, *modules, words=False):

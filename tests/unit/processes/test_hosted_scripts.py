@@ -14,7 +14,9 @@ import pytest
 
 from nptcs.processes.hosted import HostGoneError, ScriptHost, environment_of, host_scripts
 
-pytestmark = pytest.mark.skipif(sys.platform != "linux", reason="scripts run in forks on Linux only")
+pytestmark = pytest.mark.skipif(
+    sys.platform != "linux", reason="scripts run in forks on Linux only"
+)
 
 
 @pytest.fixture
@@ -72,15 +74,15 @@ def test_a_script_runs_as_python_would_run_it(host, script, tmp_path):
         f"Path({str(out)!r}).write_text(os.environ['A'] + tempfile.gettempdir() + os.getcwd())\n"
     )
     assert host.run(script(text), {"A": "b", "TMPDIR": str(tmp_path)}) == 0
-    assert out.read_text() == f"b{tmp_path}{os.getcwd()}"
+    assert out.read_text() == f"b{tmp_path}{Path.cwd()}"
 
 
 def test_what_a_script_imports_is_imported_once_and_what_it_does_stays_in_its_fork(
     host, script, tmp_path
 ):
     (tmp_path / "counted.py").write_text(
-        f"from pathlib import Path\nvalue = 1\nwith Path({str(tmp_path / 'count')!r}).open('a') as s:"
-        "\n    s.write('x')\n"
+        "from pathlib import Path\nvalue = 1\n"
+        f"with Path({str(tmp_path / 'count')!r}).open('a') as s:\n    s.write('x')\n"
     )
     text = (
         f"import sys\nsys.path.append({str(tmp_path)!r})\nimport os\n"
@@ -110,7 +112,9 @@ def test_scripts_run_side_by_side(host, script, tmp_path):
         "\n    time.sleep(0.01)\n",
         "first.py",
     )
-    second = script(f"from pathlib import Path\nPath({str(tmp_path / 'b')!r}).touch()\n", "second.py")
+    second = script(
+        f"from pathlib import Path\nPath({str(tmp_path / 'b')!r}).touch()\n", "second.py"
+    )
     codes = []
     waiting = threading.Thread(target=lambda: codes.append(host.run(first, {})))
     waiting.start()
@@ -119,7 +123,10 @@ def test_scripts_run_side_by_side(host, script, tmp_path):
     assert codes == [0]
 
 
-LONG = "import os, time\nfrom pathlib import Path\nPath({!r}).write_text(str(os.getpid()))\ntime.sleep(600)\n"
+LONG = (
+    "import os, time\nfrom pathlib import Path\n"
+    "Path({!r}).write_text(str(os.getpid()))\ntime.sleep(600)\n"
+)
 
 
 @pytest.mark.parametrize("how", ["killed", "closed"])
@@ -205,7 +212,11 @@ def test_only_plain_scripts_of_the_folder_are_hosted(patched, script, tmp_path):
     Script(file).execute_script(file)
     Script(tmp_path / "rules/../script.py").execute_script(file)  # as rules name their scripts
     assert Script.started == []
-    for other in (Script(file, conda_env="env"), Script(file, bench_record=1), Script("/else/a.py")):
+    for other in (
+        Script(file, conda_env="env"),
+        Script(file, bench_record=1),
+        Script("/else/a.py"),
+    ):
         other.execute_script(file)
     Script(file).execute_script(file, edit=True)
     assert len(Script.started) == 4

@@ -40,3 +40,14 @@ def test_beyond_the_curve_nothing_is_said():
 def test_points_that_are_no_curve_are_refused(loads):
     with pytest.raises(ValueError, match="four points"):
         LoadCurve(displacement(loads), loads)
+
+
+@pytest.mark.parametrize("steps", [10, 50])
+def test_a_tangent_does_not_follow_the_ripple_of_single_contact_points(steps):
+    load = np.linspace(0.0, 5000.0, steps + 1)
+    smooth = LoadCurve(displacement(load), load).at_load(5000.0).tangent_n_per_mm
+    # a contact point that comes on at a time: the displacement goes up and down by 5 µm
+    for phase in (0.0, 1.5, 3.0):
+        ripple = 0.005 * np.sin(2 * np.pi * load / 230.0 + phase) * (load > 0)
+        tangent = LoadCurve(displacement(load) + ripple, load).at_load(5000.0).tangent_n_per_mm
+        assert tangent == pytest.approx(smooth, rel=0.01)

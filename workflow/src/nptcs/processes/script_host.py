@@ -2,8 +2,8 @@
 
 Run as a script: ``script_host.py DESCRIPTOR``. Through the connection of that number come
 ``(number, script, environment)``; back go ``(number, exit code)``. With a number of None nothing is
-run: what the script imports is imported when there is nothing else to do. The host ends when it gets
-None or the connection closes (`nptcs.processes.hosted.ScriptHost`), and its jobs end with it.
+run: what the script imports is imported when there is nothing else to do. The host ends when it
+gets None or the connection closes (`nptcs.processes.hosted.ScriptHost`), and its jobs with it.
 
 Starting Python with pandas, pandera and SciPy takes more processor time than most jobs need for
 their work; a fork takes a few milliseconds. The host has one thread and computes nothing, so that a
@@ -44,7 +44,8 @@ def serve(channel: Connection) -> None:
         for sentinel in ended.keys() & set(ready):
             process = jobs.pop(ended[sentinel])
             process.join()
-            channel.send((ended[sentinel], process.exitcode))
+            with suppress(OSError):  # nobody asks any more: the next message will say so
+                channel.send((ended[sentinel], process.exitcode))
             process.close()
         if channel in ready:
             message = receive(channel)

@@ -11,6 +11,7 @@ import pandas as pd
 from nptcs.language import tr
 from nptcs.report.blocks import Cell, TableView
 from nptcs.report.flag_words import flag_text
+from nptcs.report.stage_messages import message_text
 from nptcs.report.surface_words import surface_words
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
@@ -59,6 +60,9 @@ UNCERTAIN_BY = {
 
 FLAGS = ("flag", "flags", "not_assessed")
 """Columns that hold flags."""
+
+MESSAGES = ("message", "note", "not_fitted", "reason", "remarks")
+"""Columns that hold messages of stages."""
 
 SURFACE = "surface"
 """Column that holds names of surfaces."""
@@ -186,6 +190,8 @@ def _word(column: str, value: object) -> object:
         return value
     if column in FLAGS:
         return flag_text(value)
+    if column in MESSAGES:
+        return message_text(value)
     if column == SURFACE:
         return surface_words(value)
     return tr(value) if column in WORDS else value

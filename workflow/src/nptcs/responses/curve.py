@@ -10,6 +10,11 @@ from scipy.interpolate import CubicSpline
 from nptcs.arrays import Array
 
 
+LEAST_POINTS = 6
+LEAST_SPAN = 0.3
+"""Points of the curve that a tangent rests on: so many, over this share of the last load."""
+
+
 @dataclass(frozen=True)
 class CurvePoint:
     """A point of the curve: displacement mm, load N, secant and tangent stiffness N/mm."""
@@ -22,6 +27,12 @@ class CurvePoint:
 
 class LoadCurve:
     """The curve through a tyre's solved points: a cubic spline of the displacement by the load.
+
+    Its tangent is not the spline's. A mesh touches the ground point by point, so that the slope of
+    a solved curve rises and falls by some per cent over a few hundred newtons, and a spline makes
+    more of that at its end. The tangent is that of a smoothed curve: of the parabola, by least
+    squares, of the logarithm of the displacement by that of the load, over the nearest points
+    (Savitzky and Golay, Analytical Chemistry 36, 1964, 1627).
 
     Parameters
     ----------
@@ -39,6 +50,8 @@ class LoadCurve:
         if len(load_n) < 4 or not rising:
             raise ValueError("the curve has fewer than four points, or they do not rise")
         self._displacement = CubicSpline(load_n, displacement_mm)
+        loaded = load_n > 0.0
+        self._logarithms = np.log(load_n[loaded]), np.log(displacement_mm[loaded])
         self.last_load_n = float(load_n[-1])
         self.last_displacement_mm = float(displacement_mm[-1])
 
@@ -47,8 +60,24 @@ class LoadCurve:
         if not 0.0 < load_n <= self.last_load_n * (1.0 + 1e-9):
             return None
         displacement = float(self._displacement(load_n))
-        slope = float(self._displacement(load_n, 1))
-        return CurvePoint(displacement, load_n, load_n / displacement, 1.0 / slope)
+        secant = load_n / displacement
+        return CurvePoint(displacement, load_n, secant, secant / self._exponent(load_n))
+
+    def _exponent(self, load_n: float) -> float:
+        """Relative change of the displacement over that of the load, smoothed."""
+        loads, displacements = self._logarithms
+        away = np.abs(np.exp(loads) - load_n)
+        order = np.argsort(away, kind="stable")
+        count = next(
+            (n for n in range(LEAST_POINTS, len(order)) if self._wide(np.exp(loads[order[:n]]))),
+            len(order),
+        )
+        near = order[:count]
+        fitted = np.polynomial.Polynomial.fit(loads[near], displacements[near], 2)
+        return float(fitted.deriv()(np.log(load_n)))
+
+    def _wide(self, loads_n: Array) -> bool:
+        return bool(np.ptp(loads_n) >= LEAST_SPAN * self.last_load_n)
 
     def at_displacement(self, displacement_mm: float) -> CurvePoint | None:
         """Return the point at a displacement; None where the curve does not reach it."""

@@ -193,7 +193,7 @@ def _at_point(point: CurvePoint | None, at: str, end: str) -> Iterator[Response]
         for name in names:
             yield _missing(name, at, "N/mm", end, NOT_REACHED)
         return
-    rules = ("load over displacement", "slope of the cubic spline through the curve's points")
+    rules = ("load over displacement", "slope of the curve smoothed over its nearest points")
     for name, value, rule in zip(
         names, (point.secant_n_per_mm, point.tangent_n_per_mm), rules, strict=True
     ):

@@ -5,10 +5,10 @@ The generalised strains of the ring are, in this order,
     v = (e, κs, κf, s', q, γ, s)
 
 stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
-κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ - θ of the core and shift s
-of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
-v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in compression than
-in tension, and above the contact the tread is compressed by three per cent.
+κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ + q - θ of the core and
+shift s of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j +
+⅙ D_ijk v_i v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in
+compression than in tension, and above the contact the tread is compressed by three per cent.
 """
 
 from __future__ import annotations
@@ -27,7 +27,7 @@ from nptcs.ring.rubber import Rubber
 STRAINS = 7
 # those that stretch the rubber along the ring
 ALONG = 4
-POINTS = 8
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(8)
 # of a circular section (Cowper 1966, Poisson's ratio 0.3)
 SHEAR_CORRECTION = 0.886
 
@@ -143,7 +143,9 @@ class _Depths:
 def _assembled(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
 ) -> tuple[Array, Array, Array]:
-    """Stiffness, hardening and thickening by one shape of the tread's shear; flat if R is infinite.
+    """Give stiffness, hardening and thickening by one shape of the tread's shear.
+
+    An infinite radius is a flat section.
     """
     half, row, cover, surface = depths.half, depths.row, depths.cover, depths.surface
     stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
@@ -174,7 +176,7 @@ def _assembled(
 def _strip(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths
 ) -> list[RubberLayer | WireSheet]:
-    """Layers of the flat section, from the inside to the outside."""
+    """List the layers of the flat section, from the inside to the outside."""
     stretch = _wire_area_mm2(tyre) * tyre.wire_modulus_mpa / tyre.tread_width_mm
     wires = WireSheet(stretch, stretch * tyre.wire_diameter_mm**2 / 16.0, 2.0 * depths.row)
     cover = RubberLayer(band, depths.cover - depths.row)
@@ -199,9 +201,8 @@ class _Layer:
 
     def rule(self) -> tuple[Array, Array]:
         """Points z and weights across the layer."""
-        points, weights = np.polynomial.legendre.leggauss(POINTS)
         low, high = self.limits
-        return 0.5 * (low + high) + 0.5 * (high - low) * points, 0.5 * (high - low) * weights
+        return 0.5 * (low + high) + 0.5 * (high - low) * POINTS, 0.5 * (high - low) * WEIGHTS
 
     def add(self, stiffness: Array, hardening: Array, radius: float, width: float) -> None:
         """Add ½ E b ∫ (ε² - ε³) J dz."""

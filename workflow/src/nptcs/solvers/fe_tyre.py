@@ -163,4 +163,5 @@ SOLVER = Solver(
     options=FeTyreOptions,
     needs_ply=True,
     realise=realised_spacing,
+    preload=("nptcs.fe.elements.preloaded",),
 )

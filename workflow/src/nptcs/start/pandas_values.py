@@ -15,10 +15,11 @@ def look_for_pandas_only_if_imported(persistence_class: Any) -> None:
     Parameters
     ----------
     persistence_class : type
-        Snakemake's, with ``_serialize_param_pandas``; without that method nothing changes.
+        Snakemake's, with ``_serialize_param_pandas``; without that method, or the second time in a
+        process, nothing changes.
     """
     look = getattr(persistence_class, "_serialize_param_pandas", None)
-    if look is None:
+    if look is None or look.__module__ == __name__:
         return
 
     def serialize(persistence: Any, value: Any) -> Any:

@@ -322,7 +322,7 @@ class FeSpokeModel(Strict):
         given = values.get("geometry", {})
         if section is None or not isinstance(given, Mapping):
             return values
-        kept = section.model_dump(exclude=set() if not given else CALIBRATION)
+        kept = section.model_dump(exclude=set(CALIBRATION) if given else None)
         return {**values, "geometry": {**kept, **given}}
 
     @model_validator(mode="after")

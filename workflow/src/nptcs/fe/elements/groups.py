@@ -107,13 +107,16 @@ class LinearGroup:
 
     def __post_init__(self) -> None:
         points = self.gradient.shape[:2]
+        # one layout of each array, for which the loops are compiled once
+        self.nodes = np.ascontiguousarray(self.nodes)
+        self.weight = np.ascontiguousarray(self.weight)
         self._columns = _columns(self.gradient)
         self._active = np.flatnonzero(self.stiffness.any(axis=(0, 1))).astype(np.int64)
         self._own_stiffness = np.ascontiguousarray(
             self.stiffness[:, self._active[:, None], self._active]
         )
         frame = np.eye(3) if self.frame is None else self.frame
-        self._frame = np.ascontiguousarray(np.broadcast_to(frame, (*points, 3, 3)))
+        self._frame = np.array(np.broadcast_to(frame, (*points, 3, 3)), order="C")
         self._last = self._frame.copy()
         self._strain = np.zeros((*points, 6))
 
@@ -212,6 +215,10 @@ class RubberGroup:
     pressure: Array = field(init=False)
 
     def __post_init__(self) -> None:
+        # one layout of each array, for which the loops are compiled once
+        self.nodes = np.ascontiguousarray(self.nodes)
+        self.weight = np.ascontiguousarray(self.weight)
+        self.pressure_shape = np.ascontiguousarray(self.pressure_shape)
         elements, nodes = self.nodes.shape
         modes = self.pressure_shape.shape[1]
         size = nodes * self.gradient.shape[3]

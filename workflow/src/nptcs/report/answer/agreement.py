@@ -10,10 +10,9 @@ from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import BarRow, bars
 from nptcs.tables.analysis.surface import SurfaceComparison
+from nptcs.tables.analysis.uncertainty import ResponseUncertainty
 from nptcs.tables.published.stiffness import StiffnessErrors
 from nptcs.tables.result_table import ReportSection
-from nptcs.tables.analysis.surface import SurfaceComparison
-from nptcs.tables.analysis.uncertainty import ResponseUncertainty
 
 MOST_BARS = 6
 

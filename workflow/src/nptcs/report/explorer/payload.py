@@ -53,7 +53,7 @@ Plain = dict[str, Any]
 
 
 ROUNDING = 1e-12
-"""Relative error below which a surface is exact."""
+"""Left-out error, as a share of the largest response, that is rounding alone."""
 
 
 def explorer_payload(results: Results) -> Plain:
@@ -220,16 +220,18 @@ def _surface(fitted: FittedSurface) -> Plain:
     return {
         "name": fitted.name,
         "outside": fitted.surface.outside.value,
-        "rms": fitted.left_out_rms if _shown(fitted) else None,
+        "rms": _left_out(fitted),
         "realised": list(fitted.realised),
         "plain": plain_surface(fitted.surface),
     }
 
 
-def _shown(fitted: FittedSurface) -> bool:
-    """Tell whether a left-out error is known and more than rounding."""
-    least = ROUNDING * float(np.abs(fitted.surface.y).max())
-    return bool(np.isfinite(fitted.left_out_rms) and fitted.left_out_rms > least)
+def _left_out(fitted: FittedSurface) -> float | None:
+    """Return the left-out error; zero for rounding alone, None where it is not known."""
+    if not np.isfinite(fitted.left_out_rms):
+        return None
+    rounding = ROUNDING * float(np.abs(fitted.surface.y).max())
+    return float(fitted.left_out_rms) if fitted.left_out_rms > rounding else 0.0
 
 
 def _bias(results: Results, study: Study, solver: str) -> Plain | None:

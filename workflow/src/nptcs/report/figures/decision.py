@@ -9,6 +9,7 @@ import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.language import tr
+from nptcs.report.factor_labels import SYMBOLS
 from nptcs.report.figures.style import BESIDE_LABELS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
@@ -21,14 +22,14 @@ def what_differs(designs: Sequence[str]) -> list[str]:
     Examples
     --------
     >>> what_differs(["22 plates, angle_deg 0", "22 plates, angle_deg 8"])
-    ['angle\xa00°', 'angle\xa08°']
+    ['A\xa00°', 'A\xa08°']
     """
     parts = [design.split(", ") for design in designs]
     count = min(map(len, parts))
     told = [place for place in range(count) if len({one[place] for one in parts}) > 1]
     if not told:
         return [tr("design {rank}", rank=rank) for rank, _ in enumerate(designs, start=1)]
-    return [in_words(", ".join(one[place] for place in told), {}) for one in parts]
+    return [in_words(", ".join(one[place] for place in told), SYMBOLS) for one in parts]
 
 
 @styled

@@ -163,8 +163,9 @@ def surface_point(
 ) -> tuple[Value, Value, Value, Value]:
     """Place (x, y) of the tread's surface over an element's middle: r + reach n(ψ) + shift t(ψ).
 
-    The core's shear γ moves its upper face along by c γ and keeps the thickness, as simple shear
-    does. The tread thickens where it is shortened along the ring; the arc rises above its chord.
+    The core's shear moves its upper face along by c (ψ - θ) and keeps the thickness, as simple
+    shear does. The tread thickens where it is shortened along the ring; the arc rises above its
+    chord.
 
     Returns
     -------
@@ -292,7 +293,7 @@ def ground(
 def foot_motion(w: Value, angle: Value, u: Value) -> tuple[Value, Value, Value]:
     """Motion (u_r, u_θ, φ) of the spoke's foot under a node with unknowns u.
 
-    The foot is at r - (c + foot) n(ψ) - c γ t(ψ); φ is the slope of the band's inner face.
+    The foot is at r - (c + foot) n(ψ) - c (ψ - θ) t(ψ); φ is the slope of the band's inner face.
     """
     cos, sin = np.cos(angle), np.sin(angle)
     cos_face, sin_face = np.cos(u[3]), np.sin(u[3])

@@ -45,7 +45,7 @@ def lengths_as_likely(kernel: Kernel, points: Array, residual: Array, nugget: fl
         there = log_likelihood(kernel.clone_with_theta(theta), points, residual, nugget)
         return highest - there - AS_LIKELY
 
-    choices = [(value,) for value in best]
+    choices: list[tuple[float, ...]] = [(value,) for value in best]
     for axis in range(1, 1 + points.shape[1]):
         low, high = bounds[axis]
         if lack(low, axis) > 0.0:

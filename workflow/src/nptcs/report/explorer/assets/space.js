@@ -88,8 +88,8 @@ function baseLabels(context, project, grid, width, height) {
   put(grid.xLabel, 0, v, 1.22);
   put(grid.yLabel, u, 0, 1.22);
   context.fillStyle = COLOURS.soft;
-  put(shortNumber(grid.xRange[0]), -0.92, v, 1.1);
-  put(shortNumber(grid.xRange[1]), 0.92, v, 1.1);
-  put(shortNumber(grid.yRange[0]), u, -0.92, 1.1);
-  put(shortNumber(grid.yRange[1]), u, 0.92, 1.1);
+  put(shortNumber(grid.xRange[0]), -0.78, v, 1.1);
+  put(shortNumber(grid.xRange[1]), 0.78, v, 1.1);
+  put(shortNumber(grid.yRange[0]), u, -0.78, 1.1);
+  put(shortNumber(grid.yRange[1]), u, 0.78, 1.1);
 }
