@@ -182,6 +182,7 @@ def test_check_names_a_missing_length_and_a_file_that_cannot_be_read(lab, profil
     lab.write(tmp_path / "r.csv", pull | {"Extensometer (mm)": 0.5 * time})
     lab.write(tmp_path / "s.csv", pull | {"Stroke (mm)": 0.51 * time})
     lab.write(tmp_path / "t.csv", pull | {"Crosshead (mm)": 0.02 * time})
+    lab.write(tmp_path / "p.csv", pull | {"Crosshead (mm)": 0.021 * time})
     lab.write(tmp_path / "e.csv", pull | {"Extensometer (mm)": 0.002 * time})
     across = {"Axial strain (%)": 0.01 * time, "Transverse extensometer (mm)": -0.0003 * time}
     lab.write(tmp_path / "q.csv", {"Time (s)": time, "Load (N)": 41 * time} | across)
@@ -195,6 +196,7 @@ def test_check_names_a_missing_length_and_a_file_that_cannot_be_read(lab, profil
             "E,tension,m,0,10,1,,e.csv",
             "Q,tension,m,0,10,1,,q.csv",
             "W,tension,m,0,10,1,,w.csv",
+            "P,shear,m,45,10,1,,p.csv",
         ],
     )
     faults, notes = check(tmp_path, profiles)
@@ -204,6 +206,8 @@ def test_check_names_a_missing_length_and_a_file_that_cannot_be_read(lab, profil
     assert "no table" in told["W"]
     assert set(told) == {"R", "S", "E", "W"}
     assert notes[0].startswith("T: no strain: gauge_length_mm is empty")
+    assert notes[2].startswith("P: no strain: ")
+    assert "a shear test needs" in notes[2]
     assert notes[1].startswith("Q: no transverse strain: column 'Transverse extensometer'")
 
 

@@ -87,7 +87,7 @@ class Proposal:
         test, file = row.get("test", ""), row["force_file"]
         if not test.startswith("rubber"):
             needed.insert(2, "orientation_deg")
-        if test == TestType.FLEXURE:
+        if test in _BENDING:
             needed.append("span_mm")
         elif file in self.lengths_only and not row.get("strain_file"):
             optional = file in self.travel_only and not test.startswith("rubber")
@@ -105,6 +105,7 @@ class _Found:
     dimensions: list[Dimensions] = field(default_factory=list)
 
 
+_BENDING = {test.value for test in TestType if test.is_bending}
 _IN_STRAIN = set(STRAINS) - {"extension"}
 _ANGLES = {TestType.SHEAR.value: "45"}  # no other test has one of its own
 
@@ -280,7 +281,7 @@ def _remark(row: dict[str, str], proposal: Proposal) -> None:
     proposed = [name for name in ("test", "material", "orientation_deg") if row.get(name)]
     wanted = proposal.open_in(row)
     travel = row["force_file"] in proposal.travel_only and not row.get("strain_file")
-    travel = travel and row["test"] != TestType.FLEXURE and "gauge_length_mm" not in wanted
+    travel = travel and row["test"] not in _BENDING and "gauge_length_mm" not in wanted
     parts = [
         f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
         f"fill in {', '.join(wanted)}" if wanted else "",

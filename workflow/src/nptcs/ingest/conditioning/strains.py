@@ -78,10 +78,12 @@ def resolve_strains(
             if "displacement" in values
             else f"column '{columns['displacement']}' holds no travel in a unit of length"
         )
-        signals.flags.append(
-            f"{NO_STRAIN_FLAG}{why}; the strength rests on the force alone, whose unit no modulus "
-            "checks"
+        left = (
+            "a shear test needs axial and transverse strain"
+            if specimen.test.strains_alike
+            else "the strength rests on the force alone, whose unit no modulus checks"
         )
+        signals.flags.append(f"{NO_STRAIN_FLAG}{why}; {left}")
     elif source == "unspecified":
         signals.flags.append("the file does not say what measured the strain")
     return source
@@ -157,14 +159,16 @@ def _single(
     if "stretch" in values:
         return "stretch", values["stretch"] - 1.0, source
     name = "extension" if "extension" in values else "displacement"
-    if name not in values and name in columns and specimen.test.has_strength_without_strain:
+    # a ±45° test without a camera gives nothing, but is no reason to doubt its row
+    may_lack = specimen.test.has_strength_without_strain or specimen.test.strains_alike
+    if name not in values and name in columns and may_lack:
         return name, np.full(len(signals), np.nan), NO_STRAIN
     if name not in values:
         raise InputError(
             "no strain", "name a strain_file in the sheet", path, specimen=specimen.specimen
         )
     if specimen.gauge_length_mm is None and specimen.bar is None:
-        if name == "displacement" and specimen.test.has_strength_without_strain:
+        if name == "displacement" and may_lack:
             return name, np.full(len(signals), np.nan), NO_STRAIN
         raise InputError(
             f"gauge_length_mm is empty: {name} cannot become strain",
