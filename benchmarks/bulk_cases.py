@@ -38,6 +38,7 @@ def write_study(config: Path, counts: tuple[int, int]) -> None:
             "terms": ["1", BAND, SPOKE, f"{BAND}^2", f"{SPOKE}^2", f"{BAND}*{SPOKE}"],
         }
     ]
+    values["uncertainty"] = {**(values.get("uncertainty") or {}), "surface": "polynomial"}
     values["campaign"] = {**(values.get("campaign") or {}), "most_cases": 10**6}
     config.write_text(yaml.safe_dump(values, sort_keys=False), encoding="utf-8")
 

@@ -3,9 +3,10 @@
     python benchmarks/kill_trials.py [--trials 200] [--seed 1]
 
 A small study of a stub solver, which runs a command for each case, is started by Snakemake and hit:
-SIGKILL to the whole process group, to Snakemake alone, to the script of the rule, to the process of
-a case, to the solver's command; SIGTERM and SIGINT to Snakemake. After some such trials the same
-command runs to its end, and its table is compared with that of a run that nobody disturbed.
+SIGKILL to the whole process group, to Snakemake alone, to the host of the scripts, to the script of
+the rule, to the process of a case, to the solver's command; SIGTERM and SIGINT to Snakemake. After
+some such trials the same command runs to its end, and its table is compared with that of a run that
+nobody disturbed.
 
 Exit code 1 if anything was half written, lost, solved twice, left behind, or needed a hand.
 """
@@ -54,7 +55,7 @@ SOLVER = Solver("stub", "1", solve, frozenset({"spoke_c10_mpa"}), about="a stub"
 '''
 TARGET = "results/tables/cases.csv"
 BATCH = "results/5_solve/killed/stub/batch_1.jsonl"
-VICTIMS = ("group", "Snakemake", "script", "case", "command", "SIGTERM", "SIGINT")
+VICTIMS = ("group", "Snakemake", "host", "script", "case", "command", "SIGTERM", "SIGINT")
 HITS = {"case": 4, "command": 4}
 """Hits in one run, which goes on after them; any other hit ends its run."""
 WITHIN_S = 5.0
@@ -191,8 +192,8 @@ def of_kind(members: list[psutil.Process]) -> dict[str, list[psutil.Process]]:
             kinds["command"].append(member)
         elif "forkserver" in line and "forkserver" in above:
             kinds["case"].append(member)
-        elif ".snakemake/scripts" in line and "bash" not in line.split()[0]:
-            kinds["script"].append(member)
+        elif "script_host.py" in line:  # a script is a fork of its host
+            kinds["script" if "script_host.py" in above else "host"].append(member)
     return kinds
 
 
@@ -212,7 +213,7 @@ def hit(project: Project, victim: str, moment: Callable[[float, int], bool], cou
         time.sleep(0.02)
     count.trials += struck
     count.missed += not struck
-    if victim in HITS or victim == "script" or not struck:
+    if victim in HITS or victim in ("host", "script") or not struck:
         run.wait()
     else:
         _, left = psutil.wait_procs(members[1:], timeout=3 * WITHIN_S)

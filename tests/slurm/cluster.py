@@ -250,7 +250,13 @@ class Watch:
 
 
 def study(
-    folder: Path, status: str, config: str, solver: str, least_s: float, only_cases: bool
+    folder: Path,
+    status: str,
+    config: str,
+    solver: str,
+    least_s: float,
+    minutes_per_batch: float,
+    only_cases: bool,
 ) -> int:
     """Run a study locally and through Slurm, and compare."""
     local, cluster = folder / "local", folder / "cluster"
@@ -270,7 +276,7 @@ def study(
         "run.log",
         *("--workflow-profile", "profiles/slurm", "--slurm-status-command", status),
         *("--slurm-init-seconds-before-status-checks", "5", "--slurm-keep-successful-logs"),
-        *("--config", "campaign={minutes_per_batch: 0.1}"),
+        *("--config", f"campaign={{minutes_per_batch: {minutes_per_batch}}}"),
         *given,
     )
     watch = Watch(solver, least_s)
@@ -301,6 +307,12 @@ def main() -> int:
         "--kill-after", type=float, default=5.0, help="seconds that its batch has solved by then"
     )
     studying.add_argument(
+        "--minutes-per-batch",
+        type=float,
+        default=0.1,
+        help="CPU time for which batches are sized; more for a study of many cases",
+    )
+    studying.add_argument(
         "--only-cases",
         action="store_true",
         help="take what comes before the cases from the local run",
@@ -312,8 +324,9 @@ def main() -> int:
     elif chosen.part == "stop":
         stop()
     else:
-        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after, chosen.only_cases)
-        return study(chosen.folder.resolve(), *given)
+        given = (chosen.status, chosen.config, chosen.kill, chosen.kill_after)
+        batches = (chosen.minutes_per_batch, chosen.only_cases)
+        return study(chosen.folder.resolve(), *given, *batches)
     return 0
 
 

@@ -128,7 +128,7 @@ HEAD = (
 
 MEASURE = ("ingest_", "reduce", "calibrate_")
 """Beginnings of the rules' names; ingest has a rule for each batch of specimens."""
-PAGES = {"account", "configuration", "identity", "problems", "report", "verdict"}
+PAGES = {"account", "configuration", "identity", "problems", "report", "verdict", "workbook"}
 
 
 def summary(jobs: dict[str, int], cases: int) -> dict[str, Any]:
@@ -355,6 +355,9 @@ CHANGES = [
            study("band", calibration_cases={"fe_tyre": [1]}), after="tables"),
     Change("number in the code of the impact values",
            code("surface/sensitivity/gradients.py", "GRID_POINTS = 2_", "GRID_POINTS = 3_"),
+           after="tables"),
+    Change("code of a rule's script",
+           text("workflow/scripts/case_coverage.py", "from pathlib", "import math\nfrom pathlib"),
            after="tables"),
     Change("another specimen of a rubber, with the same data", another_specimen,
            3, 1, 2, 0, "tables", solves=True),

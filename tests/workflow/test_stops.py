@@ -94,7 +94,7 @@ def test_after_a_kill_and_after_a_signal_the_same_command_goes_on(unsolved):
     run = Run(unsolved)
     run.wait_for_records(2)
     family = run.family()
-    assert len(family) >= 5  # shell, script, fork server, warden, cases
+    assert len(family) >= 5  # host, script, fork server, warden, cases
     run.process.kill()
     run.process.wait()
     assert all_gone(run, family)

@@ -6,6 +6,7 @@ from functools import cache
 from pathlib import Path
 
 from snakemake.exceptions import WorkflowError
+from snakemake.persistence import PersistenceBase
 
 from nptcs.campaign.queue import batch_count
 from nptcs.campaign.schedule import batch_cores, batch_tokens
@@ -15,12 +16,23 @@ from nptcs.files import remove_unfinished, sha256_of_file
 from nptcs.processes.runs import begin_job, begin_run
 from nptcs.processes.stops import stop_jobs_on_signals
 from nptcs.report.stale import refused
+from nptcs.runs.identity import WORDS_ONLY
 from nptcs.start.facts import known_facts
+from nptcs.start.pandas_values import look_for_pandas_only_if_imported
 from nptcs.tables.laboratory.specimens import read_sheet
 from nptcs.threads import one_thread_per_process
 
 STARTED = time.time()
+# found from this file: the workflow may be the top Snakefile, or a module of another
+SCRIPTS = (
+    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
+)
+# unquoted, also where another workflow that uses this one as a module has read this file before
+PYTHON = (
+    sys.executable if Path(sys.executable).exists() else shlex.split(sys.executable)[0]
+)
 
+look_for_pandas_only_if_imported(PersistenceBase)
 one_thread_per_process()  # of the linear algebra in all jobs; cases already share the cores
 # Snakemake writes the interpreter of scripts and submitted jobs into shell commands as it is, and a
 # blank in its path (a virtual environment in "OneDrive - Lab") would end the command there: its
@@ -37,12 +49,26 @@ elif begin_run(Path(".snakemake"), workflow.snakemake_tmp_dir):
 
 onstart:
     stop_jobs_on_signals(sys.argv)
-    if any(
-        job.rule.name.startswith("solve") for job in workflow.dag.needrun_jobs()
-    ):
+    needed = {job.rule.name for job in workflow.dag.needrun_jobs()}
+    run_in_forks([rule for rule in workflow.rules if rule.name in needed])
+    if any(name.startswith("solve") for name in needed):
         from nptcs.campaign.plan import plan_lines
 
         print(*plan_lines(CONFIG), sep="\n", file=sys.stderr, flush=True)
+
+
+def run_in_forks(rules):
+    """Let the scripts of rules run in forks of one process, which imports what they import."""
+    if sys.platform != "linux":
+        return
+    from snakemake.script import PythonScript
+
+    from nptcs.processes.hosted import ScriptHost, host_scripts
+
+    host = ScriptHost(PYTHON)
+    names = dict.fromkeys(Path(rule.script).name for rule in rules if rule.script)
+    host.prepare([SCRIPTS / name for name in names])
+    host_scripts(PythonScript, SCRIPTS, host)
 
 
 def own_solvers():
@@ -53,6 +79,15 @@ def own_solvers():
         for options in CONFIG.solver_options(study).values()
         if "module" in options
     ]
+
+
+def decisive():
+    """The configuration without words of the report, which decide nothing that the rules must know.
+
+    With files of the laboratory's own for the report, which are checked at the start, it is whole.
+    """
+    own = CONFIG.laboratory.logo or CONFIG.report.templates
+    return CONFIG.model_dump(mode="json", exclude=set() if own else set(WORDS_ONLY))
 
 
 def find_facts():
@@ -68,11 +103,12 @@ try:
     SPECIMENS, SHEET_ERRORS = read_sheet(SHEET)
     FACTS = known_facts(
         ".snakemake/nptcs/start.json",
-        CONFIG.model_dump(mode="json"),
+        decisive(),
         [
             SHEET,
             *Path(CONFIG.lab_data.formats).glob("*.yaml"),
             *own_solvers(),
+            *SCRIPTS.glob("*.py"),
         ],
         find_facts,
     )
@@ -103,12 +139,6 @@ def plain(section):
     Snakemake notices each change of them. Remarks decide nothing; only the report shows them.
     """
     return section.model_dump(mode="json", exclude={"remarks"})
-
-
-# found from this file: the workflow may be the top Snakefile, or a module of another
-SCRIPTS = (
-    Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
-)
 
 
 def code_of(script, *modules, words=False):

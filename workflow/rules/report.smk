@@ -72,7 +72,7 @@ rule problems:
 
 
 # what the identity of a run does not depend on: how its numbers are shown
-PAGES = ("configuration", "identity", "report", "verdict")
+PAGES = ("configuration", "identity", "report", "verdict", "workbook")
 
 
 def code_of_tables():
@@ -112,35 +112,48 @@ def page_inputs():
     return [*configured_inputs(), *CONFIG.page_inputs()]
 
 
+def all_results():
+    """Everything that the report and the workbook show, as named inputs of their rules."""
+    return {
+        "tables": TABLES,
+        "identity": "results/identity.json",
+        "card": "results/material_card.json",
+        "curves": curves(SPECIMENS),
+        "records": records(SPECIMENS),
+        "designs": expand("results/4_design/{study}.csv", study=STUDIES),
+        "surfaces": expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
+        "models": expand(
+            "results/6_surface/models/{study}.json", study=SURFACE_STUDIES
+        ),
+        "inputs": [ancient(path) for path in page_inputs()],
+    }
+
+
+def shown():
+    """What the report and the workbook show beyond the results."""
+    return {
+        "config": plain(CONFIG),
+        "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
+        "solvers": solver_facts(),
+        "inputs": contents(page_inputs()),
+        "language": catalogue_digest(CONFIG.laboratory.language),
+    }
+
+
 rule report:
     input:
-        tables=TABLES,
-        identity="results/identity.json",
-        card="results/material_card.json",
-        curves=curves(SPECIMENS),
-        records=records(SPECIMENS),
-        designs=expand("results/4_design/{study}.csv", study=STUDIES),
-        surfaces=expand("results/6_surface/{study}.json", study=SURFACE_STUDIES),
-        models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
-        inputs=[ancient(path) for path in page_inputs()],
+        **all_results(),
     output:
         page=report(
             "results/report.html",
             caption="../report/page.rst",
             category="Report",
         ),
-        workbook=report(
-            "results/workbook.xlsx",
-            caption="../report/workbook.rst",
-            category="Report",
-        ),
     log:
         "results/logs/report.log",
     params:
         job={
-            "config": plain(CONFIG),
-            "specimens": [specimen.model_dump(mode="json") for specimen in SPECIMENS],
-            "solvers": solver_facts(),
+            **shown(),
             "figures": "results/7_report/figures",
             "templates": {
                 template.name: sha256_of_file(template)
@@ -149,12 +162,27 @@ rule report:
                     Path(str(package_files("nptcs.report") / folder)).iterdir()
                 )
             },
-            "inputs": contents(page_inputs()),
-            "language": catalogue_digest(CONFIG.laboratory.language),
             "code": code_of("report", words=True),
         },
     script:
         "../scripts/report.py"
+
+
+rule workbook:
+    input:
+        **all_results(),
+    output:
+        workbook=report(
+            "results/workbook.xlsx",
+            caption="../report/workbook.rst",
+            category="Report",
+        ),
+    log:
+        "results/logs/workbook.log",
+    params:
+        job={**shown(), "code": code_of("workbook", words=True)},
+    script:
+        "../scripts/workbook.py"
 
 
 rule verdict:

@@ -15,11 +15,12 @@ from nptcs.config.materials.ingest import FileLimits, IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen
 from nptcs.ingest.account import account_for_files
+from nptcs.ingest.check_files import check_files
 from nptcs.ingest.file_names import proposed_test
 from nptcs.ingest.inspect import inspect_file
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.ingest.reading.raw_file import read_raw
-from nptcs.ingest.repeats import counted_once, repeats_in_sheet
+from nptcs.ingest.repeats import counted_once
 from nptcs.tables.laboratory.specimens import read_sheet
 
 TIME = np.arange(0, 30.0, 0.5)
@@ -40,7 +41,7 @@ def test_the_same_data_twice_are_counted_once(lab, profiles):
     counted = counted_once(specimens, done)
     assert [one.specimen for one in counted if one.include] == ["S1", "S3"]
     assert counted[1].reason == "the same data as S1"
-    faults = repeats_in_sheet(specimens, folder, profiles, folder / "specimens.csv", FileLimits())
+    faults, _ = check_files(specimens, folder / "specimens.csv", IngestSettings(), profiles)
     assert [fault.specimen for fault in faults] == ["S2", "S4"]
     table = account_for_files(folder / "specimens.csv", done).set_index("file")
     assert table.loc["b.csv", "status"] == "repeated"
@@ -107,7 +108,7 @@ def test_one_name_in_two_folders_gives_two_ids(lab, profiles, tmp_path):
     assert len(set(table["specimen"].str.lower())) == len(table) == 2
     specimens = accepted(folder, proposal, **COUPON)
     assert [one.include for one in specimens] == [True, False]
-    faults = repeats_in_sheet(specimens, folder, profiles, folder, FileLimits())
+    faults, _ = check_files(specimens, folder / "specimens.csv", IngestSettings(), profiles)
     assert not faults
 
 

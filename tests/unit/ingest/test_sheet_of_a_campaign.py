@@ -8,13 +8,13 @@ import numpy as np
 import pandas as pd
 import pytest
 
-from nptcs.config.materials.ingest import FileLimits, limits_in
+from nptcs.config.materials.ingest import FileLimits, IngestSettings, limits_in
 from nptcs.errors import InputError
+from nptcs.ingest.check_files import check_files
 from nptcs.ingest.file_names import series_names, tokens
 from nptcs.ingest.fill_sheet import fill_text, parse_fill
 from nptcs.ingest.folder import is_there
 from nptcs.ingest.new_sheet import propose_sheet
-from nptcs.ingest.repeats import may_repeat, repeats_in_sheet
 from nptcs.tables.laboratory.specimens import read_sheet
 
 TIME = np.arange(0, 30.0, 0.5)
@@ -153,17 +153,109 @@ def test_limits_are_those_of_the_configuration(lab, profiles, tmp_path):
         limits_in(config)
 
 
-def test_check_reads_only_files_that_may_be_equal(lab, profiles, tmp_path, monkeypatch):
-    """Equal data in other bytes are found; a file of another length is not even read."""
+def check(folder, profiles):
+    specimens, errors = read_sheet(folder / "specimens.csv")
+    assert not errors
+    return check_files(specimens, folder / "specimens.csv", IngestSettings(), profiles)
+
+
+def sheet_of(folder, rows):
+    head = "specimen,test,material,orientation_deg,width_mm,thickness_mm,gauge_length_mm,force_file"
+    (folder / "specimens.csv").write_text("\n".join([head, *rows]) + "\n")
+
+
+def test_check_finds_equal_data_in_other_bytes(lab, profiles, tmp_path):
     machine(lab, tmp_path / "a.csv")
     machine(lab, tmp_path / "b.csv", 2.0, rows=40)
     text = (tmp_path / "a.csv").read_text().replace(",", ";")
     (tmp_path / "c.csv").write_text("Exported again\n" + text)
-    head = "specimen,test,material,orientation_deg,width_mm,thickness_mm,gauge_length_mm,force_file"
-    rows = [f"{n},tension,m,0,10,1,50,{n}.csv" for n in "abc"]
-    (tmp_path / "specimens.csv").write_text("\n".join([head, *rows]))
-    specimens, errors = read_sheet(tmp_path / "specimens.csv")
-    assert not errors
-    assert [s.specimen for s in may_repeat(specimens, tmp_path)] == ["a", "c"]
-    faults = repeats_in_sheet(specimens, tmp_path, profiles, tmp_path, FileLimits())
+    sheet_of(tmp_path, [f"{n},tension,m,0,10,1,5000,{n}.csv" for n in "abc"])
+    faults, notes = check(tmp_path, profiles)
     assert [fault.specimen for fault in faults] == ["c"]
+    assert not notes
+
+
+def test_check_names_a_missing_length_and_a_file_that_cannot_be_read(lab, profiles, tmp_path):
+    """A travel or an extension in mm needs the length that it happens over."""
+    time = np.arange(0, 30, 0.5)
+    pull = {"Time (s)": time, "Load (N)": 40 * time}
+    lab.write(tmp_path / "r.csv", pull | {"Extensometer (mm)": 0.5 * time})
+    lab.write(tmp_path / "s.csv", pull | {"Stroke (mm)": 0.51 * time})
+    lab.write(tmp_path / "t.csv", pull | {"Crosshead (mm)": 0.02 * time})
+    lab.write(tmp_path / "e.csv", pull | {"Extensometer (mm)": 0.002 * time})
+    across = {"Axial strain (%)": 0.01 * time, "Transverse extensometer (mm)": -0.0003 * time}
+    lab.write(tmp_path / "q.csv", {"Time (s)": time, "Load (N)": 41 * time} | across)
+    (tmp_path / "w.csv").write_text("a report, no table\n")
+    sheet_of(
+        tmp_path,
+        [
+            "R,rubber_tension,r,,6,2,,r.csv",
+            "S,rubber_tension,r,,6,2,,s.csv",
+            "T,tension,m,0,10,1,,t.csv",
+            "E,tension,m,0,10,1,,e.csv",
+            "Q,tension,m,0,10,1,,q.csv",
+            "W,tension,m,0,10,1,,w.csv",
+        ],
+    )
+    faults, notes = check(tmp_path, profiles)
+    told = {fault.specimen: fault.message for fault in faults}
+    assert told["R"] == told["E"] == "gauge_length_mm is empty: extension cannot become strain"
+    assert told["S"] == "gauge_length_mm is empty: displacement cannot become strain"
+    assert "no table" in told["W"]
+    assert set(told) == {"R", "S", "E", "W"}
+    assert notes[0].startswith("T: no strain: gauge_length_mm is empty")
+    assert notes[1].startswith("Q: no transverse strain: column 'Transverse extensometer'")
+
+
+def write_names(lab, folder, names):
+    for number, name in enumerate(names):
+        machine(lab, folder / name, 1 + 0.01 * number)
+
+
+@pytest.mark.parametrize(
+    ("names", "series"),
+    [
+        (["2024-05-01_CFRP_01.txt", "2024-05-02_CFRP_02.txt"], {"CFRP": 2}),
+        (["T0-1/machine.csv", "T0-2/machine.csv"], {"T0": 2}),
+        (["0deg/1.csv", "0deg/2.csv", "90deg/1.csv"], {"0deg": 2, "90deg": 1}),
+        (["S1/run1.csv", "S1/run2.csv", "S2/run1.csv", "S2/run2.csv"], {"S": 4}),
+        ([f"UD{k}.is_tens_RawData/Specimen_RawData_1.csv" for k in (1, 2)], {"UD1": 1, "UD2": 1}),
+    ],
+)
+def test_series_of_folders_and_days(lab, profiles, tmp_path, names, series):
+    write_names(lab, tmp_path, names)
+    proposal = propose_sheet(tmp_path, profiles)
+    assert {name: count for name, (count, _) in proposal.open_series().items()} == series
+    ids = [row["specimen"] for row in proposal.rows]
+    assert len(set(ids)) == len(ids)
+    assert not any("RawData" in one or one.endswith("specimen") for one in ids)
+
+
+def test_cameras_that_count_from_zero_are_not_paired_by_number(lab, profiles, tmp_path):
+    write_names(lab, tmp_path, [f"MTS/sp_{number}.csv" for number in (1, 2, 3)])
+    for number in (0, 1, 2):
+        camera(lab, tmp_path / "DIC" / f"sp_{number}.csv")
+    proposal = propose_sheet(tmp_path, profiles)
+    assert not any(row.get("strain_file") for row in proposal.rows)
+    assert "pair them by hand" in proposal.left["DIC/sp_0.csv"]
+
+
+def test_a_table_of_dimensions_may_lie_on_its_side(lab, profiles, tmp_path):
+    write_names(lab, tmp_path, ["UD-1.csv", "UD-2.csv"])
+    table = "Specimen,UD-1,UD-2\nWidth (mm),10,10.1\nThickness (mm),1,1.02\n"
+    (tmp_path / "dimensions.csv").write_text(table)
+    rows = propose_sheet(tmp_path, profiles).rows
+    assert [(row["width_mm"], row["thickness_mm"]) for row in rows] == [
+        ("10", "1"), ("10.1", "1.02")]  # fmt: skip
+
+
+def test_a_length_or_span_that_is_needed_is_listed(lab, profiles, tmp_path):
+    pull = {"Time (s)": TIME, "Load (N)": FORCE}
+    lab.write(tmp_path / "TPU_75A_1.csv", pull | {"Extensometer (mm)": TIME})
+    lab.write(tmp_path / "3PB_1.csv", pull | {"Deflection (mm)": 0.1 * TIME})
+    lab.write(tmp_path / "zug_1.csv", pull | {"Crosshead (mm)": 0.1 * TIME, "Strain (%)": TIME})
+    series = propose_sheet(tmp_path, profiles).open_series()
+    wanted = {name: cells for name, (_, cells) in series.items()}
+    assert "gauge_length_mm" in wanted["TPU_75A"]
+    assert "span_mm" in wanted["3PB"]
+    assert "gauge_length_mm" not in wanted["zug"]

@@ -15,14 +15,18 @@ import nptcs
 from nptcs.config.studies.response import RESPONSE_KINDS
 from nptcs.config.studies.sensitivity import AveragingRule
 from nptcs.mechanical_tests import TestType
+from nptcs.report.comparison.parts import side_heading
 from nptcs.report.figures.lca import REGIONS
 from nptcs.report.figures.uncertainty import KINDS
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import UNITS, heading, words
+from nptcs.runs import all_tables, constants, decisions, ranking, stiffness
+from nptcs.runs.part import Found
 from nptcs.solvers.registry import MODULES, load
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.laboratory.files import FileStatus
 from nptcs.tables.laboratory.flags import FLAG_KINDS
+from nptcs.tables.result_table import Heading
 from nptcs.tables.status import Status
 from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS
 
@@ -51,6 +55,18 @@ def texts_in_template(source: str) -> Iterator[tuple[str, ...]]:
                 yield tuple(part.value for part in given)  # type: ignore[attr-defined]
 
 
+COMPARED = {
+    all_tables.COLUMNS: all_tables.HEADINGS,
+    constants.COLUMNS: constants.HEADINGS,
+    decisions.COLUMNS: {},
+    ranking.COLUMNS: ranking.HEADINGS,
+    stiffness.COLUMNS: stiffness.HEADINGS,
+    stiffness.SUMMARY_COLUMNS: {},
+    ("key", "software", "file", "result"): {},
+}
+"""Columns of the parts of a comparison, and their headings."""
+
+
 def closed_texts() -> Iterator[str]:
     """Yield the texts that the report gives to `tr` from lists elsewhere in the package."""
     for table in TABLES.values():
@@ -67,6 +83,13 @@ def closed_texts() -> Iterator[str]:
     yield from (test.value.removeprefix("rubber_").replace("_", " ") for test in TestType)
     yield from (status.value for status in (*Status, *FileStatus))
     yield from (*FLAG_KINDS, *KINDS, *REGIONS, *DIRECTIONS)
+    yield from (found.value for found in Found)
+    for columns, headings in COMPARED.items():
+        for column in columns:
+            one = heading(column, headings)
+            if column not in headings and (side := side_heading(column)) is not None:
+                one = Heading(side.name[:-2], side.unit)
+            yield from (one.name, one.unit)
     yield from texts_of_configurations()
 
 
@@ -83,7 +106,7 @@ def texts_of_configurations() -> Iterator[str]:
                 waiting += node
 
 
-SAME = re.compile(r"[\W\d_]*|[A-Z]{1,2}\d*|[xyn]|k B|MNR|PRESS|SHA-256|(results|config)/.*")
+SAME = re.compile(r"B − A|[\W\d_]*|[A-Z]{1,2}\d*|[xyn]|k B|MNR|PRESS|SHA-256|(results|config)/.*")
 """Symbols, abbreviations and file names, which are the same in every language."""
 
 

@@ -142,9 +142,9 @@ EARLY = slice(60, LOADED + AFTER)
          {"a.csv": text_of({"Name": ["1_1"] * len(TIME), "Time": TIME, "Force": FORCE / 1000,
                             "Stroke": 0.02 * TIME, "Strain_Ext": 100 * STRAIN})
           .replace("Strain_Ext\n", "Strain_Ext\n,Sec,kN,mm,%\n")}, {}, ALL, ""),
-        ("a strain that no name tells next to a travel",
+        ("two strains that no name tells apart next to a travel",
          {"a.csv": text_of({"Time [s]": TIME, "Load [N]": FORCE, "Crosshead [mm]": 0.02 * TIME,
-                            "Strainmaster 7 [%]": 100 * STRAIN})},
+                            "Strainmaster 7 [%]": 100 * STRAIN, "Strainmaster A [%]": STRAIN})},
          {"gauge_length_mm": 100}, {"strength": ALL["strength"]}, "not read as a strain"),
         ("units in a row of LabVIEW's head",
          {"a.csv": "LabVIEW Measurement\nSeparator\tTab\n***End_of_Header***\n\n"

@@ -2,21 +2,28 @@
 
 import ast
 import re
+from functools import cache
 from pathlib import Path
 
 import pytest
 
 import nptcs
 from nptcs.language import language
+from nptcs.report import stage_messages
 from nptcs.report.flag_words import SENTENCES, flag_text, pattern
 
 ROOT = Path(nptcs.__file__).parent
 
 
+ROOMS = ("ingest", "reduce", "calibrate", "responses", "solvers", "campaign", "surface")
+ROOMS += ("uncertainty", "decisions", "design", "fe", "ring", "lca")
+
+
+@cache
 def sentences_of_stages():
     """Return the texts that the stages make, as patterns whose values are unknown."""
     found = []
-    for room in ("ingest", "reduce", "calibrate", "responses"):
+    for room in ROOMS:
         for file in sorted((ROOT / room).rglob("*.py")):
             for node in ast.walk(ast.parse(file.read_text(encoding="utf-8"))):
                 if isinstance(node, ast.JoinedStr):
@@ -30,7 +37,7 @@ def sentences_of_stages():
     return found
 
 
-@pytest.mark.parametrize("sentence", SENTENCES)
+@pytest.mark.parametrize("sentence", [*SENTENCES, *stage_messages.SENTENCES])
 def test_a_stage_writes_each_sentence(sentence):
     reason = sentence.removeprefix("not assessed: ").removeprefix("crosshead strain: ")
     texts = {text.removeprefix("warning: ").removeprefix("1: ") for text in sentences_of_stages()}
@@ -64,3 +71,14 @@ def test_a_flag_has_its_numbers_in_both_languages(flag, chinese):
     assert written == chinese
     numbers = re.compile(r"\d[\d.]*")
     assert sorted(numbers.findall(written)) == sorted(numbers.findall(flag))
+
+
+def test_a_message_keeps_place_and_value_and_has_its_remedy_translated():
+    written = "case plate_001: must be positive (value: -1.5). Remedy: give a number above zero"
+    message_text = stage_messages.message_text
+    assert message_text(written) == written
+    with language("zh"):
+        chinese = message_text(written)
+        assert chinese == "case plate_001: 必须为正（值：-1.5）。处理办法：给出大于零的数值"
+        assert message_text("a message of another solver") == "a message of another solver"
+        assert message_text("not assessed: no transverse strain") == "未评估：没有横向应变"

@@ -70,7 +70,7 @@ def faulty_html(faulty, undrawn):
 
 def table_after(html, caption):
     """Read the rows of the table with that caption, as text."""
-    start = html.index(f"<strong>{caption}</strong>")
+    start = re.search(rf"<(strong|summary)>{re.escape(caption)}", html).start()
     body = html[html.index("<tbody>", start) : html.index("</tbody>", start)]
     rows = re.findall(r"<tr[^>]*>(.*?)</tr>", body, re.S)
     return [

@@ -100,6 +100,15 @@ def test_rigid_motion_costs_nothing(tyre, turn):
     assert tyre.energy(bent)["band"] > 1.0
 
 
+def test_the_core_shears_with_the_wires_axes_not_their_sections(tyre):
+    """All slopes w' with ψ = θ = 0: the core shears by w' as the wires do."""
+    own = tyre.ring.stiffness
+    length, slope, zero = 5.0, 1e-3, np.zeros(5)
+    turned = np.array([0.0, slope, 0.0, 0.0, 0.0])
+    energy = elementwise.band_energy(own, tyre.ring.hardening, 0.0, length, zero, turned)
+    assert energy == pytest.approx(0.5 * length * (own[4, 4] + own[5, 5]) * slope**2, rel=1e-6)
+
+
 def test_the_contact_law_with_a_compliance_in_series(tyre):
     w = np.array(tyre.ring.dimensions)
     assert w[elementwise.COMPLIANCE] > 0.05
@@ -116,7 +125,7 @@ def test_the_contact_law_with_a_compliance_in_series(tyre):
     np.testing.assert_allclose(slope[inner], numeric[inner], rtol=0.05)
 
 
-@pytest.mark.skipif(not HAS_NUMBA, reason="needs numba: pip install nptcs[fast]")
+@pytest.mark.skipif(not HAS_NUMBA, reason="needs numba")
 def test_compiled_kernel_gives_the_same_system(tyre, state):
     from nptcs.ring.kernel import numba_kernel
 

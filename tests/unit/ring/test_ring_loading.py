@@ -147,7 +147,7 @@ def test_spokes_that_do_not_fit_the_tyre_are_refused(table):
         built(table, tyre=TyreGeometry(rim_diameter_mm=420.0))
 
 
-@pytest.mark.skipif(not HAS_NUMBA, reason="needs numba: pip install nptcs[fast]")
+@pytest.mark.skipif(not HAS_NUMBA, reason="needs numba")
 def test_the_compiled_kernel_gives_the_same_curve(table, loaded):
     compiled = load(built(table, kernel="numba"), LOADS)
     for one, other in zip(loaded[1], compiled, strict=True):

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.ring.section import Rubber, ring_section
+from nptcs.ring.rubber import Rubber
+from nptcs.ring.section import ring_section
 
 SOFT_WIRES = TyreGeometry(wire_modulus_mpa=1e-9)
 BAND = Rubber(5.0, np.inf)

@@ -87,6 +87,7 @@ def test_spokes_left_out_are_predicted_within_their_errors(surrogate):
     found = left_out_spokes(surrogate, TyreGeometry(), MODEL)
     assert found.percent.shape == (64, 4)
     assert 0.0 < found.rms() < found.largest() < 5.0
+    assert np.nanmax(np.abs(found.percent[found.worst()])) == found.largest()
     known = found.standard_errors[np.isfinite(found.standard_errors)]
     assert np.mean(np.abs(known) < 3) > 0.8
 

@@ -85,6 +85,20 @@ def test_hashes_of_code_are_kept(tmp_path, ends, monkeypatch):
     assert known.code_of("nptcs.terms", words=True) == "hashed anew"
 
 
+def test_hashes_of_code_outlast_a_configuration_but_not_a_script(tmp_path, ends, monkeypatch):
+    find, file, script = Finder(), tmp_path / "start.json", tmp_path / "script.py"
+    script.write_text("a = 1")
+    known_facts(file, {"a": 1}, [script], find).code_of(str(script))
+    ends()
+    monkeypatch.setattr("nptcs.start.facts.code_hash", lambda *modules, words: "hashed anew")
+    other = known_facts(file, {"a": 2}, [script], find)
+    assert other.code_of(str(script)) != "hashed anew"
+    assert find.times == 2
+    ends()
+    script.write_text("a = 2")
+    assert known_facts(file, {"a": 2}, [script], find).code_of(str(script)) == "hashed anew"
+
+
 def test_a_fault_is_not_kept(tmp_path, ends):
     def refuse():
         raise ValueError("a fault")

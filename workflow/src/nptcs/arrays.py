@@ -22,3 +22,6 @@ Rows = NDArray[np.intp]
 
 Mask = NDArray[np.bool_]
 """True where something holds."""
+
+Places = NDArray[np.int32]
+"""Positions in arrays so large that reading 64 bits for each would take time."""

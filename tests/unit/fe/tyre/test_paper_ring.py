@@ -125,6 +125,7 @@ def test_each_ring_has_the_section_that_was_calibrated_with_it():
     for ring, section in SECTIONS.items():
         assert FeModel(ring=ring).geometry == section
         assert section.calibrated_with == ring
+        assert section.calibrated_axial == "free_edges"
 
 
 @pytest.mark.parametrize("change", [{}, {"calibrated_with": None}], ids=["named", "by its values"])
@@ -138,11 +139,22 @@ def test_a_changed_section_is_no_calibrated_one_and_keeps_the_rest():
     found = FeModel(ring="paper_mesh", geometry={"leg_thickness_mm": 3.0}).geometry
     assert found.calibrated_with is None
     known = SECTIONS["paper_mesh"].model_copy(
-        update={"leg_thickness_mm": 3.0, "calibrated_with": None}
+        update={"leg_thickness_mm": 3.0, "calibrated_with": None, "calibrated_axial": None}
     )
     assert found == known
     drawn = SpokeGeometry(leg_thickness_mm=4.0)
     assert FeModel(geometry=drawn).geometry == drawn
+
+
+def test_a_section_calibrated_with_another_axial_freedom_says_so():
+    held = FeModel(axial="plane_strain")
+    (note,) = held.geometry.axial_notes(held.axial)
+    assert "`axial: free_edges`" in note
+    assert "`axial: plane_strain`" in note
+    free = FeModel()
+    assert free.geometry.axial_notes(free.axial) == []
+    changed = FeModel(axial="plane_strain", geometry={"leg_thickness_mm": 3.0})
+    assert changed.geometry.axial_notes(changed.axial) == []
 
 
 def test_the_mesh_of_the_other_ring_is_refused():

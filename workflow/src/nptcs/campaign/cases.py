@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from typing import Any
 
 import pandas as pd
 
@@ -107,34 +108,42 @@ def read_tyres(paths: Sequence[str]) -> list[CaseRecord]:
 
 def _tyres(table: pd.DataFrame) -> Iterator[CaseRecord]:
     names = [str(name) for name in table]
-    load, end = names.index("load_n"), names.index("wall_time_s")
-    results = [name for name in names[load + 1 : end] if not name.startswith(CURVE)]
-    realised = [name for name in results if name.startswith(realised_column(""))]
-    extra = [name for name in results if name not in (*RESPONSES, *realised)]
+    factors = names[5 : names.index("load_n")]
+    results = names[names.index("load_n") + 1 : names.index("wall_time_s")]
     for values in table[has_result(table["status"])].to_numpy(dtype=object):
         row = dict(zip(names, values, strict=True))
-        curve = curve_of({name: row[name] for name in names if name.startswith(CURVE)})
+        curve = curve_of({name: row[name] for name in results if name.startswith(CURVE)})
         if curve is None:
             continue
-        given = {name: row[name] for name in names if pd.notna(row[name])}
+        given = {name: value for name, value in row.items() if pd.notna(value)}
         yield CaseRecord(
             **{name: row[name] for name in ("study", "case_id", "solver", "solver_version", "key")},
-            values={name: given[name] for name in names[5:load] if name in given},
+            values=_of(factors, given),
             load_n=row["load_n"],
             wall_time_s=row["wall_time_s"],
             result=SolverResult(
                 status=row["status"],
                 message=row["message"],
-                **{name: given[name] for name in RESPONSES if name in given},
-                extra={name: given[name] for name in extra if name in given},
-                realised={
-                    name.removeprefix(realised_column("")): given[name]
-                    for name in realised
-                    if name in given
-                },
                 curve=curve,
+                **_results(results, given),
             ),
         )
+
+
+def _results(names: Sequence[str], given: Mapping[str, Any]) -> dict[str, Any]:
+    """Sort the results of a row, without its curve, as `SolverResult` holds them."""
+    prefix = realised_column("")
+    realised = [name for name in names if name.startswith(prefix)]
+    extra = [name for name in names if name not in (*RESPONSES, *realised)]
+    return {
+        **_of(RESPONSES, given),
+        "realised": {name.removeprefix(prefix): given[name] for name in realised if name in given},
+        "extra": _of([name for name in extra if not name.startswith(CURVE)], given),
+    }
+
+
+def _of(names: Iterable[str], given: Mapping[str, Any]) -> dict[str, Any]:
+    return {name: given[name] for name in names if name in given}
 
 
 def _in_order(tables: Sequence[pd.DataFrame]) -> list[str]:

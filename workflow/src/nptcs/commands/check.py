@@ -42,9 +42,8 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.campaign.plan import plan_lines
     from nptcs.config.root import read_config
     from nptcs.errors import InputError
-    from nptcs.ingest.folder import is_there
+    from nptcs.ingest.check_files import check_files
     from nptcs.ingest.reading.profiles import load_profiles
-    from nptcs.ingest.repeats import repeats_in_sheet
     from nptcs.report.page_files import page_faults
     from nptcs.solvers.registry import needs_ply
     from nptcs.tables.laboratory.specimens import read_sheet
@@ -59,27 +58,15 @@ def run(arguments: argparse.Namespace) -> int:
     if not faults:
         print(*plan_lines(config, arguments.results), sep="\n")
     specimens, errors = read_sheet(config.lab_data.specimen_sheet)
-    folder = Path(config.lab_data.specimen_sheet).parent
-    missing = [
-        InputError(
-            "this raw file does not exist",
-            file=folder / name,
-            specimen=specimen.specimen,
-            remedy="correct the file name in the specimen sheet, or copy the file into its folder",
-        )
-        for specimen in specimens
-        for name in specimen.files
-        if not is_there(folder, name)
-    ]
-    profiles = load_profiles(config.lab_data.formats)
     sheet = Path(config.lab_data.specimen_sheet)
-    again = repeats_in_sheet(specimens, folder, profiles, sheet, config.ingest.limits)
+    profiles = load_profiles(config.lab_data.formats)
+    of_files, remarks = check_files(specimens, sheet, config.ingest, profiles)
     print(f"{config.lab_data.specimen_sheet}: {len(specimens)} specimens")
     studies = [(study, needs_ply(study, config.solver_options(study))) for study in config.studies]
     materials, notes = check_materials(studies, specimens, config.calibration)
-    for note in notes:
+    for note in [*notes, *remarks]:
         print(note)
-    of_rows = [*errors, *missing, *again, *materials, *name_faults(specimens, config)]
+    of_rows = [*errors, *of_files, *materials, *name_faults(specimens, config)]
     for fault in [*faults, *of_rows]:
         print(f"nptcs: {fault}", file=sys.stderr)
     return 2 if faults else 1 if of_rows else 0

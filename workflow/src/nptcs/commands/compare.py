@@ -7,9 +7,10 @@ import json
 import tempfile
 from contextlib import ExitStack
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, get_args
 
 from nptcs.arguments import add_command, number, output_file
+from nptcs.language import Language
 from nptcs.ranges import Range
 from nptcs.text_table import text_table
 
@@ -86,6 +87,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "--workbook", type=output_file(".xlsx"), metavar="FILE.xlsx", help="write a workbook"
     )
+    parser.add_argument(
+        "--language",
+        choices=get_args(Language),
+        help="language of page and workbook; default: that of the report of B",
+    )
     parser.add_argument("--json", action="store_true", help="print JSON for programs")
     parser.add_argument(
         "--k",
@@ -105,6 +111,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the comparison; 1 if anything differs or could not be compared."""
+    from nptcs.language import language
     from nptcs.runs.compare import compare_runs
 
     for given in (arguments.a, arguments.b):
@@ -113,8 +120,10 @@ def run(arguments: argparse.Namespace) -> int:
     with ExitStack() as stack:
         a, b = (open_run(Path(given), stack) for given in (arguments.a, arguments.b))
         done = compare_runs(a, b, arguments.k, arguments.within)
-    print(as_json(done) if arguments.json else as_text(done))
-    write_outputs(done, arguments)
+        print(as_json(done) if arguments.json else as_text(done))
+        if arguments.page is not None or arguments.workbook is not None:
+            with language(arguments.language or b.language):
+                write_outputs(compare_runs(a, b, arguments.k, arguments.within), arguments)
     return 0 if done.same else 1
 
 

@@ -107,6 +107,12 @@ def run_fit(arguments: argparse.Namespace) -> int:
             f"  {int(inner.sum())} not on a face of the others' box: rms {found.rms(inner):.3f} %, "
             f"largest {found.largest(inner):.3f} %"
         )
+    worst = found.worst()
+    named = dict(zip(DESIGN, surrogate.designs[worst].tolist(), strict=True))
+    print(
+        f"  largest at {_words(named)}: {abs(found.standard_errors[worst]):.1f} standard errors of "
+        f"its prediction, {'on' if found.edge[worst] else 'not on'} a face of the others' box"
+    )
     design, gain = surrogate.next_design()
     print(f"the next spoke that would help most: {_words(design)} ({100 * gain:.0f} % of variance)")
     print(f"written: {arguments.output}")

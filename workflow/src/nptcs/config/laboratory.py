@@ -41,7 +41,9 @@ class Laboratory(Strict):
         (), description="Lines of the signature block; none: no such block"
     )
     language: Language = Field(
-        ENGLISH, description="Language of report and explorer: en, English; zh, simplified Chinese"
+        ENGLISH,
+        description="Language of report, explorer, workbook and comparisons: en, English; zh, "
+        "simplified Chinese",
     )
 
     @model_validator(mode="after")

@@ -97,7 +97,8 @@ class Problem:
         """Return the model with other logarithms of the free dimensions."""
         change = dict(zip(FREE, np.exp(free).tolist(), strict=True))
         old = self.model.geometry.model_dump()
-        section = SpokeGeometry(**{**old, **change, "calibrated_with": self.model.ring})
+        made_with = {"calibrated_with": self.model.ring, "calibrated_axial": self.model.axial}
+        section = SpokeGeometry(**{**old, **change, **made_with})
         return self.model.model_copy(update={"geometry": section})
 
 

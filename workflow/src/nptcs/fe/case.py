@@ -32,7 +32,7 @@ def spoke_design(
     plates = tyre.plates_across(values["spacing_mm"])
     return SpokeDesign(
         # the ring of the calibration changes no spoke: both rings share the tables of equal spokes
-        geometry=model.geometry.model_copy(update={"calibrated_with": None}),
+        geometry=model.geometry.as_drawn(),
         mesh=model.spoke_mesh,
         pitch_mm=tyre.tread_width_mm / plates,
         plate_width_mm=tyre.plate_width_mm,

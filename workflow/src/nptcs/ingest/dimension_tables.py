@@ -7,6 +7,7 @@ import re
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from itertools import zip_longest
 from pathlib import Path
 
 from nptcs.config.materials.ingest import FileLimits
@@ -55,6 +56,8 @@ _OWN_WORDS = frozenset(
     ]
 )
 _LARGEST_MM = 500.0
+_LARGEST_HEAD = 30
+"""Rows in which the names are, and of a table whose specimens are its columns."""
 
 
 @dataclass(frozen=True)
@@ -76,17 +79,20 @@ def read_dimensions(
     """Read a table of dimensions; empty if the file is not one.
 
     The first row of names that holds a specimen, and a width or a thickness, counts; every row
-    below with a specimen and numbers is one specimen. A unit may be in the names; else mm.
+    below with a specimen and numbers is one specimen. A table whose columns are the specimens is
+    turned. A unit may be in the names; else mm.
     """
     try:
         rows = _rows(open_file(path, profiles, profiles[PLAIN], limits))
     except InputError:
         return []
-    for index, cells in enumerate(rows[:30]):
-        columns = _columns(cells)
-        if columns is not None:
-            found = [_dimensions(name, columns, cells, row) for row in rows[index + 1 :]]
-            return [one for one in found if one is not None]
+    upright = [list(column) for column in zip_longest(*rows[:_LARGEST_HEAD], fillvalue="")]
+    for table in (rows, upright):
+        for index, cells in enumerate(table[:_LARGEST_HEAD]):
+            columns = _columns(cells)
+            if columns is not None:
+                found = [_dimensions(name, columns, cells, row) for row in table[index + 1 :]]
+                return [one for one in found if one is not None]
     return []
 
 

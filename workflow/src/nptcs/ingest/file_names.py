@@ -9,6 +9,7 @@ from collections.abc import Iterable, Mapping
 from pathlib import PurePosixPath
 
 from nptcs.ingest.conditioning.declared_test import loadings_in_name, loadings_named
+from nptcs.ingest.runs_of_pieces import piece_of
 from nptcs.tables.laboratory.specimens import TestType
 
 ROLE_WORDS = frozenset(
@@ -154,8 +155,9 @@ def unique_ids(names: Mapping[int, tuple[str, str]]) -> dict[int, str]:
     for depth in (1, 2, 3):
         for row in _doubles(ids):
             own, path = names[row]
-            folders = [_safe(part) for part in PurePosixPath(path).parent.parts]
-            ids[row] = "_".join([*(part for part in folders[-depth:] if part), own])
+            folders = [_safe(_folder_name(part)) for part in PurePosixPath(path).parent.parts]
+            own = re.sub(r"(?i)^specimen(?:_rawdata)?[ _.-]*(?=\d|$)", "", own)
+            ids[row] = "_".join(part for part in [*folders[-depth:], own] if part) or "specimen"
     seen: Counter[str] = Counter()
     for row, own in ids.items():
         seen[own.casefold()] += 1
@@ -193,18 +195,49 @@ def series_names(files: Iterable[str]) -> dict[str, str]:
     files = list(files)
     own = {name: _series(name) for name in files}
     folders: dict[str, set[str]] = {}
-    for name, series in own.items():
-        folders.setdefault(series, set()).add(str(PurePosixPath(name).parent))
+    for series, folder in own.values():
+        folders.setdefault(series, set()).add(folder)
     return {
-        name: series if len(folders[series]) == 1 else f"{PurePosixPath(name).parent}/{series}"
-        for name, series in own.items()
+        name: series if len(folders[series]) == 1 else f"{folder}/{series}"
+        for name, (series, folder) in own.items()
     }
 
 
-def _series(name: str) -> str:
+def _series(name: str) -> tuple[str, str]:
+    """Name of a file's series, and the folder that holds the series.
+
+    A name that says nothing but a number, a device or a run leaves the name to the folder: of
+    one specimen (``T0-1/machine.csv``), of the runs of a piece (``S1/run2.csv``), or of a series.
+    """
     path = PurePosixPath(name)
-    stem = specimen_id(_LAST_NUMBER.sub("", path.stem) + ".x")
-    return path.parent.name if stem in ("", "specimen") and path.parent.name else stem
+    piece = piece_of(specimen_id(name)) or path.stem
+    stem = specimen_id(_LAST_NUMBER.sub("", _undated(piece)) + ".x")
+    number = _SAYS_NOTHING.get(re.sub(r"[ _.-]*(?:rawdata)?$", "", stem.casefold()))
+    if number is None or not path.parent.name:
+        return stem, str(path.parent)
+    number = r"(?!)" if "rawdata" in path.stem.casefold() or path.stem.isdigit() else number
+    folder = _folder_name(path.parent.name)
+    return _safe(re.sub(number, "", folder)) or _safe(folder), str(path.parent.parent)
+
+
+_SAYS_NOTHING = {
+    "": r"(?!)",
+    "specimen": r"[ _.-]+\d+$",
+    **dict.fromkeys(("run", "lauf", "pass"), r"[ _.-]*\d+$"),
+}
+"""Names that only their folder tells apart, and what of the folder's name is a number."""
+_OF_BLUEHILL = re.compile(r"\.is_\w+?_(?:RawData|Exports)$")
+
+
+def _folder_name(folder: str) -> str:
+    """Name of a folder without what Bluehill adds: ``UD1.is_tens_RawData`` is ``UD1``."""
+    return _OF_BLUEHILL.sub("", folder)
+
+
+def _undated(stem: str) -> str:
+    """Take a day off a name, unless it is nothing else."""
+    plain = _DATE.sub("", stem).strip("_.- ")
+    return plain if any(mark.isalpha() for mark in plain) else stem
 
 
 def proposed_test(path: str, texts: Iterable[str]) -> str:

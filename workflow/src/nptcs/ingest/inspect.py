@@ -9,8 +9,10 @@ from pathlib import Path
 
 from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
-from nptcs.ingest.reading.columns.quantities import NEEDS, Test, tests_in, unit_of
-from nptcs.ingest.reading.find_tables import find_tables
+from nptcs.ingest.reading.columns.head_units import add_units_of_head
+from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
+from nptcs.ingest.reading.columns.quantities import NEEDS, Test, unit_of
+from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
 from nptcs.ingest.reading.raw_file import header_labels, matching, sources_of
@@ -39,6 +41,11 @@ class Inspection:
         return max((len(test.quantities) for test in self.tests), default=0)
 
     @property
+    def has_strain(self) -> bool:
+        """Tell whether a table holds more of the strain than the travel of the crosshead."""
+        return any(set(STRAINS) & set(test.quantities) for test in self.tests)
+
+    @property
     def usable(self) -> bool:
         """Tell whether a table holds a load, or strains for one, and its units are known."""
         return self.obstacle() == ""
@@ -61,6 +68,8 @@ class Inspection:
         for quantity, column in test.quantities.items():
             if quantity == "force" and "strain_xx" in test.quantities and not column.unit:
                 continue  # told from the machine's own file
+            if quantity in ACROSS or (quantity == "time" and test.serves("force and strain")):
+                continue  # not needed: left out with a note
             try:
                 unit_of(quantity, column, self.profile, stated, self.opened.path, 0)
             except InputError as error:
@@ -85,12 +94,16 @@ def inspect_file(
     if declared is not None:
         return _inspect(opened, declared, "named on the command line", profiles[PLAIN])
     fitting, reason = matching(opened, profiles)
-    for plain in (None, profiles[PLAIN]):
-        inspections = [_inspect(opened, profile, reason, plain) for profile in fitting]
-        best = max(inspections, key=lambda one: (one.usable, one.understood))
-        if best.usable:
-            break
-    return best
+    best = max((_inspect(opened, one, reason, None) for one in fitting), key=_worth)
+    if best.usable and best.has_strain:
+        return best
+    # as in reading: the names of PLAIN may tell a strain next to the travel that the profile knows
+    again = (_inspect(opened, one, reason, profiles[PLAIN]) for one in fitting)
+    return max([best, *again], key=_worth)
+
+
+def _worth(inspection: Inspection) -> tuple[bool, bool, int]:
+    return inspection.usable, inspection.has_strain, inspection.understood
 
 
 def _inspect(
@@ -100,8 +113,9 @@ def _inspect(
     try:
         sources, result.dialect = sources_of(opened, result.profile)
         for source in sources:
-            found_tables = find_tables(source, opened.path, profile.unnamed_columns)
-            result.tests += tests_in(source, found_tables, profile, opened.path, plain)
+            result.tests += tests_of(source, profile, opened.path, plain)
+        for test in result.tests:
+            add_units_of_head(test)
     except InputError as error:
         result.problem = error
     return result

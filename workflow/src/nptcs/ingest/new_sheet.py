@@ -6,7 +6,7 @@ import csv
 import io
 import re
 from collections import Counter
-from collections.abc import Collection, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
@@ -30,6 +30,7 @@ from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.columns.quantities import Test
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
+from nptcs.ingest.runs_of_pieces import mark_runs
 from nptcs.ingest.strain_fields import FEWEST_FRAMES
 from nptcs.mechanical_tests import TestType
 from nptcs.tables.laboratory.specimens import COLUMNS
@@ -52,6 +53,8 @@ class Proposal:
     left: dict[str, str] = field(default_factory=dict)
     travel_only: set[str] = field(default_factory=set)
     """Force files without a strain but the crosshead's travel."""
+    lengths_only: set[str] = field(default_factory=set)
+    """Force files whose strain, if there is one, is in mm: an extension or a travel."""
 
     def text(self) -> str:
         """Return the sheet as CSV."""
@@ -67,7 +70,7 @@ class Proposal:
         found: dict[str, tuple[int, list[str]]] = {}
         for row in self.rows:
             count, wanted = found.get(names[row["force_file"]], (0, []))
-            wanted = list(dict.fromkeys([*wanted, *_open_cells(row)]))
+            wanted = list(dict.fromkeys([*wanted, *self.open_in(row)]))
             found[names[row["force_file"]]] = (count + 1, wanted)
         return found
 
@@ -75,8 +78,21 @@ class Proposal:
         """Count the rows in which a person still has to fill in each column."""
         wanted: Counter[str] = Counter()
         for row in self.rows:
-            wanted.update(_open_cells(row))
+            wanted.update(self.open_in(row))
         return dict(wanted)
+
+    def open_in(self, row: Mapping[str, str]) -> list[str]:
+        """Columns that a person has to fill in before the row is accepted and can be reduced."""
+        needed = ["test", "material", "width_mm", "thickness_mm"]
+        test, file = row.get("test", ""), row["force_file"]
+        if not test.startswith("rubber"):
+            needed.insert(2, "orientation_deg")
+        if test == TestType.FLEXURE:
+            needed.append("span_mm")
+        elif file in self.lengths_only and not row.get("strain_file"):
+            optional = file in self.travel_only and not test.startswith("rubber")
+            needed += [] if optional else ["gauge_length_mm"]
+        return [column for column in needed if not row.get(column)]
 
 
 @dataclass
@@ -89,6 +105,7 @@ class _Found:
     dimensions: list[Dimensions] = field(default_factory=list)
 
 
+_IN_STRAIN = set(STRAINS) - {"extension"}
 _ANGLES = {TestType.SHEAR.value: "45"}  # no other test has one of its own
 
 
@@ -125,7 +142,9 @@ def propose_sheet(
     }
     for number, own in unique_ids(names).items():
         proposal.rows[number]["specimen"] = own
-        _remark(proposal.rows[number], proposal.travel_only)
+    mark_runs(proposal.rows)
+    for number in names:
+        _remark(proposal.rows[number], proposal)
     if not proposal.rows:
         raise InputError(
             "no file holds a test", "look at one file with: nptcs inspect FILE", folder
@@ -193,6 +212,8 @@ def _sort(
         found.tests += [(name, test, inspection, len(loaded) > 1) for test in loaded]
         if not any({*STRAINS} & set(test.quantities) for test in loaded):
             proposal.travel_only.add(name)
+        if not any(_IN_STRAIN & set(test.quantities) for test in loaded):
+            proposal.lengths_only.add(name)
     elif any(set(STRAINS) & set(test.quantities) for test in inspection.tests):
         found.strains.append(name)
     else:
@@ -254,19 +275,12 @@ def _obstacle(test: Test, inspection: Inspection, labels: Mapping[str, LabelValu
     return "; ".join(text for text in told if text)
 
 
-def _open_cells(row: Mapping[str, str]) -> list[str]:
-    """Columns that a person has to fill in before the sheet is accepted."""
-    needed = ["test", "material", "width_mm", "thickness_mm"]
-    if not row.get("test", "").startswith("rubber"):
-        needed.insert(2, "orientation_deg")
-    return [column for column in needed if not row.get(column)]
-
-
-def _remark(row: dict[str, str], travel_only: Collection[str]) -> None:
+def _remark(row: dict[str, str], proposal: Proposal) -> None:
     """Say what is a proposal and what is to be filled in."""
     proposed = [name for name in ("test", "material", "orientation_deg") if row.get(name)]
-    wanted = _open_cells(row)
-    travel = row["force_file"] in travel_only and not row.get("strain_file")
+    wanted = proposal.open_in(row)
+    travel = row["force_file"] in proposal.travel_only and not row.get("strain_file")
+    travel = travel and row["test"] != TestType.FLEXURE and "gauge_length_mm" not in wanted
     parts = [
         f"proposed by words, to be checked: {', '.join(proposed)}" if proposed else "",
         f"fill in {', '.join(wanted)}" if wanted else "",

@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
+from pathlib import PurePosixPath
 
 from nptcs.ingest.dimension_tables import Dimensions
-from nptcs.ingest.file_names import tokens
+from nptcs.ingest.file_names import specimen_id, tokens
+from nptcs.ingest.runs_of_pieces import piece_of
 
 
 def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict[str, str]:
@@ -26,8 +28,8 @@ def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict
     """
     machines = {number: tokens(row["force_file"]) for number, row in enumerate(rows)}
     chosen: dict[str, int] = {}
-    left: dict[str, str] = {}
-    for name in strains:
+    left = _numbered_apart(machines, strains)
+    for name in (name for name in strains if name not in left):
         own = tokens(name)
         equal = [number for number, words in machines.items() if words == own]
         near = equal or [number for number, words in machines.items() if _says_the_same(words, own)]
@@ -47,6 +49,35 @@ def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict
     return left
 
 
+def _numbered_apart(machines: Mapping[int, Counter[str]], strains: Sequence[str]) -> dict[str, str]:
+    """Find cameras' files that are numbered from 0 where the machine's are from 1, or the reverse.
+
+    Their names would pair all of them, but the first and last, with the wrong specimen.
+    """
+    series: dict[frozenset[str], tuple[set[int], dict[int, str]]] = {}
+    for words in machines.values():
+        key, number = _series_and_number(words)
+        series.setdefault(key, (set(), {}))[0].update(number)
+    for name in strains:
+        key, number = _series_and_number(tokens(name))
+        if key in series:
+            series[key][1].update(dict.fromkeys(number, name))
+    left = {}
+    for numbers, named in series.values():
+        shifted = any({number + step for number in named} == numbers for step in (1, -1))
+        if len(named) > 1 and shifted:
+            why = "camera and machine are numbered from different numbers: pair them by hand"
+            left |= dict.fromkeys(named.values(), why)
+    return left
+
+
+def _series_and_number(words: Counter[str]) -> tuple[frozenset[str], list[int]]:
+    """Words of a name, and its number if it has a single one."""
+    numbers = [int(word) for word, count in words.items() if word.isdecimal() for _ in range(count)]
+    own = frozenset(word for word in words if not word.isdecimal())
+    return own, numbers if len(numbers) == 1 else []
+
+
 def _says_the_same(words: Counter[str], others: Counter[str]) -> bool:
     """Tell whether two names agree: equal numbers, and the words of one among the other's."""
     numbers = Counter({w: n for w, n in words.items() if w.isdigit()})
@@ -58,7 +89,10 @@ def _says_the_same(words: Counter[str], others: Counter[str]) -> bool:
 def add_dimensions(rows: Sequence[dict[str, str]], dimensions: Sequence[Dimensions]) -> None:
     """Fill in the dimensions whose row names one test, and is named by no other row."""
     for row in rows:
-        words = tokens(row["force_file"]) + tokens(row["force_part"] + ".x")
+        path = PurePosixPath(row["force_file"])
+        piece = piece_of(specimen_id(path.name))
+        file = str(path.with_name(piece + ".x")) if piece else row["force_file"]
+        words = tokens(file) + tokens(row["force_part"] + ".x")
         fitting = [one for one in dimensions if one.words and one.words <= words]
         most = max((sum(one.words.values()) for one in fitting), default=0)
         fitting = [one for one in fitting if sum(one.words.values()) == most]

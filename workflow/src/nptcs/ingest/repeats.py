@@ -3,30 +3,20 @@
 from __future__ import annotations
 
 import hashlib
-import re
 from collections.abc import Iterable, Mapping, Sequence
-from itertools import pairwise
-from pathlib import Path
 
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.materials.ingest import FileLimits
-from nptcs.errors import InputError
-from nptcs.ingest.read_tables import read_tables
 from nptcs.ingest.reading.columns.names import LOADS, STRAINS
-from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
-from nptcs.ingest.sketch import ChangedCopies, data_sketch
+from nptcs.ingest.sketch import ChangedCopies
 from nptcs.tables.laboratory.curves import IngestRecord
 from nptcs.tables.laboratory.specimens import Specimen
 
 _DIGITS = 9
 _SMALLEST_POWER = -300
 """Of ten; the reciprocal of a smaller one is not a number."""
-_HEADER_LIKE_ROWS = 10
-_NO_TEXT = (b"PK\x03\x04", b"\xd0\xcf\x11\xe0", b"TDSm", b"MATL")
-_NUMBER_BEGINS = re.compile(rb"(?:^|[\r\n])[ \t\"]*[-+.,]?\d")
 
 
 def data_digest(tables: Sequence[RawFile]) -> str:
@@ -109,68 +99,4 @@ def counted_once(specimens: Sequence[Specimen], records: Iterable[IngestRecord])
         if specimen.specimen in again
         else specimen
         for specimen in specimens
-    ]
-
-
-def may_repeat(specimens: Sequence[Specimen], folder: Path) -> list[Specimen]:
-    """Leave out specimens whose force file has another number of rows than every other one's.
-
-    Rows are counted in the bytes; a header may be longer by some lines that look like readings.
-    """
-    counts = {s.specimen: _rows_of_numbers(folder / s.force_file) for s in specimens}
-    ordered = sorted(counts.values())
-    near = {
-        one
-        for low, high in pairwise(ordered)
-        if high - low <= _HEADER_LIKE_ROWS
-        for one in (low, high)
-    }
-    return [s for s in specimens if counts[s.specimen] in near]
-
-
-def _rows_of_numbers(path: Path) -> int:
-    """Count the lines that begin with a number; 0 for a workbook, which is then always read."""
-    try:
-        raw = path.read_bytes()
-    except OSError:
-        return 0
-    if raw[:4] in _NO_TEXT or b"\x00" in raw[:1000]:
-        return 0
-    return len(_NUMBER_BEGINS.findall(raw))
-
-
-def repeats_in_sheet(
-    specimens: Sequence[Specimen],
-    folder: Path,
-    profiles: Mapping[str, FormatProfile],
-    sheet: Path,
-    limits: FileLimits,
-) -> list[InputError]:
-    """Report the included specimens that repeat another's data.
-
-    Only files that may be equal are read. A specimen that cannot be read is passed over: the run
-    reports it.
-    """
-    included = [specimen for specimen in specimens if specimen.include]
-    records = []
-    for specimen in may_repeat(included, folder):
-        try:
-            tables = read_tables(specimen, folder, profiles, limits)
-        except InputError:
-            continue
-        record = IngestRecord(
-            specimen=specimen.specimen,
-            status="ok",
-            data_sha256=data_digest(tables),
-            data_sketch=data_sketch(tables),
-        )
-        records.append(record)
-    return [
-        InputError(
-            f"the same data as specimen {first}",
-            "name the right file, or set include to no; it is not counted twice",
-            sheet,
-            specimen=name,
-        )
-        for name, first in repeated_specimens(specimens, records).items()
     ]

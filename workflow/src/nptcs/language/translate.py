@@ -46,7 +46,7 @@ def current_language() -> Language:
     return _CURRENT.get()
 
 
-def tr(text: str, **values: object) -> str:
+def tr(text: str, /, **values: object) -> str:
     """Write a text in the language of the run.
 
     Parameters
@@ -71,7 +71,7 @@ def tr(text: str, **values: object) -> str:
     return found.format(**values) if values else found
 
 
-def tr_count(one: str, many: str, count: int, **values: object) -> str:
+def tr_count(one: str, many: str, count: int, /, **values: object) -> str:
     """Write a text whose wording depends on a number; both wordings may use ``{count}``.
 
     Examples

@@ -17,6 +17,10 @@ SNAP = 100.0
 """... and so many times even where the strain goes back with it."""
 UNLOADING_ROWS = 4
 """Readings over which strain and force go back together when the machine unloads."""
+SLOW_LOGGER_S = 0.4
+"""Time between readings within which a machine may return: a fall in one step tells nothing."""
+TOO_FEW = "so few readings that a break and a return of the machine look alike"
+"""Words for such a fall."""
 
 
 @dataclass(frozen=True)
@@ -27,7 +31,7 @@ class Failure:
     words: str
 
 
-def judge_failure(force: Array, strain: Array) -> Failure:
+def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> Failure:
     """Judge from the last loading whether the specimen failed.
 
     A failure is a fall of the force by `SMALLEST_DROP` that is abrupt, or that comes while the
@@ -40,9 +44,12 @@ def judge_failure(force: Array, strain: Array) -> Failure:
         Positive in the direction of the test; NaN does not count.
     strain : ndarray, shape (n,)
         Strain or travel in the same direction; NaN where there is none.
+    time_s : ndarray, shape (n,), optional
+        Times of the readings; without them a fall in one step counts as abrupt.
     """
     kept = np.isfinite(force)
     force, strain = force[kept], strain[kept]
+    time_s = None if time_s is None else time_s[kept]
     if len(force) < 3 or not force.max() > 0:
         return Failure(seen=False, words="no load")
     last = loadings(force, strain)[-1]
@@ -59,12 +66,14 @@ def judge_failure(force: Array, strain: Array) -> Failure:
     ratio = float(force[near] - force[low]) / (low - near) / rise
     change, rows = _strain_after(force, strain, near, largest)
     back = change < -0.02 and rows >= UNLOADING_ROWS
-    along = unloads_along(force, strain, near, start)
+    along = unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
     if change > 0.01:
         return Failure(seen=True, words=f"{fell} while the strain grows")
+    if along and rows < UNLOADING_ROWS:
+        return Failure(seen=False, words=f"force and strain go back together in {TOO_FEW}")
     if change < -0.02:
         return Failure(seen=False, words="unloaded: force and strain go back together")
     if np.isfinite(change):
@@ -72,11 +81,16 @@ def judge_failure(force: Array, strain: Array) -> Failure:
     return Failure(seen=False, words=f"{fell}, slowly, and no strain tells whether by unloading")
 
 
-def unloads_along(force: Array, strain: Array, begin: int, start: int = 0) -> bool:
+def unloads_along(
+    force: Array, strain: Array, begin: int, start: int = 0, time_s: Array | None = None
+) -> bool:
     """Whether force and strain go back along the way they came: an unloading, however fast.
 
-    Asks for three readings between 85 and 15 % of the force whose strain is within 15 % of the
-    strain at which the loading had that force; a broken specimen has none such.
+    Every reading between 85 and 15 % of the force must have a strain within 15 % of the one at
+    which the loading had that force: a broken specimen has hardly one such, since it breaks
+    within a reading of most loggers. Where no reading lies between, the fall in one step is a
+    break if the strain stays behind, or the readings follow each other so fast that no machine
+    returns between two of them; else the two cannot be told apart, and it is not a failure seen.
 
     Parameters
     ----------
@@ -86,6 +100,8 @@ def unloads_along(force: Array, strain: Array, begin: int, start: int = 0) -> bo
         Last reading before the fall.
     start : int
         First reading of the loading.
+    time_s : ndarray, shape (n,), optional
+        Times of the readings.
     """
     way = slice(start, begin + 1)
     up = np.isfinite(strain[way])
@@ -98,8 +114,10 @@ def unloads_along(force: Array, strain: Array, begin: int, start: int = 0) -> bo
     rows = np.arange(begin + 1, end)
     inner = (force[rows] < 0.85 * force[begin]) & np.isfinite(strain[rows])
     rows = rows[inner]
-    if len(rows) < 3:
-        return False
+    if not len(rows):
+        if time_s is None or end >= len(force) or not time_s[end] - time_s[begin] > SLOW_LOGGER_S:
+            return False
+        rows = np.array([end])
     expected = np.interp(force[rows], rising, known)
     return bool((np.abs(strain[rows] - expected) <= 0.15 * abs(known[-1] - known[0])).all())
 

@@ -44,6 +44,8 @@ class TableView:
         Rows of the whole table; a long one is not shown whole.
     columns : tuple of str
         Names of the columns in the file.
+    folded : bool
+        Whether it opens on demand.
     """
 
     entry: Entry
@@ -54,6 +56,7 @@ class TableView:
     synthetic: bool = False
     all_rows: int = 0
     columns: tuple[str, ...] = ()
+    folded: bool = False
 
 
 @dataclass(frozen=True)
@@ -83,10 +86,29 @@ class Plot:
 
 @dataclass(frozen=True)
 class Plots:
-    """Figures side by side under one caption."""
+    """Figures side by side under one caption.
+
+    Parameters
+    ----------
+    caption, plots
+        Words below them, and the figures.
+    shown : int, optional
+        How many are in sight; the others open on demand. All by default.
+    """
 
     caption: str
     plots: tuple[Plot, ...]
+    shown: int | None = None
+
+    @property
+    def in_sight(self) -> tuple[Plot, ...]:
+        """The figures that are shown at once."""
+        return self.plots[: self.shown]
+
+    @property
+    def folded(self) -> tuple[Plot, ...]:
+        """The figures that open on demand."""
+        return () if self.shown is None else self.plots[self.shown :]
 
     @property
     def synthetic(self) -> bool:
@@ -96,7 +118,7 @@ class Plots:
     @property
     def css(self) -> str:
         """Two panels per row where three would leave one alone."""
-        return "panels two" if len(self.plots) in (2, 4) else "panels"
+        return "panels two" if len(self.in_sight) in (2, 4) else "panels"
 
 
 ParagraphKind = Literal["", "ok", "bad", "warn", "heading"]

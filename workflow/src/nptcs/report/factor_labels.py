@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from nptcs.config.studies.study import Study
 from nptcs.language import tr
+from nptcs.tables.result_table import Heading
 
 
 @dataclass(frozen=True)
@@ -17,6 +18,16 @@ class FactorLabel:
 
     def __str__(self) -> str:
         return f"{self.label} [{self.unit}]"
+
+
+SYMBOLS = {
+    "spacing_mm": Heading("S", "mm"),
+    "thickness_mm": Heading("T", "mm"),
+    "angle_deg": Heading("A", "°"),
+    "shear_band_c10_mpa": Heading("T-C", "MPa"),
+    "spoke_c10_mpa": Heading("S-C", "MPa"),
+}
+"""The paper's symbols of the five design variables, for places without room for a label."""
 
 
 def factor_labels(study: Study) -> dict[str, FactorLabel]:

@@ -8,6 +8,7 @@ numbers. A flag of another wording stays as the table has it.
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from functools import cache
 
 from nptcs.language import tr, translatable
@@ -59,12 +60,19 @@ def flag_text(flag: str) -> str:
     >>> flag_text("not assessed: no transverse strain")
     'not assessed: no transverse strain'
     """
-    for sentence in SENTENCES:
-        if found := pattern(sentence).fullmatch(flag):
-            values = {name: _value(text) for name, text in found.groupdict().items()}
-            return tr(sentence, **values)
+    if (written := translated(flag, SENTENCES)) is not None:
+        return written
     first, semicolon, rest = flag.partition("; ")
     return f"{flag_text(first)}; {flag_text(rest)}" if semicolon else flag
+
+
+def translated(text: str, sentences: Sequence[str]) -> str | None:
+    """Write a text that was made from one of some sentences; None if it was not."""
+    for sentence in sentences:
+        if found := pattern(sentence).fullmatch(text):
+            values = {name: _value(value) for name, value in found.groupdict().items()}
+            return tr(sentence, **values)
+    return None
 
 
 @cache

@@ -11,6 +11,8 @@ import pandas as pd
 from nptcs.language import tr
 from nptcs.report.blocks import Cell, TableView
 from nptcs.report.flag_words import flag_text
+from nptcs.report.stage_messages import message_text
+from nptcs.report.surface_words import surface_words
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.names import in_words
@@ -44,7 +46,7 @@ PERCENTS = ("difference_percent", "change_percent")
 WORDS = frozenset(
     {"status", "origin", "include", "synthetic", "result", "confirmation", "group", "kind", "test"}
     | {"scope", "reported_statistic", "region", "goal_met", "drucker_stable", "outside_the_box"}
-    | {"failed", "values_used", "model"}
+    | {"failed", "values_used", "model", "beyond_uncertainty", "data"}
 )
 """Columns that hold words of closed sets: the page writes them in its own language."""
 
@@ -58,6 +60,12 @@ UNCERTAIN_BY = {
 
 FLAGS = ("flag", "flags", "not_assessed")
 """Columns that hold flags."""
+
+MESSAGES = ("message", "note", "not_fitted", "reason", "remarks")
+"""Columns that hold messages of stages."""
+
+SURFACE = "surface"
+"""Column that holds names of surfaces."""
 
 WITH_NAMES = frozenset(
     {
@@ -182,6 +190,10 @@ def _word(column: str, value: object) -> object:
         return value
     if column in FLAGS:
         return flag_text(value)
+    if column in MESSAGES:
+        return message_text(value)
+    if column == SURFACE:
+        return surface_words(value)
     return tr(value) if column in WORDS else value
 
 

@@ -68,6 +68,6 @@ def _specimens(sheet: Sequence[Specimen], records: Mapping[str, IngestRecord]) -
     if failed:
         notes.append(tr("{count} could not be read", count=len(failed)))
     text = tr(
-        "{count} of {count_2} specimens used", count=len(included) - len(failed), count_2=len(sheet)
+        "{used} of {total} specimens used", used=len(included) - len(failed), total=len(sheet)
     )
     return f"{text} ({', '.join(notes)})" if notes else text

@@ -5,10 +5,10 @@ The generalised strains of the ring are, in this order,
     v = (e, κs, κf, s', q, γ, s)
 
 stretch e of the middle between the wires, change of the section's curvature κs and of the faces'
-κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ - θ of the core and shift s
-of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j + ⅙ D_ijk v_i
-v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in compression than
-in tension, and above the contact the tread is compressed by three per cent.
+κf, gradient s' of the tread's shear, shear q of the faces, shear γ = ψ + q - θ of the core and
+shift s of the tread's surface. The energy per unit of the middle's length is ½ C_ij v_i v_j +
+⅙ D_ijk v_i v_j v_k: neo-Hookean rubber, C10 (λ² + 1/λ² - 2) in plane strain, is stiffer in
+compression than in tension, and above the contact the tread is compressed by three per cent.
 """
 
 from __future__ import annotations
@@ -21,11 +21,13 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.ring.pressure_waves import FlatRing, RubberLayer, WireSheet, matched_thickening
+from nptcs.ring.rubber import Rubber
 
 STRAINS = 7
 # those that stretch the rubber along the ring
 ALONG = 4
-POINTS = 8
+POINTS, WEIGHTS = np.polynomial.legendre.leggauss(8)
 # of a circular section (Cowper 1966, Poisson's ratio 0.3)
 SHEAR_CORRECTION = 0.886
 
@@ -72,45 +74,6 @@ class RingSection:
         return self.radius_mm + self.half_distance_mm + self.surface_mm
 
 
-@dataclass(frozen=True)
-class Rubber:
-    """A rubber in plane strain, small strains: shear modulus and κ/G.
-
-    Parameters
-    ----------
-    c10_mpa : float
-        Neo-Hooke; the shear modulus is 2 C10.
-    bulk_to_shear_ratio : float
-        κ/2C10; infinite is incompressible.
-    """
-
-    c10_mpa: float
-    bulk_to_shear_ratio: float
-
-    @property
-    def shear_mpa(self) -> float:
-        """Shear modulus G."""
-        return 2.0 * self.c10_mpa
-
-    @property
-    def along_mpa(self) -> float:
-        """Modulus along the ring: 4 G (κ + G/3)/(κ + 4G/3), which is 8 C10 if incompressible."""
-        inverse = 1.0 / self.bulk_to_shear_ratio
-        return 4.0 * self.shear_mpa * (1.0 + inverse / 3.0) / (1.0 + 4.0 * inverse / 3.0)
-
-    @property
-    def contraction(self) -> float:
-        """Thickness lost by a stretch along the ring: (κ - 2G/3)/(κ + 4G/3)."""
-        inverse = 1.0 / self.bulk_to_shear_ratio
-        return (1.0 - 2.0 * inverse / 3.0) / (1.0 + 4.0 * inverse / 3.0)
-
-    @property
-    def through_compliance_per_mpa(self) -> float:
-        """Strain through the thickness by a pressure where nothing moves along: 1/(κ + 4G/3)."""
-        inverse = 1.0 / self.bulk_to_shear_ratio
-        return inverse / (self.shear_mpa * (1.0 + 4.0 * inverse / 3.0))
-
-
 def ring_section(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, row_depth_mm: float
 ) -> RingSection:
@@ -149,6 +112,42 @@ def ring_section(
             f"the tread's surface, {surface:g} mm outside the wires, lies inside the band's cover "
             f"of {cover:g} mm"
         )
+    depths = _Depths(half, row, cover, surface)
+    # the core under a pressure that fades to the inner wires: from its mean to its outer face
+    squeezed = band.through_compliance_per_mpa * (cover + 2.0 / 3.0 * half)
+    squeezed += tread.through_compliance_per_mpa * (surface - cover)
+    flat, _, flat_thickening = _assembled(tyre, band, tread, depths, np.inf)
+    width = tyre.tread_width_mm
+    change = matched_thickening(
+        FlatRing(flat, flat_thickening, squeezed, width),
+        _strip(tyre, band, tread, depths),
+        2.0 * half + surface,
+    )
+    stiffness, hardening, thickening = _assembled(tyre, band, tread, depths, radius)
+    thickening[2] += change
+    return RingSection(
+        radius, half, surface, cover, width, stiffness, hardening, thickening, squeezed
+    )
+
+
+@dataclass(frozen=True)
+class _Depths:
+    """Distances from the wires: half the core, half a row, the band's face and the surface, mm."""
+
+    half: float
+    row: float
+    cover: float
+    surface: float
+
+
+def _assembled(
+    tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
+) -> tuple[Array, Array, Array]:
+    """Give stiffness, hardening and thickening by one shape of the tread's shear.
+
+    An infinite radius is a flat section.
+    """
+    half, row, cover, surface = depths.half, depths.row, depths.cover, depths.surface
     stiffness, hardening = np.zeros((STRAINS, STRAINS)), np.zeros((ALONG, ALONG, ALONG))
     for sign in (-1.0, 1.0):
         _add_wires(stiffness, tyre, radius, sign * half)
@@ -171,11 +170,24 @@ def ring_section(
         shear = width * layer.rubber.shear_mpa
         stiffness[6, 6] += shear * float(np.sum(weight * grow * slope**2))
         thickening -= layer.rubber.contraction * (weight / grow) @ layer.strain(z)[:, 1:]
-    squeezed = band.through_compliance_per_mpa * (cover + 0.75 * half)
-    squeezed += tread.through_compliance_per_mpa * (surface - cover)
-    return RingSection(
-        radius, half, surface, cover, width, stiffness, hardening, thickening, squeezed
-    )
+    return stiffness, hardening, thickening
+
+
+def _strip(
+    tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths
+) -> list[RubberLayer | WireSheet]:
+    """List the layers of the flat section, from the inside to the outside."""
+    stretch = _wire_area_mm2(tyre) * tyre.wire_modulus_mpa / tyre.tread_width_mm
+    wires = WireSheet(stretch, stretch * tyre.wire_diameter_mm**2 / 16.0, 2.0 * depths.row)
+    cover = RubberLayer(band, depths.cover - depths.row)
+    return [
+        cover,
+        wires,
+        RubberLayer(band, 2.0 * (depths.half - depths.row)),
+        wires,
+        cover,
+        RubberLayer(tread, depths.surface - depths.cover),
+    ]
 
 
 @dataclass(frozen=True)
@@ -189,9 +201,8 @@ class _Layer:
 
     def rule(self) -> tuple[Array, Array]:
         """Points z and weights across the layer."""
-        points, weights = np.polynomial.legendre.leggauss(POINTS)
         low, high = self.limits
-        return 0.5 * (low + high) + 0.5 * (high - low) * points, 0.5 * (high - low) * weights
+        return 0.5 * (low + high) + 0.5 * (high - low) * POINTS, 0.5 * (high - low) * WEIGHTS
 
     def add(self, stiffness: Array, hardening: Array, radius: float, width: float) -> None:
         """Add ½ E b ∫ (ε² - ε³) J dz."""
@@ -227,11 +238,16 @@ def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float)
 
     Their transverse shear stiffness holds the faces square to them.
     """
-    area = np.pi / 4.0 * tyre.wire_diameter_mm**2
-    area *= tyre.tread_width_mm / tyre.wire_pitch_mm * tyre.wire_layers / 2.0
+    area = _wire_area_mm2(tyre)
     z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm
     strain = _face(face, z)
     scaled = 0.5 * area * tyre.wire_modulus_mpa / (1.0 + (face + z) / radius)
     stiffness[:ALONG, :ALONG] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
     shear = SHEAR_CORRECTION * tyre.wire_modulus_mpa / 2.0 / (1.0 + tyre.wire_poisson_ratio)
     stiffness[4, 4] += shear * area
+
+
+def _wire_area_mm2(tyre: TyreGeometry) -> float:
+    """Area of all wires on one side of the core."""
+    one = np.pi / 4.0 * tyre.wire_diameter_mm**2
+    return float(one * tyre.tread_width_mm / tyre.wire_pitch_mm * tyre.wire_layers / 2.0)

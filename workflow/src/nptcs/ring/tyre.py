@@ -17,7 +17,8 @@ from nptcs.ring.kernel.compiled import HAS_NUMBA, Kernel
 from nptcs.ring.kernel.spokes import SpokePolynomial
 from nptcs.ring.kernel.system import Ring
 from nptcs.ring.nodes import RingNodes, ring_nodes
-from nptcs.ring.section import RingSection, Rubber, ring_section
+from nptcs.ring.rubber import Rubber
+from nptcs.ring.section import RingSection, ring_section
 
 HEIGHT_TOLERANCE = 0.005
 

@@ -13,6 +13,7 @@ import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 
+from nptcs.language import tr
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, part_table, presence
 from nptcs.tables.catalogue import result_files
@@ -45,9 +46,12 @@ def compare_tables(a: FinishedRun, b: FinishedRun, within: float) -> Part:
     ]
     return Part(
         "all_tables",
-        "Every table",
-        "Largest |B − A| / max(|A|, |B|) of any number; columns in which a number is missing in "
-        f"only one of the runs are named. Not compared: {', '.join(OF_THE_RUN)}.",
+        tr("Every table"),
+        tr(
+            "Largest |B − A| / max(|A|, |B|) of any number; columns in which a number is missing "
+            "in only one of the runs are named. Not compared: {columns}.",
+            columns=", ".join(OF_THE_RUN),
+        ),
         part_table(rows, COLUMNS),
         headings=dict(HEADINGS),
     )
@@ -110,14 +114,14 @@ def _aligned(
             return (first.loc[both], second.loc[both]), alone, ""
     if len(one) == len(two):
         rows = one.reset_index(drop=True), two.reset_index(drop=True)
-        return rows, (0, 0), "rows matched by their order"
+        return rows, (0, 0), tr("rows matched by their order")
     for count in range(1, len(one.columns) + 1):
         leading = [str(name) for name in one.columns[:count]]
         first, second = (_indexed(table, leading) for table in (one, two))
         if first.index.is_unique and second.index.is_unique:
             pair, alone, _ = _aligned(one, two, leading)
-            return pair, alone, f"rows matched by {', '.join(leading)}"
-    return None, (0, 0), "equal rows cannot be told apart, and their counts differ"
+            return pair, alone, tr("rows matched by {columns}", columns=", ".join(leading))
+    return None, (0, 0), tr("equal rows cannot be told apart, and their counts differ")
 
 
 def _indexed(table: pd.DataFrame, keys: list[str]) -> pd.DataFrame:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+from nptcs.language import tr, tr_count
 from nptcs.runs.all_tables import compare_tables
 from nptcs.runs.constants import K, beyond, compare_constants
 from nptcs.runs.decisions import compare_decisions
@@ -16,6 +17,9 @@ from nptcs.runs.stiffness import SUMMARY, compare_stiffness, stiffness_summary
 
 WITHIN = 1e-9
 """Relative difference up to which numbers are the same."""
+
+NAMED = 6
+"""Input files that a sentence names."""
 
 
 @dataclass(frozen=True)
@@ -56,15 +60,15 @@ class ComparedRuns:
     def verdict(self) -> str:
         """Say in one sentence whether the runs differ, and in what."""
         if self.same:
-            return "No difference between the two runs."
+            return tr("No difference between the two runs.")
         changed = [
             part.title[0].lower() + part.title[1:]
             for part in self.parts
             if part.name != SUMMARY and not part.differences.empty
         ]
         if not changed:
-            return "No difference was found, but not everything could be compared."
-        return f"The runs differ in: {'; '.join(changed)}."
+            return tr("No difference was found, but not everything could be compared.")
+        return tr("The runs differ in: {parts}.", parts="; ".join(changed))
 
     def sentences(self) -> tuple[str, ...]:
         """Say the most important differences in words."""
@@ -73,50 +77,87 @@ class ComparedRuns:
     def _inputs(self) -> str:
         part = self.part("inputs")
         if part.differences.empty:
-            return "All known input files are the same."
+            return tr("All known input files are the same.")
         both = part.table[RESULT] == Found.DIFFERENT
         changed = part.table.loc[both, "file"].tolist()
         alone = len(part.differences) - len(changed)
-        shown = ", ".join(changed[:6]) + (f" and {len(changed) - 6} more" * (len(changed) > 6))
-        words = [f"{len(changed)} of {len(part.table)} input files have other content: {shown}"]
-        words = words if changed else []
-        return "; ".join([*words, *([f"{alone} files are in one run only"] if alone else [])]) + "."
+        said = []
+        if changed:
+            shown = ", ".join(changed[:NAMED])
+            if more := len(changed) - NAMED if len(changed) > NAMED else 0:
+                shown = tr("{names} and {count} more", names=shown, count=more)
+            said.append(
+                tr_count(
+                    "{count} of {total} input files has other content: {names}.",
+                    "{count} of {total} input files have other content: {names}.",
+                    len(changed),
+                    total=len(part.table),
+                    names=shown,
+                )
+            )
+        if alone:
+            said.append(
+                tr_count(
+                    "{count} input file is in one run only.",
+                    "{count} input files are in one run only.",
+                    alone,
+                )
+            )
+        return " ".join(said)
 
     def _constants(self) -> str:
         part = self.part("constants")
         far = beyond(part)
         changed = len(part.differences)
         if not changed:
-            return f"All {len(part.table)} material constants are the same."
+            return tr("All {count} material constants are the same.", count=len(part.table))
         named = ", ".join(
-            f"{row.constant} of {row.material} by {row.difference_percent:+.2f} % "
-            f"({row.difference_over_error:.1f} times the combined standard error)"
+            tr(
+                "{constant} of {material} by {percent} % ({times} times the combined standard "
+                "error)",
+                constant=row.constant,
+                material=row.material,
+                percent=f"{row.difference_percent:+.2f}",
+                times=f"{row.difference_over_error:.1f}",
+            )
             for row in far.itertuples()
         )
-        return (
-            f"{changed} of {len(part.table)} material constants differ; beyond {self.k:g} times "
-            f"their combined standard error: {named or 'none'}."
+        return tr_count(
+            "{count} of {total} material constants differs; beyond {k} times their combined "
+            "standard error: {named}.",
+            "{count} of {total} material constants differ; beyond {k} times their combined "
+            "standard error: {named}.",
+            changed,
+            total=len(part.table),
+            k=f"{self.k:g}",
+            named=named or tr("none"),
         )
 
     def _stiffness(self) -> str:
         summary = self.part(SUMMARY)
         changed = summary.differences.dropna(subset=["largest_percent"])
         if changed.empty:
-            return "" if len(summary.differences) else "The stiffness of every case is the same."
+            return (
+                "" if len(summary.differences) else tr("The stiffness of every case is the same.")
+            )
         worst = changed.iloc[int(changed["largest_percent"].abs().to_numpy(float).argmax())]
         cases = self.part("stiffness").table
         number = int((cases[RESULT] == Found.DIFFERENT).sum())
-        return (
-            f"The stiffness of {number} of {len(cases)} cases differs, most in case "
-            f"{worst['largest_case']} by solver {worst['solver']}: {worst['largest_percent']:+.2f} "
-            "%."
+        return tr(
+            "The stiffness of {count} of {total} cases differs, most in case {case} by solver "
+            "{solver}: {percent} %.",
+            count=number,
+            total=len(cases),
+            case=worst["largest_case"],
+            solver=worst["solver"],
+            percent=f"{worst['largest_percent']:+.2f}",
         )
 
 
 def compare_runs(
     a: FinishedRun, b: FinishedRun, k: float = K, within: float = WITHIN
 ) -> ComparedRuns:
-    """Compare two finished runs.
+    """Compare two finished runs, in words of the current language (`nptcs.language`).
 
     Parameters
     ----------

@@ -13,12 +13,14 @@ from math import hypot
 
 import pandas as pd
 
+from nptcs.language import tr, translatable
 from nptcs.runs.content import FILES
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, compared, part_table, percent, presence
 from nptcs.tables.laboratory.material_card import PlyCard, Quantity, RubberCard
 from nptcs.tables.result_table import Heading
 
+NOT_ASSESSED = translatable("not assessed")
 K = 2.0
 """Coverage factor: about 95 % for a normal distribution."""
 
@@ -69,10 +71,13 @@ def compare_constants(a: FinishedRun, b: FinishedRun, k: float, within: float) -
             rows.append({"material": name, "constant": constant, **_row(*pair, k, within, files)})
     return Part(
         "constants",
-        "Material constants",
-        f"Beyond uncertainty: |B − A| is more than k = {k:g} times the combined standard error "
-        "√(s_A² + s_B²); not assessed without both standard errors, and where both runs rest on "
-        "the same files, whose scatter explains no difference.",
+        tr("Material constants"),
+        tr(
+            "Beyond uncertainty: |B − A| is more than k = {k} times the combined standard error "
+            "√(s_A² + s_B²); not assessed without both standard errors, and where both runs rest "
+            "on the same files, whose scatter explains no difference.",
+            k=f"{k:g}",
+        ),
         part_table(rows, COLUMNS),
         headings=dict(HEADINGS),
     )
@@ -98,7 +103,7 @@ def _row(
         row[RESULT] = presence(one is not None, two is not None)
         return row
     if one.unit != two.unit:
-        row["note"] = f"the unit is {one.unit} in A and {two.unit} in B"
+        row["note"] = tr("the unit is {a} in A and {b} in B", a=one.unit, b=two.unit)
         row[RESULT] = Found.NOT_COMPARED
         return row
     data = _data(one, two, files)
@@ -107,7 +112,7 @@ def _row(
     row[RESULT] = compared(one.value, two.value, within)
     if row[RESULT] is Found.SAME and one.standard_error != two.standard_error:
         row[RESULT] = Found.DIFFERENT
-        row["note"] = "; ".join([*_notes(one, two), "the standard error differs"])
+        row["note"] = "; ".join([*_notes(one, two), tr("the standard error differs")])
     return row
 
 
@@ -116,7 +121,7 @@ def _difference(one: Quantity, two: Quantity, k: float, data: str) -> dict[str, 
     found: dict[str, object] = {
         "difference": difference,
         "difference_percent": percent(one.value, two.value),
-        "beyond_uncertainty": "not assessed",
+        "beyond_uncertainty": NOT_ASSESSED,
     }
     errors = one.standard_error, two.standard_error
     if errors[0] is None or errors[1] is None:
@@ -130,10 +135,10 @@ def _difference(one: Quantity, two: Quantity, k: float, data: str) -> dict[str, 
     return found
 
 
-SAME_FILES = "same files"
-SOME_FILES = "some files the same"
-OTHER_FILES = "other files"
-NO_FILES = "no files"
+SAME_FILES = translatable("same files")
+SOME_FILES = translatable("some files the same")
+OTHER_FILES = translatable("other files")
+NO_FILES = translatable("no files")
 
 
 def _data(
@@ -168,14 +173,14 @@ def _files_of_specimens(run: FinishedRun) -> dict[str, frozenset[str]]:
 def _notes(one: Quantity, two: Quantity) -> Iterator[str]:
     """Say what else differs of a constant."""
     if one.origin != two.origin:
-        yield f"{one.origin} in A, {two.origin} in B"
+        yield tr("{a} in A, {b} in B", a=tr(one.origin), b=tr(two.origin))
     if one.rule != two.rule:
-        yield "the rule differs"
+        yield tr("the rule differs")
     lost, new = set(one.specimens) - set(two.specimens), set(two.specimens) - set(one.specimens)
     if lost:
-        yield f"specimens only in A: {', '.join(sorted(lost))}"
+        yield tr("specimens only in A: {names}", names=", ".join(sorted(lost)))
     if new:
-        yield f"specimens only in B: {', '.join(sorted(new))}"
+        yield tr("specimens only in B: {names}", names=", ".join(sorted(new)))
 
 
 def _units(one: Quantity | None, two: Quantity | None) -> str:

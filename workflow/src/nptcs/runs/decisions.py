@@ -6,6 +6,7 @@ from typing import Any
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, compared, part_table, presence
 
@@ -22,7 +23,7 @@ def compare_decisions(a: FinishedRun, b: FinishedRun, within: float) -> Part:
     for letter, run in (("A", a), ("B", b)):
         table = run.table(FILE)
         if table is None:
-            remarks.append(f"run {letter} has no {FILE}")
+            remarks.append(tr("run {run} has no {file}", run=letter, file=FILE))
         records = [] if table is None else table.to_dict("records")
         sides.append(
             {str(r["decision"]): {str(key): value for key, value in r.items()} for r in records}
@@ -36,8 +37,8 @@ def compare_decisions(a: FinishedRun, b: FinishedRun, within: float) -> Part:
             rows.append({**row, RESULT: found or _found(one.get(what), two.get(what), within)})
     return Part(
         "decisions",
-        "Decisions",
-        "What was asked and what came out.",
+        tr("Decisions"),
+        tr("What was asked and what came out."),
         part_table(rows, COLUMNS),
         tuple(remarks),
     )

@@ -6,13 +6,14 @@ import json
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any
+from typing import Any, get_args
 
 import pandas as pd
 from pandas.errors import EmptyDataError, ParserError
 
 from nptcs.errors import InputError
 from nptcs.files import read_model, sha256_of_file
+from nptcs.language import ENGLISH, Language, tr, translatable
 from nptcs.runs.content import CARD, FILES, laboratory_files
 from nptcs.runs.identity import RunIdentity, hash_of_table
 from nptcs.tables.catalogue import result_files
@@ -21,7 +22,9 @@ from nptcs.yaml_files import read_yaml
 
 IDENTITY = "identity.json"
 CONFIGURATION = "configuration.yaml"
-NO_SOFTWARE = "there is no record of its software, which older versions of nptcs did not keep"
+NO_SOFTWARE = translatable(
+    "there is no record of its software, which older versions of nptcs did not keep"
+)
 
 
 @dataclass(frozen=True)
@@ -58,6 +61,12 @@ class FinishedRun:
         """The studies of the configuration by name."""
         return {str(one["name"]): one for one in self.configuration.get("studies", [])}
 
+    @property
+    def language(self) -> Language:
+        """Language of the run's own report; English where the run names none that is known."""
+        named = (self.configuration.get("laboratory") or {}).get("language")
+        return next((one for one in get_args(Language) if one == named), ENGLISH)
+
     def table(self, file: str) -> pd.DataFrame | None:
         """Return a table by its file name; None if the run has none of this name."""
         return self.tables.get(file)
@@ -65,8 +74,16 @@ class FinishedRun:
     def what(self) -> str:
         """Say in a few words which run this is."""
         if self.identity is None:
-            return f"{self.name}: a run without identity, as older versions of nptcs leave it"
-        return f"{self.name}: run {self.identity.short}, {self.identity.made_text}"
+            return tr(
+                "{name}: a run without identity, as older versions of nptcs leave it",
+                name=self.name,
+            )
+        return tr(
+            "{name}: run {identity}, {date}",
+            name=self.name,
+            identity=self.identity.short,
+            date=self.identity.made_text,
+        )
 
 
 def read_run(folder: Path, name: str, software: Mapping[str, str] | None = None) -> FinishedRun:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from nptcs.language import tr
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, part_table, presence
 
@@ -17,11 +18,14 @@ def compare_inputs(a: FinishedRun, b: FinishedRun) -> Part:
         rows.append({"file": file, "sha256_a": one or "", "sha256_b": two or "", RESULT: found})
     return Part(
         "inputs",
-        "Input files",
-        "Files of the laboratory and files that the configuration names, by their SHA-256.",
+        tr("Input files"),
+        tr("Files of the laboratory and files that the configuration names, by their SHA-256."),
         part_table(rows, ["file", "sha256_a", "sha256_b"]),
         tuple(
-            f"run {letter} has no identity: only the inputs that its folder still holds are known"
+            tr(
+                "run {run} has no identity: only the inputs that its folder still holds are known",
+                run=letter,
+            )
             for letter, run in (("A", a), ("B", b))
             if run.identity is None
         ),

@@ -5,11 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from enum import StrEnum
-from typing import Any
+from typing import Any, assert_never
 
 import numpy as np
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.tables.result_table import Heading
 
 RESULT = "result"
@@ -66,10 +67,33 @@ class Part:
     def headline(self) -> str:
         """Say in a few words what was found."""
         if self.table.empty:
-            return "nothing to compare"
+            return tr("nothing to compare")
         counts = self.table[RESULT].value_counts()
-        words = [f"{counts[one]} {one}" for one in Found if one in counts.index]
+        words = [counted(one, int(counts[one])) for one in Found if one in counts.index]
         return ", ".join(words)
+
+
+def counted(found: Found, count: int) -> str:
+    """Say how often something was found.
+
+    Examples
+    --------
+    >>> counted(Found.ONLY_A, 3)
+    '3 only in A'
+    """
+    match found:
+        case Found.SAME:
+            return tr("{count} same", count=count)
+        case Found.DIFFERENT:
+            return tr("{count} different", count=count)
+        case Found.ONLY_A:
+            return tr("{count} only in A", count=count)
+        case Found.ONLY_B:
+            return tr("{count} only in B", count=count)
+        case Found.NOT_COMPARED:
+            return tr("{count} not comparable", count=count)
+        case _:
+            assert_never(found)
 
 
 def presence(in_a: bool, in_b: bool) -> Found | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from nptcs.language import tr
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, as_number, compared, part_table, percent, presence
 from nptcs.tables.result_table import Heading
@@ -29,11 +30,18 @@ def compare_ranking(a: FinishedRun, b: FinishedRun, within: float) -> Part:
     for letter, run in (("A", a), ("B", b)):
         table = run.table(FILE)
         if table is None:
-            remarks.append(f"run {letter} has no {FILE}")
+            remarks.append(tr("run {run} has no {file}", run=letter, file=FILE))
         else:
             missing = [name for name in (*KEY, "impact", "rank", "unit") if name not in table]
             if missing:
-                remarks.append(f"{FILE} of run {letter} has no column {', '.join(missing)}")
+                remarks.append(
+                    tr(
+                        "{file} of run {run} has no column {columns}",
+                        file=FILE,
+                        run=letter,
+                        columns=", ".join(missing),
+                    )
+                )
                 table = None
         records = [] if table is None else table.to_dict("records")
         found[letter] = {
@@ -50,9 +58,11 @@ def compare_ranking(a: FinishedRun, b: FinishedRun, within: float) -> Part:
     ]
     return Part(
         "ranking",
-        "Ranking of the factors by impact",
-        "Impact: mean |slope| × range of the surface that predicts left-out cases best; 1 is the "
-        "first rank. Factors in a near tie have no settled order.",
+        tr("Ranking of the factors by impact"),
+        tr(
+            "Impact: mean |slope| × range of the surface that predicts left-out cases best; 1 is "
+            "the first rank. Factors in a near tie have no settled order."
+        ),
         part_table(rows, COLUMNS),
         tuple(remarks),
         dict(HEADINGS),
@@ -67,17 +77,18 @@ def _row(one: Any, two: Any, within: float) -> dict[str, object]:
     if one is None or two is None:
         return {**row, RESULT: presence(one is not None, two is not None)}
     if one["unit"] != two["unit"]:
-        row["note"] = f"the unit is {one['unit']} in A and {two['unit']} in B"
+        row["note"] = tr("the unit is {a} in A and {b} in B", a=one["unit"], b=two["unit"])
         return {**row, RESULT: Found.NOT_COMPARED}
     notes = []
     if one["rank"] != two["rank"]:
-        notes.append("the rank changed")
+        notes.append(tr("the rank changed"))
     if one.get("surface") != two.get("surface"):
-        notes.append(f"surface in A: {one.get('surface')}, in B: {two.get('surface')}")
+        surfaces = {"a": one.get("surface"), "b": two.get("surface")}
+        notes.append(tr("surface in A: {a}, in B: {b}", **surfaces))
     ties = {side.get("near_tie_with") for side in (one, two)}
     named = sorted(str(tie) for tie in ties if isinstance(tie, str) and tie)
     if named:
-        notes.append(f"near tie with {'; '.join(named)}")
+        notes.append(tr("near tie with {factors}", factors="; ".join(named)))
     impact = as_number(one["impact"]), as_number(two["impact"])
     result = compared(*impact, within)
     if one["rank"] != two["rank"]:

@@ -6,6 +6,7 @@ import json
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from nptcs.language import tr
 from nptcs.runs.finished import NO_SOFTWARE, FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, part_table, presence
 
@@ -15,8 +16,8 @@ def compare_configuration(a: FinishedRun, b: FinishedRun) -> Part:
     one, two = dict(flattened(a.configuration)), dict(flattened(b.configuration))
     return Part(
         "configuration",
-        "Configuration",
-        "The whole configuration with all defaults, key by key; a list of named things by name.",
+        tr("Configuration"),
+        tr("The whole configuration with all defaults, key by key; lists of named things by name."),
         part_table(_rows("key", one, two), ["key", "a", "b"]),
     )
 
@@ -28,15 +29,17 @@ def compare_software(a: FinishedRun, b: FinishedRun) -> Part:
     for letter, run in (("A", a), ("B", b)):
         versions = dict(run.software)
         if run.identity is not None:
-            versions["code that made the tables"] = run.identity.code
+            versions[tr("code that made the tables")] = run.identity.code
         if not versions:
-            remarks.append(f"run {letter}: {NO_SOFTWARE}")
+            remarks.append(tr("run {run}: {why}", run=letter, why=tr(NO_SOFTWARE)))
         sides.append(versions)
     return Part(
         "software",
-        "Software",
-        "Versions when the tables were complete; the code is a hash of what it does, without "
-        "comments and messages.",
+        tr("Software"),
+        tr(
+            "Versions when the tables were complete; the code is a hash of what it does, without "
+            "comments and messages."
+        ),
         part_table(_rows("software", *sides), ["software", "a", "b"]),
         tuple(remarks),
     )

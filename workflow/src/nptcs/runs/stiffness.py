@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, as_number, compared, part_table, percent, presence
 from nptcs.tables.result_table import Heading
@@ -70,16 +71,22 @@ def compare_stiffness(a: FinishedRun, b: FinishedRun, within: float) -> Part:
         by_id = _same_definition(one, two)
         if one and two and not by_id:
             remarks.append(
-                f"study {study} defines its cases otherwise in B: they are matched by the values "
-                f"of {', '.join(factors)}"
+                tr(
+                    "study {study} defines its cases in another way in B: they are matched by the "
+                    "values of {factors}",
+                    study=study,
+                    factors=", ".join(factors),
+                )
             )
         matched = _matched(_cases(a, study), _cases(b, study), factors, by_id)
         rows += [_row(study, *pair, factors, within) for pair in matched]
     return Part(
         "stiffness",
-        "Vertical stiffness, case by case",
-        "Secant stiffness at the load of the study; a case without a result in only one of the "
-        "runs is different.",
+        tr("Vertical stiffness, case by case"),
+        tr(
+            "Secant stiffness at the load of the study; a case without a result in only one of "
+            "the runs is different."
+        ),
         part_table(rows, COLUMNS),
         tuple(remarks),
         dict(HEADINGS),
@@ -120,8 +127,8 @@ def stiffness_summary(part: Part) -> Part:
         )
     return Part(
         SUMMARY,
-        "Vertical stiffness by study and solver",
-        "Means over the cases that have a stiffness in both runs, B − A in percent of A.",
+        tr("Vertical stiffness by study and solver"),
+        tr("Means over the cases that have a stiffness in both runs, B − A in percent of A."),
         part_table(rows, SUMMARY_COLUMNS),
     )
 
@@ -208,7 +215,9 @@ def _row(
     if one and two:
         loads = as_number(one.get("load_n")), as_number(two.get("load_n"))
         if loads[0] != loads[1] and not np.isnan(loads).all():
-            row["note"] = f"solved at {loads[0]:g} N in A and {loads[1]:g} N in B"
+            row["note"] = tr(
+                "solved at {a} N in A and {b} N in B", a=f"{loads[0]:g}", b=f"{loads[1]:g}"
+            )
             return {**row, RESULT: Found.NOT_COMPARED}
         row["difference_n_per_mm"] = k_b - k_a
         row["difference_percent"] = percent(k_a, k_b)

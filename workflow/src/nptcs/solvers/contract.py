@@ -245,6 +245,8 @@ class Solver:
         raise: the campaign then divides the table until it has found the cases at fault.
     table_cases : int
         Most cases that the table function is given at once; the time limit is that of all of them.
+    preload : tuple of str, optional
+        Modules that a case takes long to import; the process that all cases branch from has them.
     table_case_s : float, optional
         Wall time that a case of a table usually takes; without it that of a single case.
     """
@@ -262,6 +264,7 @@ class Solver:
     solve_table: Callable[[TableInputs], pd.DataFrame] | None = None
     table_cases: int = 5000
     table_case_s: float | None = None
+    preload: tuple[str, ...] = ()
 
     def missing_responses(self, result: SolverResult) -> list[str]:
         """Name the responses that a result with status ``ok`` must have and lacks."""

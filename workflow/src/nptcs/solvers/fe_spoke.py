@@ -65,4 +65,5 @@ SOLVER = Solver(
     needs_ply=True,
     loads_tyre=False,
     realise=realised_spacing,
+    preload=("nptcs.fe.elements.preloaded",),
 )

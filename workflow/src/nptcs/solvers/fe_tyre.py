@@ -81,7 +81,9 @@ def solve(inputs: CaseInputs) -> SolverResult:
         return SolverResult(status=Status.DIVERGED, message=f"spoke: {error}")
     except TyreError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.path))
-    path, notes = state.path, _wrinkles(tyre, state, inputs.tyre.wire_diameter_mm)
+    path = state.path
+    notes = options.geometry.axial_notes(options.axial)
+    notes += _wrinkles(tyre, state, inputs.tyre.wire_diameter_mm)
     if options.curve_to_mm is not None:
         target = options.curve_to_mm
         path, reason = path_to_displacement(tyre, options, inputs.load_n, path, target)
@@ -161,4 +163,5 @@ SOLVER = Solver(
     options=FeTyreOptions,
     needs_ply=True,
     realise=realised_spacing,
+    preload=("nptcs.fe.elements.preloaded",),
 )

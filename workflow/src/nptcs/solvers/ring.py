@@ -90,9 +90,10 @@ def solve(inputs: CaseInputs) -> SolverResult:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
     plates, rubber, note = _inside(options, design, table, tyre.spoke_motion(last.u))
+    notes = [*options.geometry.axial_notes(options.axial), *([note] if note else [])]
     return SolverResult(
         status=Status.OK,
-        message=note,
+        message="; ".join(notes),
         vertical_stiffness_n_per_mm=inputs.load_n / last.rise_mm,
         displacement_mm=last.rise_mm,
         extra={
@@ -135,7 +136,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="2",
+    version="3",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,

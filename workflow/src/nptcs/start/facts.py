@@ -113,29 +113,38 @@ def known_facts(
     find : callable
         Finds them; it raises `InputError` where a run must not begin.
     """
-    key = key_of(given, inputs)
+    key, code_key = keys_of(given, inputs)
     facts = _read(file, key)
+    new = facts is None
     if facts is None:
         facts = find()
+        facts.code = _read_code(file, code_key)
     hashes = len(facts.code)
-    new = _read(file, key) is None
 
     def keep() -> None:
         if new or len(facts.code) > hashes:
             with suppress(OSError):
-                content = {"key": key, "facts": asdict(facts)}
+                content = {"key": key, "code_key": code_key, "facts": asdict(facts)}
                 write_sealed(file, json.loads(json.dumps(content)), KIND)
 
     atexit.register(keep)
     return facts
 
 
-def key_of(given: Mapping[str, Any], inputs: Sequence[str | Path]) -> str:
-    """Hash everything that facts rest on: values, files, this package, the version of Python."""
-    digest = hashlib.sha256(json.dumps([sys.version, given], sort_keys=True, default=str).encode())
+def keys_of(given: Mapping[str, Any], inputs: Sequence[str | Path]) -> tuple[str, str]:
+    """Hash everything that facts rest on, and what hashes of code rest on.
+
+    Facts rest on the values, the files, this package and the version of Python; hashes of code on
+    the Python files among them and on that version, so that another configuration leaves them.
+    """
     read = contents([*map(str, inputs), *map(str, PACKAGE.rglob("*.py"))])
-    digest.update(json.dumps(read, sort_keys=True).encode())
-    return digest.hexdigest()
+    code = {file: content for file, content in read.items() if file.endswith(".py")}
+    return _hash([sys.version, given, read]), _hash([sys.version, code])
+
+
+def _hash(content: Sequence[Any]) -> str:
+    text = json.dumps(content, sort_keys=True, default=str)
+    return hashlib.sha256(text.encode()).hexdigest()
 
 
 def contents(paths: Iterable[str]) -> dict[str, str]:
@@ -163,3 +172,12 @@ def _read(file: str | Path, key: str) -> Facts | None:
         return found if contents(found.files) == found.files else None
     except (OSError, InputError, KeyError, TypeError):
         return None
+
+
+def _read_code(file: str | Path, code_key: str) -> dict[str, str]:
+    """Read hashes of code that other facts were kept with, if the code is the same."""
+    try:
+        content = read_sealed(file, KIND)
+        return dict(content["facts"]["code"]) if content["code_key"] == code_key else {}
+    except (OSError, InputError, KeyError, TypeError):
+        return {}

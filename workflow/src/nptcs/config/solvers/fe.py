@@ -15,6 +15,10 @@ RingKind = Literal["converged", "paper_mesh"]
 AxialFreedom = Literal["free_edges", "plane_strain"]
 
 
+# fields of a section that say what it was calibrated with, and are no dimensions
+CALIBRATION = frozenset({"calibrated_with", "calibrated_axial"})
+
+
 class SpokeGeometry(Strict):
     """The '<' spoke's section, symmetric about its mid-height; lengths along the radius.
 
@@ -49,6 +53,11 @@ class SpokeGeometry(Strict):
         "fe-calibrate` prints it: no other ring takes it; null for a section that was drawn or "
         "measured",
     )
+    calibrated_axial: AxialFreedom | None = Field(
+        None,
+        description="Axial freedom (`axial`) of the tyres that the section was calibrated with, as "
+        "`nptcs fe-calibrate` prints it: cases solved with another one say so",
+    )
 
     @model_validator(mode="after")
     def _breaks_in_order(self) -> Self:
@@ -68,6 +77,19 @@ class SpokeGeometry(Strict):
         if self.plate_layer_mm >= thinnest:
             raise ValueError("plate_layer_mm must be thinner than leg, block and foot")
         return self
+
+    def as_drawn(self) -> Self:
+        """Return the same section without the ring and the option of its calibration."""
+        return self.model_copy(update=dict.fromkeys(CALIBRATION))
+
+    def axial_notes(self, axial: AxialFreedom) -> list[str]:
+        """Say if the section was calibrated with tyres of another axial freedom than this one."""
+        if self.calibrated_axial in (None, axial):
+            return []
+        return [
+            f"the spoke's section was calibrated with `axial: {self.calibrated_axial}` and makes "
+            f"up for the stiffness of that option; this tyre has `axial: {axial}`"
+        ]
 
     def section(self) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """Return the heights of the lower leg's breaks and its thickness there, mm."""
@@ -249,7 +271,7 @@ class GroundContact(Strict):
 
 
 SECTIONS: Mapping[RingKind, SpokeGeometry] = {
-    "paper_mesh": SpokeGeometry(calibrated_with="paper_mesh"),
+    "paper_mesh": SpokeGeometry(calibrated_with="paper_mesh", calibrated_axial="free_edges"),
     "converged": SpokeGeometry(
         leg_angle_deg=29.502,
         leg_thickness_mm=2.547,
@@ -261,6 +283,7 @@ SECTIONS: Mapping[RingKind, SpokeGeometry] = {
         plate_foot_gap_mm=4.861,
         plate_mid_gap_mm=5.5,
         calibrated_with="converged",
+        calibrated_axial="free_edges",
     ),
 }
 """Sections that `nptcs fe-calibrate` has found with each ring."""
@@ -299,17 +322,13 @@ class FeSpokeModel(Strict):
         given = values.get("geometry", {})
         if section is None or not isinstance(given, Mapping):
             return values
-        kept = section.model_dump(exclude=set() if not given else {"calibrated_with"})
+        kept = section.model_dump(exclude=set(CALIBRATION) if given else None)
         return {**values, "geometry": {**kept, **given}}
 
     @model_validator(mode="after")
     def _section_fits_the_ring(self) -> Self:
-        dimensions = self.geometry.model_dump(exclude={"calibrated_with"})
-        same = [
-            ring
-            for ring, section in SECTIONS.items()
-            if section.model_dump(exclude={"calibrated_with"}) == dimensions
-        ]
+        drawn = self.geometry.as_drawn()
+        same = [ring for ring, section in SECTIONS.items() if section.as_drawn() == drawn]
         found = self.geometry.calibrated_with
         if found is None and same and self.ring not in same:
             found = same[0]

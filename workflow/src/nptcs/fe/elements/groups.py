@@ -1,12 +1,7 @@
 """Groups of elements of the same kind: energy, forces and tangents of all of them at once.
 
 Total Lagrangian, in terms of the deformation gradient F and the first Piola–Kirchhoff stress P.
-Bodies of two dimensions are in plane strain (F33 = 1). The element tangent is
-
-    K_aibj = Σ_points ∂N_a/∂X_J  A_iJjL  ∂N_b/∂X_L dV,    A = ∂P/∂F,
-
-for plates one product of a constant matrix of gradients with a moduli-weighted one for each
-element; for rubber, whose A is made of few products, products of gradients with F and F⁻ᵀ.
+Bodies of two dimensions are in plane strain (F33 = 1). The loops over elements are in `compiled`.
 """
 
 from __future__ import annotations
@@ -17,25 +12,7 @@ from typing import Protocol
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.fe.elements.kinematics import (
-    COLUMNS,
-    ROWS,
-    VOIGT,
-    add_crossed,
-    add_isotropic,
-    deformation_by_node,
-    displacement_gradient,
-    gradient_products,
-    gradients_by_node,
-    green_strain,
-    internal_force,
-    moduli_tangent,
-)
-from nptcs.fe.elements.neo_hooke import neo_hookean
-
-# rubber is worked on in parts whose arrays stay in a processor's cache: this halves the time when
-# two processes run at once
-CACHE_BYTES = 400_000
+from nptcs.fe.elements.kinematics import deformation_gradient, green_strain
 
 
 @dataclass
@@ -94,6 +71,13 @@ def element_dofs(nodes: Index, dim: int) -> Index:
     return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
 
 
+def _columns(gradient: Array) -> Array:
+    """Gradients as (elements, points × directions, nodes)."""
+    elements, points, nodes, directions = gradient.shape
+    columns = gradient.swapaxes(2, 3).reshape(elements, points * directions, nodes)
+    return np.ascontiguousarray(columns)
+
+
 @dataclass
 class LinearGroup:
     """Saint-Venant–Kirchhoff material: S = C E in the local frame of each point.
@@ -122,68 +106,68 @@ class LinearGroup:
     stress: Array | None = field(init=False, default=None)
 
     def __post_init__(self) -> None:
-        self._left = gradients_by_node(self.gradient)
-        self._columns = np.ascontiguousarray(self.gradient.swapaxes(2, 3))
-        directions = self.gradient.shape[3]
-        material = self.stiffness[:, VOIGT[:, :, None, None], VOIGT[None, None]]
-        self._material = material[:, :, :directions, :, :directions]
+        points = self.gradient.shape[:2]
+        # one layout of each array, for which the loops are compiled once
+        self.nodes = np.ascontiguousarray(self.nodes)
+        self.weight = np.ascontiguousarray(self.weight)
+        self._columns = _columns(self.gradient)
+        self._active = np.flatnonzero(self.stiffness.any(axis=(0, 1))).astype(np.int64)
+        self._own_stiffness = np.ascontiguousarray(
+            self.stiffness[:, self._active[:, None], self._active]
+        )
+        frame = np.eye(3) if self.frame is None else self.frame
+        self._frame = np.array(np.broadcast_to(frame, (*points, 3, 3)), order="C")
+        self._last = self._frame.copy()
+        self._strain = np.zeros((*points, 6))
 
     def strain(self, displacement: Array) -> Array:
         """Green–Lagrange strain (elements, points, 6) in the local frame."""
-        return green_strain(self._deformed(displacement))
-
-    def _deformed(self, displacement: Array) -> Array:
-        directions = self.gradient.shape[3]
-        return deformation_by_node(self._left, directions, displacement[self.nodes], self.frame)
+        local = displacement[self.nodes]
+        return green_strain(deformation_gradient(self.gradient, local, self.frame))
 
     def _of_strain(self, strain: Array) -> Array:
         return np.matmul(self.stiffness, strain[..., None])[..., 0]
 
     def respond(self, displacement: Array) -> Response:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
-        dim, directions = displacement.shape[1], self.gradient.shape[3]
-        self._last = self._deformed(displacement)
-        self._strain = green_strain(self._last)
-        weight = self.weight[..., None, None]
-        stress = self._of_strain(self._strain)
-        energy = 0.5 * float(np.sum(self.weight[..., None] * stress * self._strain))
-        piola = weight * np.matmul(self._last, stress[..., VOIGT])
-        force = internal_force(self._left, piola[..., :dim, :directions])
-        # A_iJjL = F_iM C_MJNL F_jN + δ_ij S_JL, kept in the order J, i, j, L
-        rows = self._last[..., :dim, :]
-        half = np.einsum("egiM,gMJNL->egiJNL", rows, self._material)
-        moduli = np.einsum("egiJNL,egjN->egJijL", half, rows, optimize=True)
-        carried = (stress if self.stress is None else self.stress)[..., VOIGT]
-        for i in range(dim):
-            moduli[:, :, :, i, i, :] += carried[..., :directions, :directions]
-        moduli *= weight[..., None, None]
-        return Response(energy, force, moduli_tangent(self._left, self._columns, moduli))
+        elements, nodes = self.nodes.shape
+        size = nodes * displacement.shape[1]
+        tangent = np.empty((elements, size, size))
+        energy, force = self._response(displacement, tangent)
+        return Response(energy, force, tangent)
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the stresses eliminated as in the last `respond`."""
-        dim, directions = displacement.shape[1], self.gradient.shape[3]
-        deformation = self._deformed(displacement)
-        self._strain = green_strain(deformation)
-        stress = self._of_strain(self._strain)
-        energy = 0.5 * float(np.sum(self.weight[..., None] * stress * self._strain))
-        own = stress if self.stress is None else self.stress
-        piola = np.matmul(deformation, own[..., VOIGT])
-        piola += np.matmul(self._last, (stress - own)[..., VOIGT])
-        piola *= self.weight[..., None, None]
-        return energy, internal_force(self._left, piola[..., :dim, :directions])
+        return self._response(displacement, None)
+
+    def _response(self, displacement: Array, tangent: Array | None) -> tuple[float, Array]:
+        from nptcs.fe.elements import compiled
+
+        force = np.empty((*self.nodes.shape, displacement.shape[1]))
+        energy = compiled.linear(
+            self.nodes,
+            self._columns,
+            self.weight,
+            self._own_stiffness,
+            self._active,
+            self._frame,
+            np.ascontiguousarray(displacement),
+            self._strain if self.stress is None else self.stress,
+            self.stress is not None,
+            tangent is not None,
+            self._last,
+            self._strain,
+            force,
+            np.empty((0, 0, 0)) if tangent is None else tangent,
+        )
+        return energy, force.reshape(len(force), -1)
 
     def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: S = C (E + B du)."""
-        directions = self.gradient.shape[3]
-        change = displacement_gradient(self._left, directions, step[self.nodes])
-        dim = change.shape[2]
-        both = np.matmul(self._last[..., :dim, :].swapaxes(-1, -2), change)
+        from nptcs.fe.elements import compiled
+
         added = np.zeros_like(self._strain)
-        for place, (i, j) in enumerate(zip(ROWS, COLUMNS, strict=True)):
-            if j < directions:
-                added[..., place] += both[..., i, j]
-                if i != j:
-                    added[..., place] += both[..., j, i]
+        compiled.added_strain(self.nodes, self._columns, self._active, self._last, step, added)
         reached = self._of_strain(self._strain + added)
         own = self.inner()
         self.stress = own + part * (reached - own)
@@ -231,24 +215,37 @@ class RubberGroup:
     pressure: Array = field(init=False)
 
     def __post_init__(self) -> None:
-        self.pressure = np.zeros((len(self.nodes), self.pressure_shape.shape[1]))
+        # one layout of each array, for which the loops are compiled once
+        self.nodes = np.ascontiguousarray(self.nodes)
+        self.weight = np.ascontiguousarray(self.weight)
+        self.pressure_shape = np.ascontiguousarray(self.pressure_shape)
+        elements, nodes = self.nodes.shape
+        modes = self.pressure_shape.shape[1]
+        size = nodes * self.gradient.shape[3]
+        self.pressure = np.zeros((elements, modes))
         shape = self.pressure_shape
-        self._mass = np.einsum("gm,gk,eg->emk", shape, shape, self.weight)
+        mass = np.einsum("gm,gk,eg->emk", shape, shape, self.weight)
+        self._mass = np.ascontiguousarray(mass)
         self._inverse_mass = self.bulk_mpa * np.linalg.inv(self._mass)
-        self._left = gradients_by_node(self.gradient)
+        self._columns = _columns(self.gradient)
+        self._eliminated(size)
+
+    def _eliminated(self, size: int) -> None:
+        """Make new arrays for what the next response says of the pressures."""
+        shape = self.pressure.shape
+        self._mismatch = np.zeros(shape)
+        self._coupling = np.zeros((shape[0], size, shape[1]))
+        self._lift = np.zeros((shape[0], size, shape[1]))
 
     def respond(self, displacement: Array) -> Response:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
-        elements, points, nodes, _ = self.gradient.shape
-        size, modes = nodes * displacement.shape[1], self.pressure.shape[1]
-        self._coupling = np.empty((elements, size, modes))
-        self._lift = np.empty((elements, size, modes))
-        self._mismatch = np.empty((elements, modes))
-        whole = Response(0.0, np.empty((elements, size)), np.empty((elements, size, size)))
-        few = max(1, CACHE_BYTES // (8 * points * size))
-        for first in range(0, elements, few):
-            self._respond(slice(first, first + few), displacement, whole)
-        return whole
+        elements, nodes = self.nodes.shape
+        size = nodes * displacement.shape[1]
+        # copies of this group keep theirs
+        self._eliminated(size)
+        tangent = np.empty((elements, size, size))
+        energy, force = self._response(displacement, tangent)
+        return Response(energy, force, tangent)
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the pressures eliminated as in the last `respond`.
@@ -256,50 +253,31 @@ class RubberGroup:
         A step solved with the tangents of that `respond` goes with these forces: Newton's method
         with an older matrix, for displacements and pressures.
         """
-        dim, directions = displacement.shape[1], self.gradient.shape[3]
-        deformation = deformation_by_node(self._left, directions, displacement[self.nodes], None)
-        law = neo_hookean(self.c10_mpa, deformation, self.pressure @ self.pressure_shape.T)
-        opened = (self.weight * (law.volume - 1.0)) @ self.pressure_shape
-        taken = np.einsum("emk,ek->em", self._mass, self.pressure) / self.bulk_mpa
-        self._mismatch = opened - taken
-        energy = float(np.sum(self.weight * law.energy))
-        energy += float(np.sum(self.pressure * (opened - 0.5 * taken)))
-        scale, across = self.weight * law.scale, self.weight * (law.pull - law.third)
-        stress = scale[..., None, None] * deformation + across[..., None, None] * law.inverse
-        force = internal_force(self._left, stress[..., :dim, :directions])
-        return energy, force + np.matmul(self._lift, self._mismatch[..., None])[..., 0]
+        self._mismatch = np.empty_like(self._mismatch)
+        return self._response(displacement, None)
 
-    def _respond(self, part: slice, displacement: Array, whole: Response) -> None:
-        """Fill in the response of some elements."""
-        gradient, weight, own = self.gradient[part], self.weight[part], self.pressure[part]
-        dim, directions = displacement.shape[1], gradient.shape[3]
-        local = displacement[self.nodes[part]]
-        deformation = deformation_by_node(self._left[part], directions, local, None)
-        law = neo_hookean(self.c10_mpa, deformation, own @ self.pressure_shape.T)
-        turned = gradient_products(gradient, law.inverse[..., :dim, :directions])
-        moved = gradient_products(gradient, deformation[..., :dim, :directions])
-        # shared with the forces: P = a F + (p J - a I1/3) G, each with the points' weights
-        weighted = weight * np.stack([law.scale, law.third, law.pull])
-        scale, third, pull = weighted[..., None]
-        modes = weight[..., None] * law.volume[..., None] * self.pressure_shape
-        coupling = np.matmul(turned.swapaxes(1, 2), modes)
-        opened = (weight * (law.volume - 1.0)) @ self.pressure_shape
-        taken = np.einsum("emk,ek->em", self._mass[part], own) / self.bulk_mpa
-        self._coupling[part], self._mismatch[part] = coupling, opened - taken
-        whole.energy += float(np.sum(weight * law.energy))
-        whole.energy += float(np.sum(own * (opened - 0.5 * taken)))
-        lift = np.matmul(coupling, self._inverse_mass[part], out=self._lift[part])
-        force = np.sum(scale * moved + (pull - third) * turned, axis=1)
-        whole.force[part] = force + np.einsum("enm,em->en", lift, opened - taken)
-        # half of what is symmetric under the exchange of the two unknowns
-        right = (third / 3.0 + pull / 2.0) * turned - (2.0 / 3.0 * scale) * moved
-        left = np.concatenate([turned, 0.5 * lift.swapaxes(1, 2)], axis=1)
-        right = np.concatenate([right, coupling.swapaxes(1, 2)], axis=1)
-        half = np.matmul(left.swapaxes(1, 2), right)
-        tangent = np.add(half, half.swapaxes(1, 2), out=whole.tangent[part])
-        add_crossed(tangent, (third - pull) * turned, turned, dim)
-        along = np.repeat(weighted[0], directions, axis=1)
-        add_isotropic(tangent, self._left[part], along, dim)
+    def _response(self, displacement: Array, tangent: Array | None) -> tuple[float, Array]:
+        from nptcs.fe.elements import compiled
+
+        force = np.empty((*self.nodes.shape, displacement.shape[1]))
+        energy = compiled.rubber(
+            self.nodes,
+            self._columns,
+            self.weight,
+            self.pressure_shape,
+            self._mass,
+            self._inverse_mass,
+            (float(self.c10_mpa), float(self.bulk_mpa)),
+            np.ascontiguousarray(displacement),
+            self.pressure,
+            tangent is not None,
+            self._mismatch,
+            self._coupling,
+            self._lift,
+            force,
+            np.empty((0, 0, 0)) if tangent is None else tangent,
+        )
+        return energy, force.reshape(len(force), -1)
 
     def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state: κ M⁻¹ (r_p + Gᵀ du)."""

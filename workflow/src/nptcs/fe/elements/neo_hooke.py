@@ -47,29 +47,13 @@ def neo_hookean(c10_mpa: float, deformation: Array, pressure: Array) -> NeoHooke
     FloatingPointError
         If a volume is not positive.
     """
-    cofactor = cofactors(deformation)
-    volume = np.sum(deformation[..., 0, :] * cofactor[..., 0, :], axis=-1)
+    from nptcs.fe.elements import compiled
+
+    inverse, values = np.empty(deformation.shape), np.empty((5, pressure.size))
+    flat = np.ascontiguousarray(deformation).reshape(-1, 3, 3)
+    places = inverse.reshape(-1, 3, 3)
+    compiled.neo_hooke_at(c10_mpa, flat, np.ascontiguousarray(pressure).ravel(), places, values)
+    volume, scale, third, pull, energy = values.reshape(5, *pressure.shape)
     if not np.all(volume > 0.0):
         raise FloatingPointError("an element of rubber has turned inside out")
-    trace = np.sum(deformation**2, axis=(-1, -2))
-    unit = volume ** (-2.0 / 3.0)
-    scale = 2.0 * c10_mpa * unit
-    return NeoHooke(
-        volume=volume,
-        inverse=cofactor / volume[..., None, None],
-        scale=scale,
-        third=scale * trace / 3.0,
-        pull=pressure * volume,
-        energy=c10_mpa * (unit * trace - 3.0),
-    )
-
-
-def cofactors(matrix: Array) -> Array:
-    """Cofactors of matrices (…, 3, 3): det M M⁻ᵀ."""
-    found = np.empty_like(matrix)
-    for i in range(3):
-        above, below = matrix[..., (i + 1) % 3, :], matrix[..., (i + 2) % 3, :]
-        for j in range(3):
-            k, m = (j + 1) % 3, (j + 2) % 3
-            found[..., i, j] = above[..., k] * below[..., m] - above[..., m] * below[..., k]
-    return found
+    return NeoHooke(volume, inverse, scale, third, pull, energy)

@@ -13,10 +13,10 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.linalg.blas import dsyrk, dtrsm
+from scipy.linalg.blas import dsyrk, dtrsm, dtrsv
 from scipy.linalg.lapack import dpotrf
 
-from nptcs.arrays import Array, Index
+from nptcs.arrays import Array, Index, Places
 
 
 @dataclass
@@ -55,16 +55,15 @@ class BlockPattern:
         self.row, self.size = row, size
         self._wide = 2 * row
         self._blocks = -(-size // self._wide)
-        self._keep: list[Index] = []
-        targets: list[Index] = []
+        self._keep: list[Places] = []
+        self._targets: list[Places] = []
         for block in dofs:
             shape = (*block.shape, block.shape[1])
             low = np.broadcast_to(block[:, :, None], shape).ravel()
             high = np.broadcast_to(block[:, None, :], shape).ravel()
             keep = np.flatnonzero((high >= 0) & (low >= high))
-            self._keep.append(keep)
-            targets.append(self._target(low[keep], high[keep]))
-        self._targets = np.concatenate(targets)
+            self._keep.append(keep.astype(np.int32))
+            self._targets.append(self._target(low[keep], high[keep]).astype(np.int32))
 
     def _target(self, low: Index, high: Index) -> Index:
         """Place of entry (low, high), low ≥ high, in the diagonal blocks and those below."""
@@ -80,13 +79,13 @@ class BlockPattern:
 
     def assemble(self, tangents: Sequence[Array]) -> BlockMatrix:
         """Sum element tangents (elements, dofs, dofs)."""
-        values = np.concatenate(
-            [part.ravel()[keep] for part, keep in zip(tangents, self._keep, strict=True)]
-        )
+        from nptcs.fe.matrices.compiled import add_at
+
         wide, blocks = self._wide, self._blocks
         start = blocks * wide**2
-        count = start + (blocks - 1) * self.row * wide
-        whole: Array = np.bincount(self._targets, values, minlength=count).astype(float, copy=False)
+        whole = np.zeros(start + (blocks - 1) * self.row * wide)
+        for part, keep, targets in zip(tangents, self._keep, self._targets, strict=True):
+            add_at(targets, keep, part.ravel(), whole)
         diagonal = whole[:start].reshape(blocks, wide, wide)
         fill = np.arange(self.size - (blocks - 1) * wide, wide)
         diagonal[-1, fill, fill] = 1.0
@@ -127,12 +126,22 @@ class BlockCholesky:
         for number, factor in enumerate(self._own):
             if number:
                 parts[number] = parts[number] - self._next[number - 1] @ parts[number - 1][row:]
-            parts[number] = dtrsm(1.0, factor, parts[number], lower=1)
+            parts[number] = _triangle(factor, parts[number], transposed=False)
         for number in range(len(parts) - 1, -1, -1):
             if number < len(parts) - 1:
                 parts[number][row:] -= self._next[number].T @ parts[number + 1]
-            parts[number] = dtrsm(1.0, self._own[number], parts[number], lower=1, trans_a=1)
+            parts[number] = _triangle(self._own[number], parts[number], transposed=True)
         return np.concatenate(parts)[: self._size].reshape(rhs.shape)
+
+
+def _triangle(factor: Array, rhs: Array, transposed: bool) -> Array:
+    """Solve with a lower triangle, or its transpose, for right-hand sides (n, m)."""
+    if rhs.shape[1] == 1:
+        # LAPACK copies the triangle for several right-hand sides, which takes longer than one
+        line: Array = dtrsv(factor, rhs[:, 0], lower=1, trans=transposed)
+        return line[:, None]
+    found: Array = dtrsm(1.0, factor, rhs, lower=1, trans_a=transposed)
+    return found
 
 
 def solve_indefinite(matrix: BlockMatrix, rhs: Array) -> Array:

@@ -12,7 +12,7 @@ from collections.abc import Sequence
 import numpy as np
 from scipy.linalg import solve_banded
 
-from nptcs.arrays import Array, Index
+from nptcs.arrays import Array, Index, Places
 
 
 class BandedPattern:
@@ -28,7 +28,7 @@ class BandedPattern:
 
     def __init__(self, dofs: Sequence[Index], size: int) -> None:
         self.size = size
-        self._keep: list[Index] = []
+        self._keep: list[Places] = []
         rows: list[Index] = []
         columns: list[Index] = []
         for block in dofs:
@@ -36,21 +36,25 @@ class BandedPattern:
             row = np.broadcast_to(block[:, :, None], shape).ravel()
             column = np.broadcast_to(block[:, None, :], shape).ravel()
             keep = np.flatnonzero((row >= 0) & (column >= 0))
-            self._keep.append(keep)
+            self._keep.append(keep.astype(np.int32))
             rows.append(row[keep])
             columns.append(column[keep])
-        distance = np.concatenate(rows) - np.concatenate(columns)
-        self.width = int(np.max(np.abs(distance)))
-        self._target = (distance + self.width) * size + np.concatenate(columns)
+        distances = [row - column for row, column in zip(rows, columns, strict=True)]
+        self.width = max(int(np.max(np.abs(distance), initial=0)) for distance in distances)
+        self._targets = [
+            ((distance + self.width) * size + column).astype(np.int32)
+            for distance, column in zip(distances, columns, strict=True)
+        ]
 
     def assemble(self, tangents: Sequence[Array]) -> Array:
         """Sum element tangents into LAPACK's band storage, diagonal after `width` rows."""
-        values = np.concatenate(
-            [block.ravel()[keep] for block, keep in zip(tangents, self._keep, strict=True)]
-        )
-        count = (2 * self.width + 1) * self.size
-        diagonals: Array = np.bincount(self._target, values, minlength=count).astype(float)
-        return diagonals.reshape(-1, self.size)
+        from nptcs.fe.matrices.compiled import add_at
+
+        diagonals = np.zeros((2 * self.width + 1, self.size))
+        flat = diagonals.reshape(-1)
+        for part, keep, targets in zip(tangents, self._keep, self._targets, strict=True):
+            add_at(targets, keep, part.ravel(), flat)
+        return diagonals
 
     def solve(self, diagonals: Array, rhs: Array) -> Array:
         """Solve for one or several right-hand sides (size, …).

@@ -204,7 +204,7 @@ class SpokeModel(SpokePeriod):
     def settle(self, motion: Array, guess: SpokeFields) -> SpokeState:
         """Newton's method at a fixed motion of the band.
 
-        Each matrix is used for as many steps as it is good for, each of which costs a sixth of one
+        Each matrix is used for as many steps as it is good for, each of which costs a seventh of one
         with a new matrix. The state that is accepted has its own.
 
         Parameters

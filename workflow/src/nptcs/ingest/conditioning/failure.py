@@ -13,7 +13,9 @@ _RETURNED = 0.1
 _SMALL_PEAK = 0.5
 
 
-def failure_row(force: Array, elongation: Array | None, drop: float) -> int | None:
+def failure_row(
+    force: Array, elongation: Array | None, drop: float, time_s: Array | None = None
+) -> int | None:
     """Find the first reading after failure.
 
     A fall of the force by `drop` of its maximum is failure if it is sudden (within 1 % of the
@@ -29,6 +31,8 @@ def failure_row(force: Array, elongation: Array | None, drop: float) -> int | No
         Strain or travel in any unit and sign; None: only a sudden fall counts as failure.
     drop : float
         Share of the maximum.
+    time_s : ndarray, shape (n,), optional
+        Times of the readings, which tell whether a machine may return between two of them.
 
     Returns
     -------
@@ -38,6 +42,7 @@ def failure_row(force: Array, elongation: Array | None, drop: float) -> int | No
     rows = np.flatnonzero(~np.isnan(force))
     load = np.abs(force[rows])
     stretch = None if elongation is None else elongation[rows]
+    time = None if time_s is None else time_s[rows]
     start, highest = 0, float(load.max(initial=0.0))
     while start < len(load):
         peak = start + int(np.argmax(load[start:]))
@@ -48,7 +53,7 @@ def failure_row(force: Array, elongation: Array | None, drop: float) -> int | No
             return None
         end = peak + int(fallen[0])
         begin = peak + int(np.flatnonzero(load[peak:end] >= 0.95 * load[peak])[-1])
-        back = stretch is not None and unloads_along(load, np.abs(stretch), begin, start)
+        back = stretch is not None and unloads_along(load, np.abs(stretch), begin, start, time)
         if not back and _is_failure(stretch, begin, end, peak):
             return int(rows[end])
         # to the end of the unloading: what is left of it is not a fall of its own

@@ -142,7 +142,7 @@ def _failure(table: RawFile, force_drop: float) -> int | None:
     assert load is not None
     names = ("displacement", "extension", "strain")
     travel = next((table.values[name] for name in names if name in table.values), None)
-    return failure_row(load, travel, force_drop)
+    return failure_row(load, travel, force_drop, table.values.get("time"))
 
 
 def _extend_to_peak(signals: Signals, position: Array, unit: str) -> None:

@@ -18,9 +18,10 @@ STRAIN_CHANNELS = (
     "stretch",
     "extension",
     "displacement",
+    "extension_transverse",
 )
 
-LENGTHS = ("extension", "displacement")
+LENGTHS = ("extension", "displacement", "extension_transverse")
 """Channels in mm; the others are strains."""
 
 

@@ -93,7 +93,8 @@ def _turn_tension(
         return ["axial strain"]
     raise InputError(
         f"axial strain falls while a {specimen.test} test loads",
-        "check test, strain_axis and the files of this specimen in the sheet",
+        "check test, strain_axis and the files of this specimen in the sheet; if the gauge writes "
+        "a lengthening as negative, state strain_factor -1",
         path,
         specimen=specimen.specimen,
         value=f"{1e6 * slope:.3g} µε/N",

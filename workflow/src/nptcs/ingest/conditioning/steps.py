@@ -126,7 +126,7 @@ def cut_end(signals: Signals, settings: EndOfTest) -> None:
         return
     force = signals.values["force"]
     elongation = signals.values.get("displacement", signals.values["strain_axial"])
-    end = failure_row(force, elongation, settings.force_drop)
+    end = failure_row(force, elongation, settings.force_drop, signals.values.get("time"))
     peak = float(np.abs(force[:end]).max())
     if end is None:
         text = "no failure recorded, nothing cut"

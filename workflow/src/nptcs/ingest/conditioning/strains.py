@@ -20,6 +20,10 @@ AMBIGUOUS_RATIO = 0.9
 """Two in-plane strains closer than this cannot be told apart."""
 NO_STRAIN = "none"
 """Strain source of a test that shows its strength only."""
+NO_STRAIN_FLAG = "no strain: "
+"""Beginning of the flag of such a test."""
+NO_TRANSVERSE = "no transverse strain"
+"""Beginning of the flag of a test whose transverse extensometer gives none."""
 
 
 def resolve_strains(
@@ -58,6 +62,8 @@ def resolve_strains(
         axial, transverse = _axes(signals, specimen, columns, path)
         source = "dic" if source == "unspecified" else source
     else:
+        if transverse is None and "extension_transverse" in values:
+            transverse = _across(signals, specimen, columns["extension_transverse"])
         name, axial, source = _single(signals, specimen, columns, source, compliance_mm_per_n, path)
         signals.note("axial strain", f"column '{columns[name]}'" if source != NO_STRAIN else "none")
     empty = np.full(len(signals), np.nan)
@@ -73,23 +79,53 @@ def resolve_strains(
             else f"column '{columns['displacement']}' holds no travel in a unit of length"
         )
         signals.flags.append(
-            f"no strain: {why}; the strength rests on the force alone, whose unit no modulus checks"
+            f"{NO_STRAIN_FLAG}{why}; the strength rests on the force alone, whose unit no modulus "
+            "checks"
         )
     elif source == "unspecified":
         signals.flags.append("the file does not say what measured the strain")
     return source
 
 
+def _across(signals: Signals, specimen: Specimen, name: str) -> Array | None:
+    """Strain of a transverse extensometer in mm; None, and flagged, without its length."""
+    if specimen.transverse_length_mm is None:
+        signals.flags.append(
+            f"{NO_TRANSVERSE}: column '{name}' is a length, and transverse_length_mm (usually the "
+            "width of the specimen) is empty in the sheet"
+        )
+        return None
+    readings = signals.values["extension_transverse"]
+    known = readings[~np.isnan(readings)]
+    first = known[0] if len(known) else np.nan
+    signals.note("transverse strain", f"column '{name}' over {specimen.transverse_length_mm:g} mm")
+    return (readings - first) / specimen.transverse_length_mm
+
+
+_TRANSVERSE_WORD = re.compile(
+    r"transv|lateral|quer(?!schnitt)|breiten|(?:change|delta|strain|variation).{0,12}width|width"
+    r".{0,12}(?:change|strain)|trasvers|poprzecz|попереч|příčn|横向|横ひずみ|幅方向"
+)
 _STRAIN_WORD = re.compile(
     r"strain|dehnung|extensom|d[ée]formation|deformaci|deforma[cç]|odkszta|деформац|应变|歪|ひずみ|変形"
 )
 
 
 def flag_unread_strains(signals: Signals, table: RawFile, source: str) -> None:
-    """Flag columns named after a strain that were not read, where only travel was."""
+    """Flag columns named after a strain that were not read, where only travel was.
+
+    So is a column named after a transverse one where no transverse strain was read.
+    """
+    read = {name for quantity, name in table.columns.items() if quantity in table.values}
+    if not {"strain_transverse", "extension_transverse", "strain_yy"} & set(table.values):
+        across = [n for n in table.names if n not in read and _TRANSVERSE_WORD.search(n.casefold())]
+        if across:
+            names = ", ".join(map(repr, across))
+            signals.flags.append(
+                f"{NO_TRANSVERSE}: not read as one: {names} (a profile can name it)"
+            )
     if source not in ("crosshead", NO_STRAIN):
         return
-    read = set(table.columns.values())
     named = [n for n in table.names if n not in read and _STRAIN_WORD.search(n.casefold())]
     unread = [name for name in named if not OVER_LENGTH.search(name.casefold())]
     if unread:

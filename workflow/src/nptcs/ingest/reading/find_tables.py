@@ -12,6 +12,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.native.sheet_cells import SheetSource
 from nptcs.ingest.reading.table_columns import SMALLEST_TABLE, FoundTable, describe_columns
 from nptcs.ingest.reading.text.cells import CellSource, TextSource
+from nptcs.ingest.reading.units import clean_unit
 
 DATA = frozenset(("data", "odd data"))
 _ROWS_ABOVE = 4
@@ -50,6 +51,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
         describe_columns(found_table, above, unnamed)
         _settle_unnamed(source, found_table, unnamed, path)
         _settle_clocks(source, found_table, path)
+        _settle_units(source, found_table, path)
     return found_tables
 
 
@@ -113,6 +115,28 @@ def _settle_clocks(source: CellSource, found_table: FoundTable, path: Path) -> N
         if column.position in positions:
             column.unit, column.clock = "s", True
             found_table.notes.append(f"column {column.position + 1} is a time of day, read in s")
+
+
+def _settle_units(source: CellSource, found_table: FoundTable, path: Path) -> None:
+    """Take the units behind the numbers; units that change within a column are an error."""
+    if not source.units_in(found_table.first):
+        return
+    rows = {row: source.units_in(row) for row in found_table.rows_of_data}
+    for column in found_table.columns:
+        place = column.position
+        stated = column.unit
+        for row, units in rows.items():
+            unit = units[place] if place < len(units) else ""
+            if unit and stated and clean_unit(unit) != clean_unit(stated):
+                raise InputError(
+                    f"a number in {unit}, where the column's unit is {stated}",
+                    "export the column in one unit",
+                    path,
+                    row + 1,
+                    column.name or f"number {place + 1}",
+                )
+            stated = stated or unit or None
+        column.unit = stated
 
 
 def _runs(source: CellSource) -> list[FoundTable]:

@@ -19,6 +19,7 @@ from nptcs.ingest.reading.profiles import ContentKind, FormatProfile
 from nptcs.ingest.reading.text.cells import CellSource, split_lines
 from nptcs.ingest.reading.text.clock import PlainLines, clocks_to_seconds, join_grouped_digits
 from nptcs.ingest.reading.text.decode import decode
+from nptcs.ingest.reading.text.dressed_rows import mark_units, without_borders
 from nptcs.ingest.reading.units import FACTORS
 
 HEAD_LINES = 60
@@ -37,6 +38,7 @@ class OpenedFile:
     sha256: str
     lines: list[str] = field(default_factory=list)
     clocks: PlainLines | None = None
+    unit_lines: dict[int, str] = field(default_factory=dict)
     largest_width: int = FileLimits().columns
     sheets: list[CellSource] = field(default_factory=list)
     notes: tuple[str, ...] = ()
@@ -127,8 +129,11 @@ def _open_text(
             "open it in a spreadsheet and save it as XLSX or CSV",
             path,
         )
+    if raw.endswith(b"\x00\x00\x00\x00"):
+        raw = raw.rstrip(b"\x00")  # a file whose space was reserved and not filled
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
-    plain = clocks_to_seconds(split_lines(join_grouped_digits(decoded.text)))
+    lines, unit_lines = mark_units(without_borders(split_lines(join_grouped_digits(decoded.text))))
+    plain = clocks_to_seconds(lines)
     lines = plain.lines
     refuse_larger(path, "rows", len(lines), limits.rows, "lines")
     longest = max(map(len, lines))
@@ -142,6 +147,7 @@ def _open_text(
         digest,
         lines=plain.lines,
         clocks=plain,
+        unit_lines=unit_lines,
         largest_width=limits.columns,
         notes=(note,),
     )

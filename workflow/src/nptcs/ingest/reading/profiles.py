@@ -23,6 +23,7 @@ Quantity = Literal[
     "stress",
     "displacement",
     "extension",
+    "extension_transverse",
     "strain",
     "strain_transverse",
     "strain_back",

@@ -13,9 +13,9 @@ from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.head_units import add_units_of_head
 from nptcs.ingest.reading.columns.labels import LabelValue, read_labels
-from nptcs.ingest.reading.columns.names import STRAINS
-from nptcs.ingest.reading.columns.quantities import Role, Test, choose_test, tests_in, unit_of
-from nptcs.ingest.reading.find_tables import find_tables
+from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
+from nptcs.ingest.reading.columns.quantities import Role, Test, choose_test, unit_of
+from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
 from nptcs.ingest.reading.text.cells import CellSource, TextSource
@@ -174,6 +174,7 @@ def sources_of(
         frozenset(profile.missing),
         clocks.originals,
         clocks.counts,
+        opened.unit_lines,
     )
     return [source], dialect
 
@@ -202,13 +203,7 @@ def _read(
     path = opened.path
     profile = profile.for_head(opened.head)
     sources, dialect = sources_of(opened, profile)
-    tests = [
-        test
-        for source in sources
-        for test in tests_in(
-            source, find_tables(source, path, profile.unnamed_columns), profile, path, plain
-        )
-    ]
+    tests = [test for source in sources for test in tests_of(source, profile, path, plain)]
     test = choose_test(tests, part or profile.part, specimen, role, path, profile)
     add_units_of_head(test)
     values, units, notes = _values(test, profile, path, role)
@@ -257,6 +252,13 @@ def _values(
     if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
         quantities = {name: column for name, column in quantities.items() if name != "time"}
         notes.append("time: no unit, left out; nothing of one file rests on it")
+    for quantity in [name for name in ACROSS if name in quantities]:
+        try:
+            unit_of(quantity, quantities[quantity], profile, may_assume, path, line)
+        except InputError as error:
+            left = quantities[quantity]
+            quantities = {name: column for name, column in quantities.items() if column is not left}
+            notes.append(f"column '{left.name}' left out: {error.message}")
     for quantity, column in quantities.items():
         raw = column.unit in VOLTS and "force" not in profile.wrong_units
         if quantity == "force" and role == "strain" and raw:
@@ -278,7 +280,16 @@ def _values(
     filled = ~np.isnan(numbers).all(axis=1)
     if not filled.all():
         notes.append(f"{int((~filled).sum())} rows hold no number in these columns")
-    return dict(zip(quantities, numbers[filled].T, strict=True)), units, notes
+    values = dict(zip(quantities, numbers[filled].T, strict=True))
+    if "time" in values and _runs_back(values["time"]):
+        values = {name: readings[::-1] for name, readings in values.items()}
+        notes.append("the time runs backwards: the rows were read from the last to the first")
+    return values, units, notes
+
+
+def _runs_back(time: Array) -> bool:
+    """Tell whether each time is before the one above it: the newest reading comes first."""
+    return len(time) > 1 and bool((np.diff(time) < 0).all())
 
 
 def _agrees_with_true_strain(test: Test, strain: Array) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
@@ -15,6 +16,9 @@ SMALLEST_TABLE = 5
 _TYPES = frozenset(
     ["float", "float32", "float64", "double", "real", "int", "integer", "numeric", "number", "dbl"]
 )
+
+_TEST_NUMBER = re.compile(r"\d+ *[_-] *\d+")
+"""How Trapezium labels the columns of a test: batch and specimen."""
 
 
 @dataclass
@@ -77,7 +81,8 @@ def describe_columns(
         units = rows.pop(0)[1]
     groups = _groups(rows[0][1], len(names)) if rows else []
     for position in range(found_table.width):
-        text = _cell(names, position - shift)
+        own = _cell(rows[0][1], position - shift) if rows and groups else ""
+        text = _cell(names, position - shift) or own
         name, unit = split_unit(text)
         unit = _cell(units, position - shift) or unit
         found_table.columns.append(Column(position, name, unit, _cell(groups, position - shift)))
@@ -128,8 +133,11 @@ def _groups(cells: list[str], width: int) -> list[str]:
     filled = [cell for cell in cells if cell.strip()]
     if not filled or len(cells) < max(2, width - 1) or any(is_unit(cell) for cell in filled):
         return []
-    if any(cell.endswith(":") or not any(mark.isalpha() for mark in cell) for cell in filled):
-        return []  # a header entry, such as 'Speed [mm/min]: 500'
+    if any(cell.endswith(":") for cell in filled):
+        return []  # a header entry, such as 'Speed: 500'
+    numbered = len(filled) > 1 and all(_TEST_NUMBER.fullmatch(cell) for cell in filled)
+    if not numbered and not all(any(mark.isalpha() for mark in cell) for cell in filled):
+        return []  # the same without a colon
     labels, label = [], ""
     for position in range(width):
         label = _cell(cells, position) or label

@@ -28,6 +28,8 @@ FACTORS: dict[str, dict[str, float]] = {
         "мс": 1e-3,
         "мин": 60,
         "ч": 3600,
+        "hr": 3600,
+        "hours": 3600,
         "毫秒": 1e-3,
         "分": 60,
         "seg": 1,
@@ -64,6 +66,12 @@ FACTORS: dict[str, dict[str, float]] = {
         "klbf": 1e3 * _POUND,
         "kip": 1e3 * _POUND,
         "kgf": 9.80665,
+        "g": 9.80665e-3,
+        "kNewton": 1e3,
+        "lb-force": _POUND,
+        "lbsf": _POUND,
+        "klb": 1e3 * _POUND,
+        "ozf": _POUND / 16,
         "kg-f": 9.80665,
         "newton": 1,
         "newtons": 1,
@@ -99,6 +107,9 @@ FACTORS: dict[str, dict[str, float]] = {
         "in.": _INCH,
         "inch": _INCH,
         "inches": _INCH,
+        "mil": 1e-3 * _INCH,
+        "mils": 1e-3 * _INCH,
+        "thou": 1e-3 * _INCH,
         "毫米": 1,
         "微米": 1e-3,
         "мм": 1,
@@ -152,6 +163,23 @@ FACTORS: dict[str, dict[str, float]] = {
         "% strain": 1e-2,
         "percent": 1e-2,
         "pct": 1e-2,
+        "pct.": 1e-2,
+        "per cent": 1e-2,
+        "%o": 1e-3,
+        "o/oo": 1e-3,
+        "10^-3": 1e-3,
+        "E-3": 1e-3,
+        "mStrain": 1e-3,
+        "m strain": 1e-3,
+        "me": 1e-3,
+        "10^-6": 1e-6,
+        "E-6": 1e-6,
+        "ppm": 1e-6,
+        "microm/m": 1e-6,
+        "micro strain": 1e-6,
+        "µstr": 1e-6,
+        "um/um": 1,
+        "µm/µm": 1,
         "prozent": 1e-2,
         "‰": 1e-3,
         "mm/m": 1e-3,
@@ -229,6 +257,7 @@ DIMENSION = {
     "stress": "stress",
     "displacement": "length",
     "extension": "length",
+    "extension_transverse": "length",
     "strain": "strain",
     "strain_transverse": "strain",
     "strain_back": "strain",
@@ -256,10 +285,25 @@ _UNIT_IN_WORDS = (
 """Names that say their unit in words: ``% strain``, ``Percentage Strain``, ``Microstrain``."""
 
 
-_NO_UNIT = frozenset(["-", "1", "strain", "abs", "pound", "d"])
+_WRITTEN_TOGETHER = re.compile(r"(?<=[a-z])(?=(?:[A-Z][a-z]*|KN)$)")
+_POWER_OF_TEN = re.compile(
+    r"(?i)(?:[x×*·]? ?10 ?(?:\^|e|\*\*)? ?|1?e)[-\u2212] ?0?(?P<power>[36])"
+    r"(?: (?:m/m|strain|mm/mm|ε))?"
+)
+"""A strain in thousandths or millionths: ``×10-6``, ``1e-6``, ``10^-3``."""
+_NO_UNIT = frozenset(["-", "1", "strain", "abs", "pound", "d", "g", "me", "e-6", "e-3"])
 """Units that behind a name are a part of it, unless in brackets."""
 _WORDS = frozenset(["k", "v", "j", "h", "m", "min", "in", "minutes"])
 """The same of a word or letter behind a blank: ``Force min``, ``Load in``."""
+
+
+def usual_units(dimension: str) -> str:
+    """Return the units of a dimension that people write most, for messages."""
+    short = [unit for unit in FACTORS[dimension] if unit.isascii() and len(unit) <= _SHORT]
+    return f"{', '.join(short[:_SHOWN])}, …" if len(short) > _SHOWN else ", ".join(short)
+
+
+_SHORT, _SHOWN = 5, 10
 
 
 def clean_unit(text: str) -> str:
@@ -271,6 +315,8 @@ def clean_unit(text: str) -> str:
     wide = unicodedata.normalize("NFKC", text) if not text.isascii() else text
     text = wide if any(wide in units for units in FACTORS.values()) else text
     text = re.sub(r"\s*/\s*", "/", text)
+    if power := _POWER_OF_TEN.fullmatch(text):
+        text = f"10^-{power['power']}"
     return text.replace("\u03bc", "\u00b5").replace("％", "%")
 
 
@@ -324,8 +370,13 @@ def split_unit(name: str) -> tuple[str, str | None]:
             return found["name"].strip() or "strain", unit
     if is_unit(name) and not name.strip().isalpha():
         return name.strip(), None
-    for pattern, words in ((_TAIL, _NO_UNIT), (_WORD_BEHIND, _NO_UNIT | _WORDS)):
+    ways = [(_TAIL, _NO_UNIT), (_WORD_BEHIND, _NO_UNIT | _WORDS)]
+    if "/" in name.strip().rpartition(" ")[2]:
+        ways.reverse()  # 'Strain 1 mm/mm' ends with one unit, not with two
+    for pattern, words in ways:
         tail = pattern.match(name.strip())
         if tail and is_unit(tail.group(2)) and tail.group(2).casefold() not in words:
             return tail.group(1), clean_unit(tail.group(2))
+    if _WRITTEN_TOGETHER.search(name):
+        return split_unit(_WRITTEN_TOGETHER.sub("_", name))  # ForceKN, StrainPct
     return name.strip(), None

@@ -70,7 +70,7 @@ def evidence_of_failure(
     if not np.isfinite(strain).any():
         # without a strain a quick return of the machine looks like a break
         return Evidence(False, "no failure seen in force and travel")
-    found = judge_failure(stress, strain)
+    found = judge_failure(stress, strain, turned["time_s"].to_numpy(dtype=float))
     if found.seen:
         return Evidence(True)
     by_hand = not any(word in flag for flag in flags for word in NOT_BY_HAND)

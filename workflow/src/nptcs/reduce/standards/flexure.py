@@ -10,17 +10,9 @@ import pandas as pd
 from nptcs.bending import BentBar
 from nptcs.config.materials.reduction import FlexureRules
 from nptcs.reduce.curve.branch import Branch
-from nptcs.reduce.curve.chord import chord_slope
 from nptcs.reduce.curve.evidence import Evidence
-from nptcs.reduce.rows import (
-    Property,
-    chord_rule,
-    finite_pair,
-    from_chord,
-    missing,
-    strain_range,
-    value_at_peak,
-)
+from nptcs.reduce.rows import Property, missing, strain_range, value_at_peak
+from nptcs.reduce.standards.tension import modulus
 
 LARGE_DEFLECTION = 0.1
 """Deflection over span beyond which the small-deflection formula overstates the stress."""
@@ -54,14 +46,12 @@ def reduce_flexure(
         Whether the bar failed.
     """
     low, high = rules.chord_range
-    strain, stress = finite_pair(branch.rows, "strain_axial", "stress_mpa")
-    chord = chord_slope(strain, stress, low, high, rules.chord_method, rules.end_tolerance)
-    rule = f"{chord_rule(rules.title, rules.chord_method)}, {bar.words()}"
-    modulus = from_chord("flexural_modulus", chord, "MPa", rule, strain_range(low, high))
+    nominal, words = strain_range(low, high), f", {bar.words()}"
+    slope = modulus(branch.rows, rules, low, high, nominal, "flexural_modulus", words)
     measured = strain_source in STRAINS_OF_A_SENSOR
     failure = _at_failure(branch.to_peak, rules, bar, measured, evidence)
     remarks = _remarks(rules, bar)
-    return [p.flagged(remarks) for p in (modulus, *failure)]
+    return [p.flagged(remarks) for p in (slope, *failure)]
 
 
 def _at_failure(

@@ -10,8 +10,9 @@ from nptcs.config.materials.reduction import ShearRules
 from nptcs.reduce.curve.branch import Branch
 from nptcs.reduce.curve.chord import Chord, chord_slope, not_assessed
 from nptcs.reduce.curve.evidence import Evidence
-from nptcs.reduce.curve.leaps import leap_within
+from nptcs.reduce.curve.toe import toe_words
 from nptcs.reduce.rows import Property, chord_rule, from_chord, missing, strain_range, value_at_peak
+from nptcs.reduce.standards.tension import no_slope
 
 NO_STRAIN = "shear strain needs axial and transverse strain"
 
@@ -42,9 +43,10 @@ def reduce_shear(branch: Branch, rules: ShearRules, evidence: Evidence) -> list[
     low, high = rules.chord_range
     chord = chord_slope(gamma, tau, low, high, rules.chord_method, rules.end_tolerance)
     modulus = from_chord("shear_modulus", chord, "MPa", chord_words, nominal)
-    if leap := leap_within(gamma, tau, low, high):
-        chord = not_assessed(leap)
-        modulus = missing("shear_modulus", "MPa", chord_words, leap)
+    modulus = modulus.flagged(toe_words(gamma, tau, low, high))
+    if reason := no_slope(gamma, tau, low, high):
+        chord = not_assessed(reason)
+        modulus = missing("shear_modulus", "MPa", chord_words, reason)
     return [
         modulus.flagged(chord_deviations(chord, rules)),
         offset_strength(gamma, tau, chord, rules),

@@ -2,16 +2,16 @@
 
 from __future__ import annotations
 
-import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.materials.reduction import ChordRules, TensionRules
 from nptcs.reduce.curve.branch import Branch
-from nptcs.reduce.curve.chord import chord_slope, fit_line
+from nptcs.reduce.curve.chord import chord_slope
 from nptcs.reduce.curve.evidence import Evidence
 from nptcs.reduce.curve.faces import branch_of_faces
 from nptcs.reduce.curve.leaps import leap_within
+from nptcs.reduce.curve.toe import NO_LAMINATE, stiffening, toe_words
 from nptcs.reduce.rows import (
     NAN,
     Property,
@@ -22,11 +22,6 @@ from nptcs.reduce.rows import (
     strain_range,
     value_at_peak,
 )
-
-STIFFENING = 1.5
-"""Ratio of slopes within a chord that no laminate shows, but slack or a toe does."""
-TOE_LEFT = 1.1
-"""The same beyond what carbon fibres do, which stiffen by some 20 % per percent of strain."""
 
 ANOTHER_RANGE = "chord over another range"
 
@@ -121,38 +116,31 @@ def chord_limits(ultimate: float, rules: TensionRules) -> tuple[float, float, st
 
 
 def modulus(
-    branch: pd.DataFrame, rules: ChordRules, low: float, high: float, nominal: str
+    branch: pd.DataFrame,
+    rules: ChordRules,
+    low: float,
+    high: float,
+    nominal: str,
+    name: str = "modulus",
+    words: str = "",
 ) -> Property:
-    """Chord modulus E = Δσ/Δε (MPa)."""
+    """Chord modulus E = Δσ/Δε (MPa), called `name`; `words` follow its rule."""
     strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
     chord = chord_slope(strain, stress, low, high, rules.chord_method, rules.end_tolerance)
-    rule = chord_rule(rules.title, rules.chord_method)
+    rule = f"{chord_rule(rules.title, rules.chord_method)}{words}"
+    if reason := no_slope(strain, stress, low, high):
+        return missing(name, "MPa", rule, reason)
+    found = from_chord(name, chord, "MPa", rule, nominal)
+    return found.flagged(toe_words(strain, stress, low, high))
+
+
+def no_slope(strain: Array, stress: Array, low: float, high: float) -> str:
+    """Say why a curve has no slope in a range: a slip of the gauge, or slack; empty if it has."""
     if leap := leap_within(strain, stress, low, high):
-        return missing("modulus", "MPa", rule, leap)
-    if (ratio := stiffening(strain, stress, low, high)) > STIFFENING:
-        reason = f"the curve stiffens {ratio:.3g} times within the range: slack or toe is left"
-        return missing("modulus", "MPa", rule, reason)
-    found = from_chord("modulus", chord, "MPa", rule, nominal)
-    if ratio > TOE_LEFT:
-        words = (
-            f"the curve stiffens by {100 * (ratio - 1):.2g} % within the range: a toe may be left"
-        )
-        return found.flagged([words])
-    return found
-
-
-def stiffening(strain: Array, stress: Array, low: float, high: float) -> float:
-    """Slope in the upper half of a range over that in the lower half; 1 where it is not known."""
-    middle, slopes = (low + high) / 2, []
-    for begin, end in ((low, middle), (middle, high)):
-        rows = (strain >= begin) & (strain <= end)
-        if rows.sum() < 4 or not np.ptp(strain[rows]):
-            return 1.0
-        line = fit_line(strain[rows], stress[rows])
-        slopes.append(line.slope)
-        if not line.slope_error < 0.1 * abs(line.slope) and begin > low:
-            return 1.0
-    return slopes[1] / slopes[0] if slopes[0] > 0 else float("inf")
+        return leap
+    if (ratio := stiffening(strain, stress, low, high)) > NO_LAMINATE:
+        return f"the curve stiffens {ratio:.3g} times within the range: slack or toe is left"
+    return ""
 
 
 def poisson_ratio(

@@ -13,6 +13,7 @@ from nptcs.language import tr
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import IntervalRow, Sketch, intervals
+from nptcs.report.stage_messages import message_text
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import with_error
 from nptcs.tables.analysis.decisions import (
@@ -62,12 +63,14 @@ def _finding(results: Results, row: Row) -> Finding:
             sentence = tr(
                 "Asked: {asked}. {message}. Nearest design: {design}.",
                 asked=asked,
-                message=row["message"],
+                message=message_text(row["message"]),
                 design=design,
             )
         case "refused":
             answer = tr("Not assessed")
-            sentence = tr("Asked: {asked}. {message}.", asked=asked, message=row["message"])
+            sentence = tr(
+                "Asked: {asked}. {message}.", asked=asked, message=message_text(row["message"])
+            )
         case _:
             assert_never(outcome)
     return Finding(

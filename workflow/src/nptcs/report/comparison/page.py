@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from importlib import resources
 
-from jinja2 import Environment, PackageLoader, StrictUndefined
 from markupsafe import Markup
 
+from nptcs.language import current_language, tr
 from nptcs.report.blocks import TableView
 from nptcs.report.comparison.parts import TITLE, mark_row, part_sheet
+from nptcs.report.page_templates import page_environment
 from nptcs.report.table_view import table_view
 from nptcs.runs.compare import ComparedRuns
 from nptcs.runs.part import Part
@@ -27,21 +28,20 @@ def comparison_page(done: ComparedRuns) -> str:
     Returns
     -------
     str
-        HTML text in the style of the report; the same comparison gives the same page.
+        HTML text in the style of the report and in the current language, which is that of the
+        comparison's sentences; the same comparison gives the same page.
     """
-    environment = Environment(
-        loader=PackageLoader("nptcs.report"),
-        autoescape=True,
-        undefined=StrictUndefined,
-        trim_blocks=True,
-        lstrip_blocks=True,
-    )
-    return environment.get_template("comparison.html.j2").render(
-        title=TITLE,
-        done=done,
-        parts=[(part, differing(part, done.synthetic)) for part in done.parts],
-        style=_resource("report.css"),
-        script=_resource("page.js"),
+    return (
+        page_environment()
+        .get_template("comparison.html.j2")
+        .render(
+            title=tr(TITLE),
+            language=current_language(),
+            done=done,
+            parts=[(part, differing(part, done.synthetic)) for part in done.parts],
+            style=_resource("report.css"),
+            script=_resource("page.js"),
+        )
     )
 
 

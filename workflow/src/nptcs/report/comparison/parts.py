@@ -6,6 +6,7 @@ from typing import assert_never
 
 import pandas as pd
 
+from nptcs.language import tr, translatable
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.row_classes import Row
@@ -13,7 +14,7 @@ from nptcs.report.tables.sheets import Sheet
 from nptcs.runs.part import RESULT, Found, Part
 from nptcs.tables.result_table import Heading
 
-TITLE = "Comparison of two runs"
+TITLE = translatable("Comparison of two runs")
 
 
 def part_sheet(part: Part, synthetic: bool) -> Sheet:
@@ -21,7 +22,9 @@ def part_sheet(part: Part, synthetic: bool) -> Sheet:
     columns = map(str, part.table.columns)
     sides = {name: side for name in columns if (side := side_heading(name)) is not None}
     headings = {**sides, **part.headings}
-    entry = Entry(part.name, part.title, "(this comparison)", "nptcs compare", part.about, headings)
+    entry = Entry(
+        part.name, part.title, tr("(this comparison)"), "nptcs compare", part.about, headings
+    )
     table = part.table.assign(**{RESULT: part.table[RESULT].map(str)})
     return Sheet(entry, table.astype(_numbers(table)), mark_row, synthetic)
 

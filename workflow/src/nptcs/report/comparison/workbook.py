@@ -9,6 +9,7 @@ from openpyxl.styles import Font
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.language import tr
 from nptcs.report.comparison.parts import TITLE, part_sheet
 from nptcs.report.workbook.build import FIXED_DATE, dated
 from nptcs.report.workbook.cells import FONT, LINK, WRAPPED, head_row, write_row, write_title
@@ -35,7 +36,7 @@ def comparison_workbook(done: ComparedRuns) -> bytes:
     _write_summary(workbook.active, done)
     for part in done.parts:
         write_table(workbook.create_sheet(part.name), part_sheet(part, done.synthetic))
-    workbook.properties.title, workbook.properties.creator = TITLE, "nptcs"
+    workbook.properties.title, workbook.properties.creator = tr(TITLE), "nptcs"
     workbook.properties.description = f"A = {done.a}; B = {done.b}"
     stream = io.BytesIO()
     workbook.save(stream)
@@ -46,15 +47,18 @@ def _write_summary(sheet: Worksheet, done: ComparedRuns) -> None:
     sheet.title = "Summary"
     lines = [f"A = {done.a}", f"B = {done.b}", done.verdict(), *done.sentences()]
     lines.append(
-        f"Numbers within a relative difference of {done.within:g} are the same. Rows: yellow "
-        "different, red different by more than the uncertainty, grey in one run only or not "
-        "comparable."
+        tr(
+            "Numbers within a relative difference of {within} are the same. Rows: yellow "
+            "different, red different by more than the uncertainty, grey in one run only or not "
+            "comparable.",
+            within=f"{done.within:g}",
+        )
     )
     if done.synthetic:
-        lines.append("SYNTHETIC example data are among the materials of these runs.")
-    row = write_title(sheet, TITLE, lines) + 1
+        lines.append(tr("SYNTHETIC example data are among the materials of these runs."))
+    row = write_title(sheet, tr(TITLE), lines) + 1
     sheet["A4"].font = Font(name=FONT, bold=True)
-    head_row(sheet, row, ["sheet", "what was found", "rows", "how it was compared"])
+    head_row(sheet, row, [tr("sheet"), tr("what was found"), tr("rows"), tr("how it was compared")])
     for place, part in enumerate(done.parts, start=row + 1):
         found = "; ".join([part.headline(), *part.remarks])
         write_row(sheet, place, [part.name, found, len(part.table), part.about])

@@ -16,6 +16,7 @@ from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
+from nptcs.report.surface_words import surface_words
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.published.stiffness import DIFFERENCE, StiffnessAgainstPublished
 from nptcs.tables.status import Status
@@ -51,6 +52,10 @@ SECANT = "secant_stiffness"
 Plain = dict[str, Any]
 
 
+ROUNDING = 1e-12
+"""Left-out error, as a share of the largest response, that is rounding alone."""
+
+
 def explorer_payload(results: Results) -> Plain:
     """Collect all that the explorer of a run needs, as plain values.
 
@@ -78,6 +83,11 @@ def explorer_payload(results: Results) -> Plain:
         "factors": _factors(config.studies),
         "tyre": {"width_mm": tyre.tread_width_mm, "plate_width_mm": tyre.plate_width_mm},
         "studies": studies,
+        "models": {
+            fitted.name: surface_words(fitted.name)
+            for registry in results.models.values()
+            for fitted in registry.surfaces
+        },
         "covariances": covariances,
         "ring": ring_payload(results),
         "words": page_words(),
@@ -210,10 +220,18 @@ def _surface(fitted: FittedSurface) -> Plain:
     return {
         "name": fitted.name,
         "outside": fitted.surface.outside.value,
-        "rms": fitted.left_out_rms if np.isfinite(fitted.left_out_rms) else None,
+        "rms": _left_out(fitted),
         "realised": list(fitted.realised),
         "plain": plain_surface(fitted.surface),
     }
+
+
+def _left_out(fitted: FittedSurface) -> float | None:
+    """Return the left-out error; zero for rounding alone, None where it is not known."""
+    if not np.isfinite(fitted.left_out_rms):
+        return None
+    rounding = ROUNDING * float(np.abs(fitted.surface.y).max())
+    return float(fitted.left_out_rms) if fitted.left_out_rms > rounding else 0.0
 
 
 def _bias(results: Results, study: Study, solver: str) -> Plain | None:

@@ -2,15 +2,34 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 import pandas as pd
 from matplotlib.figure import Figure
 
 from nptcs.language import tr
+from nptcs.report.factor_labels import SYMBOLS
 from nptcs.report.figures.style import BESIDE_LABELS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.names import in_words
+
+
+def what_differs(designs: Sequence[str]) -> list[str]:
+    r"""Name designs by the values that are not the same in all of them; all alike: by their place.
+
+    Examples
+    --------
+    >>> what_differs(["22 plates, angle_deg 0", "22 plates, angle_deg 8"])
+    ['A\xa00°', 'A\xa08°']
+    """
+    parts = [design.split(", ") for design in designs]
+    count = min(map(len, parts))
+    told = [place for place in range(count) if len({one[place] for one in parts}) > 1]
+    if not told:
+        return [tr("design {rank}", rank=rank) for rank, _ in enumerate(designs, start=1)]
+    return [in_words(", ".join(one[place] for place in told), SYMBOLS) for one in parts]
 
 
 @styled
@@ -58,13 +77,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
         start, end = np.where(np.isfinite(limits), limits, [low, high])
         axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label=tr("asked for"))
         axes.set_xlim(low, high)
-    names = [
-        tr("{plates} plates", plates=row["plates"])
-        if pd.notna(row["plates"])
-        else tr("design {rank}", rank=row["rank"])
-        for row in designs.to_dict("records")
-    ]
-    axes.set_yticks(place, names)
+    axes.set_yticks(place, what_differs(designs["design"].tolist()))
     figure.data = designs
     axes.grid(visible=False, axis="y")
     figure.legend(loc="outside lower center", ncols=3)

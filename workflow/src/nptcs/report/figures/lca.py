@@ -216,7 +216,7 @@ def stiffness_bars(table: pd.DataFrame) -> Figure:
         tr("LCA, paper"): first["published_stiffness_n_per_mm"].to_numpy(),
     }
     for section, rows in groups.items():
-        name = tr("LCA, computed, {section_names}", section_names=tr(SECTION_NAMES[str(section)]))
+        name = tr("LCA, computed, {section}", section=tr(SECTION_NAMES[str(section)]))
         series[name] = rows["stiffness_n_per_mm"].to_numpy()
     _grouped_bars(axes, [f"{c10:g}" for c10 in first["spoke_c10_mpa"]], series)
     figure.legend(loc="outside lower left", ncols=2)

@@ -80,5 +80,6 @@ def in_lines(quantities: str) -> str:
             lines.append(part)
             continue
         written = heading(name)
-        lines.append(f"{written.name}{between}{number:g} {written.unit}".rstrip())
+        gap = "" if written.unit == "°" else " "
+        lines.append(f"{written.name}{between}{number:g}{gap}{written.unit}".rstrip())
     return "\n".join(lines)

@@ -125,8 +125,8 @@ def lca_facts(results: Results) -> tuple[PageBlock, ...]:
         facts.append(
             Fact(
                 tr(
-                    "LCA, {section_names}, difference from the printed table 11",
-                    section_names=tr(SECTION_NAMES[str(section)]),
+                    "LCA, {section}, difference from the printed table 11",
+                    section=tr(SECTION_NAMES[str(section)]),
                 ),
                 "; ".join(spans),
                 "lca_validation.csv",

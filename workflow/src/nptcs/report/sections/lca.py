@@ -64,6 +64,7 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
                 "it prints the largest error of its model, without a sign."
             ),
             (_stiffness_plot(results), *_load_plots(results)),
+            shown=2,
         ),
         Plots(
             tr("Difference of the stiffness from the FE values of table 7, on the same scale."),
@@ -80,6 +81,7 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
                 "drawn for orientation."
             ),
             tuple(_neutral_line_plots(results)),
+            shown=2,
         ),
     ]
     return Section(

@@ -39,6 +39,10 @@ MOST_ROWS = 500
 """Rows beyond which the page names a table instead of printing it."""
 
 
+MOST_OPEN_ROWS = 6
+"""Rows of the longest table that is open next to figures and text."""
+
+
 def further_section(results: Results, sheets: Sheets) -> Section:
     """Begin the section of tables that no other section claims."""
     return Section(ReportSection.FURTHER, tr("Further tables"), ())
@@ -100,9 +104,21 @@ def build_sections(results: Results, sheets: Sheets) -> list[Section]:
             and sheet.entry.contract not in plan.drawn
         ]
         if section.blocks or rest:
-            blocks = (*section.blocks, *_further_tables(rest, folded=bool(section.blocks)))
+            blocks = (*_folded(section.blocks), *_further_tables(rest, folded=bool(section.blocks)))
             sections.append(replace(section, blocks=blocks))
     return sections
+
+
+def _folded(blocks: Sequence[PageBlock]) -> list[PageBlock]:
+    """Fold the long tables of a section that has something else to show."""
+    if all(isinstance(block, TableView) for block in blocks):
+        return list(blocks)
+    return [
+        replace(block, folded=True)
+        if isinstance(block, TableView) and len(block.rows) > MOST_OPEN_ROWS
+        else block
+        for block in blocks
+    ]
 
 
 def _further_tables(sheets: Sequence[Sheet], *, folded: bool) -> tuple[PageBlock, ...]:

@@ -33,13 +33,13 @@ def ply_words(results: Results) -> str:
         origin = tr(" (SYNTHETIC data)") if ply.synthetic else ""
         sentences.append(
             tr(
-                "The ply of {names} is {name} of the material card{origin}, not the one "
+                "The ply of {solvers} is {ply} of the material card{origin}, not the one "
                 "that the paper prints; in brackets the difference from table 2: "
-                "{names_2}.",
-                names=joined(solvers),
-                name=ply.name,
+                "{differences}.",
+                solvers=joined(solvers),
+                ply=ply.name,
                 origin=origin,
-                names_2=", ".join(parts),
+                differences=", ".join(parts),
             )
         )
     return " ".join(sentences)

@@ -82,10 +82,10 @@ def near_tie_sentences(results: Results, compared: pd.DataFrame) -> list[str]:
     }
     return [
         tr(
-            "{labels} and {labels_2} are a near tie: their order is not settled, "
+            "{factor} and {partner} are a near tie: their order is not settled, "
             "because they are close, or rules or solvers disagree on it.",
-            labels=labels[study, one],
-            labels_2=labels[study, other],
+            factor=labels[study, one],
+            partner=labels[study, other],
         )
         for study, one, other in sorted(pairs)
     ]

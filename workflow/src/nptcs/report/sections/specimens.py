@@ -72,10 +72,10 @@ def _counts(results: Results) -> Text:
     failed, left_out = len(results.failed()), len(results.left_out())
     return Text(
         tr(
-            "{count} specimens in {count_2} series; {left_out} left out by the "
+            "{specimens} specimens in {series} series; {left_out} left out by the "
             "sheet, {failed} that could not be read. Files of the folder: {files}.",
-            count=len(results.sheet),
-            count_2=len(results.series()),
+            specimens=len(results.sheet),
+            series=len(results.series()),
             left_out=left_out,
             failed=failed,
             files=files,
@@ -100,9 +100,9 @@ def _series_plots(results: Results) -> list[Plot]:
             curves, axis = {name: with_shear(curve) for name, curve in curves.items()}, SHEAR
         given = (title, curves, left_out, synthetic, moduli, axis)
         alt = tr(
-            "{stress_words} over {strain_words}, {title}, {count} specimens",
-            stress_words=tr(axis.stress_words),
-            strain_words=tr(axis.strain_words),
+            "{stress} over {strain}, {title}, {count} specimens",
+            stress=tr(axis.stress_words),
+            strain=tr(axis.strain_words),
             title=title,
             count=len(curves),
         )

@@ -222,6 +222,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         for solver, cases in solved.items()
         for drawn in _surface_plots(results, study, solver, cases, levels)
     ]
+    first = len(plots) // len(solved)  # the panels of one solver
     many = len(results.designs[study.name]) > MOST_MARKS
     held = tr(" Factors that a panel does not show are at the middle level in its title.")
     caption = tr(
@@ -229,10 +230,8 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
         "colour scale for all panels and solvers; and over one factor, the lines "
         "are the surface, the marks are the cases",
         title=tr(study.title),
-    ) + (
-        tr(", sampled, at most {most_marks} per panel.", most_marks=MOST_MARKS) if many else tr(".")
-    )
-    blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots)))
+    ) + (tr(", sampled, at most {most} per panel.", most=MOST_MARKS) if many else tr("."))
+    blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots), shown=first))
     if residuals := _residual_plots(results, study):
         words_of_residuals = tr(
             "{title}: what the polynomial leaves of its cases, over its value (marks "
@@ -241,7 +240,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
             "follow.",
             title=tr(study.title),
         )
-        blocks.append(Plots(words_of_residuals, tuple(residuals)))
+        blocks.append(Plots(words_of_residuals, tuple(residuals), shown=0))
     return blocks
 
 
@@ -312,7 +311,7 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
             )
         ),
         *ranking_facts(results),
-        Plots(tr("Impact of each factor on the vertical stiffness."), tuple(plots)),
+        Plots(tr("Impact of each factor on the vertical stiffness."), tuple(plots), shown=2),
         *(block for study in results.config.studies for block in refused_blocks(study)),
         *ranking_blocks(results),
         sheet_view(sheet_of(sheets, Impact)),

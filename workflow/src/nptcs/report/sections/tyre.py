@@ -56,6 +56,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
                 "and 7)."
             ),
             tuple(_curve_plots(results)),
+            shown=4,
         ),
     ]
     if deformed := _deformed_plots(results):
@@ -92,6 +93,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
                     published_stress_mpa=PUBLISHED_STRESS_MPA,
                 ),
                 stress,
+                shown=2,
             )
         )
     return Section(
@@ -148,20 +150,32 @@ def fiducial_cases(results: Results) -> list[str]:
 
 
 def not_assessed(responses: pd.DataFrame) -> list[str]:
-    """Say how many responses have no value, and why, one sentence for each reason."""
+    """Say how many responses have no value, and why, one sentence for each reason.
+
+    Responses that the same number of tyres lack for the same reason are one sentence.
+    """
     missing = responses[responses["status"] != "ok"]
-    groups = missing.groupby(["response", "at", "status"], sort=False)
+    alike: dict[tuple[str, int, str], list[str]] = {}
+    for (name, at, status), rows in missing.groupby(["response", "at", "status"], sort=False):
+        response = words(str(name)) + (tr(" at {at}", at=at) if at else "")
+        key = (str(status), len(rows), _reason(rows["note"]))
+        alike.setdefault(key, []).append(response)
     return [
         tr(
-            "{response}{which}: {status} for {count} tyres; the first: {note}.",
-            response=words(str(name)),
-            which=tr(" at {at}", at=at) if at else "",
-            status=tr(str(status)),
-            count=len(rows),
-            note=flag_text(rows["note"].iloc[0]),
+            "{count} tyres, {status} ({reason}): {responses}.",
+            count=count,
+            status=tr(status),
+            reason=reason,
+            responses=", ".join(responses),
         )
-        for (name, at, status), rows in groups
+        for (status, count, reason), responses in alike.items()
     ]
+
+
+def _reason(notes: pd.Series) -> str:
+    """Say why responses have no value; where the reasons differ, that of the first."""
+    first = flag_text(str(notes.iloc[0]))
+    return first if notes.eq(notes.iloc[0]).all() else tr("the first: {reason}", reason=first)
 
 
 def _without_value(responses: pd.DataFrame) -> list[PageBlock]:

@@ -10,12 +10,14 @@ import pandas as pd
 from nptcs.language import tr
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
+from nptcs.report.explorer.words import RESPONSE_TITLES
 from nptcs.report.figures.uncertainty import share_bars
 from nptcs.report.plots import plot
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.report.text import rounded, with_error
 from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
 from nptcs.tables.result_table import Heading, ReportSection
 
@@ -40,7 +42,7 @@ def uncertainty_section(results: Results, sheets: Sheets) -> Section:
             )
         ),
         Facts(tr("How sure each response is"), tuple(_facts(results, table, shares))),
-        Plots(tr("Shares of the variance by source."), tuple(_plots(results, shares))),
+        Plots(tr("Shares of the variance by source."), tuple(_plots(results, shares)), shown=2),
         sheet_view(sheet_of(sheets, ResponseUncertainty)),
         sheet_view(sheet_of(sheets, UncertaintyShares)),
     ]
@@ -63,14 +65,11 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
             for one in rows.head(LARGEST).to_dict("records")
         )
         text = tr(
-            "{mean:.5g} ± {sd:.2g} {unit} (SD), {confidence_percent:.0f} % interval "
-            "{low:.5g} to {high:.5g}; {largest}",
-            mean=row["mean"],
-            sd=row["sd"],
-            unit=row["unit"],
-            confidence_percent=row["confidence_percent"],
-            low=row["low"],
-            high=row["high"],
+            "{value} (SD), {percent:.0f} % interval {low} to {high}; {largest}",
+            value=with_error(row["mean"], row["sd"], row["unit"]),
+            percent=row["confidence_percent"],
+            low=rounded(row["low"], row["sd"]),
+            high=rounded(row["high"], row["sd"]),
             largest=largest,
         )
         if pd.notna(row["bias_mean_percent"]):
@@ -83,8 +82,8 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
             )
         at = tr(" at {at}", at=row["at"]) if row["at"] else ""
         what = tr(
-            "{capitalize}{at}, {design}, study {study}, solver {solver}",
-            capitalize=words(row["response"]).capitalize(),
+            "{response}{at}, {design}, study {study}, solver {solver}",
+            response=_title(str(row["response"])),
             at=at,
             design=tr(row["design"]),
             study=row["study"],
@@ -92,6 +91,12 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
         )
         facts.append(Fact(what, text, "uncertainty.csv"))
     return facts
+
+
+def _title(response: str) -> str:
+    """Name a response at the beginning of a line."""
+    text = tr(RESPONSE_TITLES[response]) if response in RESPONSE_TITLES else words(response)
+    return text[:1].upper() + text[1:]
 
 
 def _short(row: Mapping[Hashable, Any], factors: Mapping[str, Heading]) -> str:

@@ -10,6 +10,7 @@ from datetime import UTC, datetime
 from openpyxl import Workbook
 from openpyxl.workbook.properties import CalcProperties
 
+from nptcs.language import language, tr, translatable
 from nptcs.report.data import Results
 from nptcs.report.tables.dictionary import dictionary_table
 from nptcs.report.tables.sheets import sheets_of
@@ -26,12 +27,14 @@ FIXED_DATE = datetime(1980, 1, 1, tzinfo=UTC)
 
 DICTIONARY = "columns"
 OWN_SHEETS = {
-    PREDICTOR: "Live formulas of the stored polynomials: five input cells, warnings outside the "
-    "range of validity",
-    CHARTS: "Native charts of the main curves",
-    TERMS: "What the predictor evaluates: coefficients, terms and covariances",
-    DATA: "The numbers that the charts draw",
-    DICTIONARY: "The meaning of each column of each table",
+    PREDICTOR: translatable(
+        "Live formulas of the stored polynomials: five input cells, warnings outside the range of "
+        "validity"
+    ),
+    CHARTS: translatable("Native charts of the main curves"),
+    TERMS: translatable("What the predictor evaluates: coefficients, terms and covariances"),
+    DATA: translatable("The numbers that the charts draw"),
+    DICTIONARY: translatable("The meaning of each column of each table"),
 }
 """Sheets that are not tables of the run, in the order of the index."""
 
@@ -40,7 +43,8 @@ def build_workbook(results: Results) -> bytes:
     """Write all results as one XLSX file.
 
     Numbers are stored to 16 significant digits and shown with the digits that their unit and size
-    ask for. The same results give the same bytes.
+    ask for. Titles, headings and sentences are in the language of the run; names of sheets and the
+    words in cells of tables are those of the CSV files. The same results give the same bytes.
 
     Parameters
     ----------
@@ -52,6 +56,15 @@ def build_workbook(results: Results) -> bytes:
     bytes
         Content of the XLSX file.
     """
+    with language(results.config.laboratory.language):
+        workbook = _written(results)
+    stream = io.BytesIO()
+    workbook.save(stream)
+    return dated(stream.getvalue(), _date(results))
+
+
+def _written(results: Results) -> Workbook:
+    """Write all sheets, in the language of the run."""
     workbook = Workbook()
     summary = workbook.active
     write_predictor(workbook, results)
@@ -64,21 +77,22 @@ def build_workbook(results: Results) -> bytes:
         if sheet.in_workbook:
             write_table(workbook.create_sheet(name), sheet)
     _write_dictionary(workbook, results)
-    own = [IndexRow(name, says) for name, says in OWN_SHEETS.items() if name in workbook.sheetnames]
+    own = [
+        IndexRow(name, tr(says)) for name, says in OWN_SHEETS.items() if name in workbook.sheetnames
+    ]
     write_summary(summary, results, [*own, *tables])
     for name in (TERMS, DATA):
         if name in workbook.sheetnames:
             workbook.move_sheet(name, len(workbook.sheetnames))
     _describe(workbook, results)
-    stream = io.BytesIO()
-    workbook.save(stream)
-    return dated(stream.getvalue(), _date(results))
+    return workbook
 
 
 def _write_dictionary(workbook: Workbook, results: Results) -> None:
     """Write the sheet that explains every column."""
     sheet = workbook.create_sheet(DICTIONARY)
-    write_row(sheet, 1, ["sheet", "column", "unit", "column in the file", "meaning"])
+    heads = (tr("sheet"), tr("column"), tr("unit"), tr("column in the file"), tr("meaning"))
+    write_row(sheet, 1, heads)
     table = dictionary_table(list(sheets_of(results).values()))
     for row, values in enumerate(table.itertuples(index=False), start=2):
         write_row(sheet, row, list(values))
@@ -89,9 +103,9 @@ def _describe(workbook: Workbook, results: Results) -> None:
     """Set title, author, subject and date, and let programs compute the formulas on opening."""
     settings, identity = results.config.report, results.identity
     properties = workbook.properties
-    properties.title = settings.title
+    properties.title = tr(settings.title)
     properties.creator = properties.lastModifiedBy = results.config.laboratory.name or "nptcs"
-    properties.subject = "Results of a run of nptcs" + (f" {identity.short}" if identity else "")
+    properties.subject = f"{tr('Results of a run of nptcs')} {identity.short if identity else ''}"
     properties.description = results.verdict()[1]
     properties.keywords = "non-pneumatic tyre; response surface; " + (
         f"run {identity.identity}" if identity else "run without identity"

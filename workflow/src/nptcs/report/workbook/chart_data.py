@@ -12,6 +12,7 @@ import numpy as np
 import pandas as pd
 
 from nptcs.arrays import Array
+from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.factor_labels import factor_labels
 from nptcs.tables.analysis.sobol import MainEffects
@@ -86,9 +87,9 @@ def _specimens(results: Results) -> Iterator[ChartData]:
             for s in shown
         ]
         yield ChartData(
-            f"Specimens {series}: stress against strain",
-            "nominal strain [1]",
-            "nominal stress [MPa]",
+            tr("Specimens {series}: stress against strain", series=series),
+            tr("nominal strain [1]"),
+            tr("nominal stress [MPa]"),
             tuple(line for line in lines if len(line.x)),
             "results/1_ingest/*.csv",
             synthetic=any(s.origin == "synthetic" for s in shown),
@@ -103,8 +104,8 @@ def _rubber_ranges(results: Results) -> Iterator[ChartData]:
         for name, rows in all_specimens.groupby("rubber", sort=False)
     ]
     yield ChartData(
-        "C10 against the strain range of the fit, all specimens",
-        "strain range of the fit from 0 to [1]",
+        tr("C10 against the strain range of the fit, all specimens"),
+        tr("strain range of the fit from 0 to [1]"),
         "C10 [MPa]",
         tuple(lines[:MOST_LINES]),
         "c10_against_range.csv",
@@ -115,13 +116,17 @@ def _rubber_ranges(results: Results) -> Iterator[ChartData]:
 def _spokes(results: Results) -> Iterator[ChartData]:
     for (study, solver), rows in results.table(SpokeCurves).groupby(["study", "solver"]):
         lines = [
-            _line(f"spoke C10 {c10:g} MPa", curve, "displacement_mm", "force_n")
+            _line(tr("spoke C10 {c10} MPa", c10=f"{c10:g}"), curve, "displacement_mm", "force_n")
             for c10, curve in rows.groupby("spoke_c10_mpa")
         ]
         yield ChartData(
-            f"Single spokes: force against displacement ({study}, {solver})",
-            "displacement [mm]",
-            "force [N]",
+            tr(
+                "Single spokes: force against displacement ({study}, {solver})",
+                study=study,
+                solver=solver,
+            ),
+            tr("displacement [mm]"),
+            tr("force [N]"),
             tuple(lines[:MOST_LINES]),
             "spoke_curves.csv",
             synthetic=results.study_is_synthetic(results.config.study(str(study)), str(solver)),
@@ -138,9 +143,14 @@ def _tyres(results: Results) -> Iterator[ChartData]:
         lines.sort(key=lambda line: line.y[-1] / line.x[-1])
         chosen = [lines[place] for place in sorted({0, len(lines) // 2, len(lines) - 1})]
         yield ChartData(
-            f"Tyres {study}, {solver}: softest, middle and stiffest of {len(lines)}",
-            "vertical displacement [mm]",
-            "vertical load [N]",
+            tr(
+                "Tyres {study}, {solver}: softest, middle and stiffest of {count}",
+                study=study,
+                solver=solver,
+                count=len(lines),
+            ),
+            tr("vertical displacement [mm]"),
+            tr("vertical load [N]"),
             tuple(chosen),
             "tyre_curves.csv",
             synthetic=results.study_is_synthetic(results.config.study(str(study)), str(solver)),
@@ -159,9 +169,9 @@ def _main_effects(results: Results) -> Iterator[ChartData]:
         solvers = rows.groupby("solver", sort=False)
         lines = [_line(str(name), one, "value", "effect_n_per_mm") for name, one in solvers]
         yield ChartData(
-            f"Main effect on the vertical stiffness ({study})",
+            tr("Main effect on the vertical stiffness ({study})", study=study),
             labels[str(study), str(factor)],
-            "effect [N/mm]",
+            tr("effect [N/mm]"),
             tuple(lines[:MOST_LINES]),
             "main_effects.csv",
             synthetic=results.table_is_synthetic(rows),
@@ -175,10 +185,10 @@ def _against_published(results: Results) -> Iterator[ChartData]:
         lines = [_line(str(name), one.sort_values(x), x, y) for name, one in rows.groupby("solver")]
         ends = np.array([rows[x].min(), rows[x].max()])
         yield ChartData(
-            f"Computed against published stiffness ({study})",
-            "published [N/mm]",
-            "computed [N/mm]",
-            (*lines[: MOST_LINES - 1], Line("equal", ends, ends, guide=True)),
+            tr("Computed against published stiffness ({study})", study=study),
+            tr("published [N/mm]"),
+            tr("computed [N/mm]"),
+            (*lines[: MOST_LINES - 1], Line(tr("equal"), ends, ends, guide=True)),
             "stiffness_against_published.csv",
             points=True,
             synthetic=results.table_is_synthetic(rows),
@@ -193,9 +203,9 @@ def _neutral_lines(results: Results) -> Iterator[ChartData]:
             for solver, one in rows.groupby("solver", sort=False)
         ]
         yield ChartData(
-            f"Radial displacement of the band's neutral line ({case})",
-            "angle from the contact [°]",
-            "radial displacement [mm]",
+            tr("Radial displacement of the band's neutral line ({case})", case=case),
+            tr("angle from the contact [°]"),
+            tr("radial displacement [mm]"),
             tuple(lines[:MOST_LINES]),
             "neutral_line.csv",
             synthetic=results.study_is_synthetic(results.config.study(str(study))),

@@ -23,6 +23,7 @@ from openpyxl.worksheet.pagebreak import Break
 from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.arrays import Array
+from nptcs.language import tr
 from nptcs.report.workbook.cells import head_row, write, write_row, write_title
 from nptcs.report.workbook.chart_data import ChartData
 from nptcs.report.workbook.layout import page_for_print
@@ -51,10 +52,17 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
     sheet, data = workbook.create_sheet(CHARTS), workbook.create_sheet(DATA)
     write_title(
         sheet,
-        "Charts of the main curves",
-        [f"Native charts: change, copy and print them. Their numbers are in the sheet {DATA}."],
+        tr("Charts of the main curves"),
+        [
+            tr(
+                "Native charts: change, copy and print them. Their numbers are in the sheet "
+                "{sheet}.",
+                sheet=DATA,
+            )
+        ],
     )
-    write_title(data, "Numbers that the charts draw", ["Two columns for each line: x and y."])
+    lines = [tr("Two columns for each line: x and y.")]
+    write_title(data, tr("Numbers that the charts draw"), lines)
     column = 1
     for number, chart in enumerate(charts):
         drawn = _chart(data, chart, column)
@@ -75,7 +83,7 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
 def _chart(data: Worksheet, chart: ChartData, column: int) -> ScatterChart:
     """Write the data of a chart from a column on, and draw it."""
     drawn = ScatterChart(scatterStyle="lineMarker")
-    badge = " (SYNTHETIC DATA)" * chart.synthetic
+    badge = f" ({tr('SYNTHETIC DATA')})" if chart.synthetic else ""
     drawn.width, drawn.height = SIZE_CM
     drawn.title = _title(chart.title + badge, 1100, True)
     drawn.x_axis.title = _title(chart.x_title, 900, False)
@@ -88,7 +96,8 @@ def _chart(data: Worksheet, chart: ChartData, column: int) -> ScatterChart:
     for axis in (drawn.x_axis, drawn.y_axis):
         axis.tickLblPos = "low"
         axis.majorGridlines.spPr = GraphicalProperties(ln=LineProperties(solidFill="DDDDDD"))
-    write(data.cell(HEADER_ROW, column), f"{chart.title}{badge}, from {chart.source}")
+    named = tr("{title}, from {file}", title=chart.title + badge, file=chart.source)
+    write(data.cell(HEADER_ROW, column), named)
     for number, line in enumerate(chart.lines):
         place = column + 2 * number
         head_row(data, HEADER_ROW + 1, [chart.x_title, line.name], place)

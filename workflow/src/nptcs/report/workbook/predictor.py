@@ -19,7 +19,9 @@ from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.study import Study
+from nptcs.language import tr, translatable
 from nptcs.report.data import Results
+from nptcs.report.surface_words import surface_words
 from nptcs.report.tables.headings import words
 from nptcs.report.workbook.cells import (
     FONT,
@@ -45,22 +47,33 @@ from nptcs.surface.registry import STIFFNESS, FittedSurface
 PREDICTOR, TERMS = "predictor", "predictor_terms"
 FIRST_INPUT = 6
 VALUE, PLATES_ROW = "D", FIRST_INPUT + len(INPUTS) + 1
-INSIDE = "inside"
+INSIDE = translatable("inside")
 COLUMNS = (
-    "study",
-    "solver",
-    "response",
-    "at",
-    "unit",
-    "surface",
-    "prediction",
-    "interval from",
-    "interval to",
-    "range of validity",
-    "what it takes and what its study holds",
-    "data",
+    translatable("study"),
+    translatable("solver"),
+    translatable("response"),
+    translatable("at"),
+    translatable("unit"),
+    translatable("surface"),
+    translatable("prediction"),
+    translatable("interval from"),
+    translatable("interval to"),
+    translatable("range of validity"),
+    translatable("what it takes and what its study holds"),
+    translatable("data"),
+)
+INPUT_COLUMNS = (
+    translatable("input"),
+    translatable("symbol"),
+    translatable("unit"),
+    translatable("value"),
+    translatable("lowest"),
+    translatable("highest"),
 )
 WIDTHS = (26, 16, 30, 13, 13, 26, 16, 16, 16, 30, 62, 17)
+PLACE = "\N{REPLACEMENT CHARACTER}"
+"""Stands for the number that a formula puts into a sentence."""
+
 LIGHT_RED = PatternFill("solid", start_color="FDD9C8", end_color="FDD9C8")
 
 
@@ -73,10 +86,15 @@ def write_predictor(workbook: Workbook, results: Results) -> None:
     cells = _write_inputs(sheet, results, models)
     write_title(
         terms,
-        "What the predictor evaluates: one block per polynomial",
-        ["Terms are in coded units, c = (x − centre) / half range; the inputs are those of the "
-         f"sheet {PREDICTOR}."],
-    )  # fmt: skip
+        tr("What the predictor evaluates: one block per polynomial"),
+        [
+            tr(
+                "Terms are in coded units, c = (x − centre) / half range; the inputs are those of "
+                "the sheet {sheet}.",
+                sheet=PREDICTOR,
+            )
+        ],
+    )
     row, blocks = 4, []
     for model in models:
         block = write_block(terms, row, model, cells)
@@ -97,16 +115,20 @@ def _write_inputs(
     """
     write_title(
         sheet,
-        "Predictor: change the yellow cells",
-        ["Every prediction below is a live formula of the stored polynomial, with its 95 % "
-         "prediction interval."],
-    )  # fmt: skip
-    head_row(sheet, FIRST_INPUT - 1, ["input", "symbol", "unit", "value", "lowest", "highest"])
+        tr("Predictor: change the yellow cells"),
+        [
+            tr(
+                "Every prediction below is a live formula of the stored polynomial, with its 95 % "
+                "prediction interval."
+            )
+        ],
+    )
+    head_row(sheet, FIRST_INPUT - 1, list(map(tr, INPUT_COLUMNS)))
     start = start_values(results, models)
     cells = {}
     for row, (factor, (symbol, name, unit)) in enumerate(INPUTS.items(), start=FIRST_INPUT):
         lowest, highest = _range_of(factor, models)
-        write_row(sheet, row, [name, symbol, unit, start.get(factor), lowest, highest])
+        write_row(sheet, row, [tr(name), symbol, unit, start.get(factor), lowest, highest])
         for column in "EF":
             sheet[f"{column}{row}"].number_format = "0.####"
         cell = sheet[f"{VALUE}{row}"]
@@ -115,7 +137,7 @@ def _write_inputs(
         cell.font = Font(name=FONT, bold=True)
         cells[factor] = f"'{PREDICTOR}'!${VALUE}${row}"
     numbers = DataValidation("decimal", operator="greaterThanOrEqual", formula1="0")
-    numbers.errorTitle, numbers.error = "Not a number", "Give a number, zero or more."
+    numbers.errorTitle, numbers.error = tr("Not a number"), tr("Give a number, zero or more.")
     numbers.showErrorMessage = True
     numbers.add(f"{VALUE}{FIRST_INPUT}:{VALUE}{FIRST_INPUT + len(INPUTS) - 1}")
     sheet.add_data_validation(numbers)
@@ -126,10 +148,10 @@ def _write_inputs(
 def _write_plates(sheet: Worksheet, tyre: TyreGeometry) -> str:
     """Write how many plates a leg has at the spacing, as `TyreGeometry.plates_across`."""
     row, spacing = PLATES_ROW, f"{VALUE}{FIRST_INPUT}"
-    write_row(sheet, row, ["width of the tread", "", "mm", tyre.tread_width_mm])
-    write_row(sheet, row + 1, ["width of a plate", "", "mm", tyre.plate_width_mm])
-    write_row(sheet, row + 2, ["plates across the width", "", "1"])
-    write_row(sheet, row + 3, ["spacing with whole plates", "S", "mm"])
+    write_row(sheet, row, [tr("width of the tread"), "", "mm", tyre.tread_width_mm])
+    write_row(sheet, row + 1, [tr("width of a plate"), "", "mm", tyre.plate_width_mm])
+    write_row(sheet, row + 2, [tr("plates across the width"), "", "1"])
+    write_row(sheet, row + 3, [tr("spacing with whole plates"), "S", "mm"])
     width, plate, plates = (f"{VALUE}{row + place}" for place in range(3))
     sheet[plates] = f"=IF({spacing}>0,INT(({width}-{plate})/{spacing}+1E-9)+1,NA())"
     realised = f"{VALUE}{row + 3}"
@@ -163,13 +185,13 @@ def _write_predictions(
     results: Results,
 ) -> None:
     head = first_row() - 1
-    head_row(sheet, head, COLUMNS)
+    head_row(sheet, head, list(map(tr, COLUMNS)))
     for place, (model, block) in enumerate(zip(models, blocks, strict=True)):
         row, fitted = first_row(place), model.fitted
         study = results.config.study(fitted.study)
         write_row(sheet, row, _named(fitted, study))
         synthetic = results.study_is_synthetic(study, fitted.solver)
-        write_row(sheet, row, [takes(model), "SYNTHETIC" if synthetic else ""], 11)
+        write_row(sheet, row, [takes(model), tr("SYNTHETIC") if synthetic else ""], 11)
         if synthetic:
             sheet[f"L{row}"].fill = SYNTHETIC
         for column, formula in zip(
@@ -181,7 +203,7 @@ def _write_predictions(
             cell.number_format = format_of_number(float(fitted.surface.y.max()))
             cell.alignment = Alignment(horizontal="right")
     last = first_row(len(models) - 1)
-    rule = FormulaRule(formula=[f'$J{first_row()}<>"{INSIDE}"'], fill=LIGHT_RED)
+    rule = FormulaRule(formula=[f'$J{first_row()}<>"{tr(INSIDE)}"'], fill=LIGHT_RED)
     sheet.conditional_formatting.add(f"G{first_row()}:J{last}", rule)
 
 
@@ -192,13 +214,13 @@ def _named(fitted: FittedSurface, study: Study) -> list[str]:
     if response.name == STIFFNESS:
         at, unit = f"{study.load_n:g} N", "N/mm"
     words_of = words(response.name.removesuffix("_n_per_mm"))
-    return [fitted.study, fitted.solver, words_of, at, unit, fitted.name]
+    return [fitted.study, fitted.solver, words_of, at, unit, surface_words(fitted.name)]
 
 
 def takes(model: PredictorModel) -> str:
     """Say which inputs a polynomial takes, what its study holds, and what has no part in it."""
     taken = [
-        f"{INPUTS[name][0]} with whole plates"
+        tr("{symbol} with whole plates", symbol=INPUTS[name][0])
         if name == SPACING and model.snaps
         else INPUTS[name][0]
         for name in model.fitted.factors
@@ -209,9 +231,9 @@ def takes(model: PredictorModel) -> str:
         for name, (symbol, _, _) in INPUTS.items()
         if name not in {*model.fitted.factors, *model.fixed}
     ]
-    parts = [f"takes {', '.join(taken)}"]
-    parts += [f"its study holds {', '.join(held)}"] if held else []
-    parts += [f"without {', '.join(absent)}"] if absent else []
+    parts = [tr("takes {inputs}", inputs=", ".join(taken))]
+    parts += [tr("its study holds {inputs}", inputs=", ".join(held))] if held else []
+    parts += [tr("without {inputs}", inputs=", ".join(absent))] if absent else []
     return "; ".join(parts)
 
 
@@ -219,22 +241,31 @@ def _write_warning(sheet: Worksheet, count: int) -> None:
     """Write the cell that warns where polynomials are outside their range."""
     row, last = PLATES_ROW + 5, first_row(count - 1)
     checks = f"J{first_row()}:J{last}"
-    sheet[f"A{row}"] = (
-        f'=IF(COUNTIF({checks},"{INSIDE}")={count},"All {count} polynomials hold at these inputs.",'
-        f'"WARNING: "&({count}-COUNTIF({checks},"{INSIDE}"))&" of {count} polynomials are outside '
-        'their range at these inputs; their rows are red and have no interval.")'
-    )
+    inside = f'COUNTIF({checks},"{tr(INSIDE)}")'
+    sound = tr("All {count} polynomials hold at these inputs.", count=count)
+    before, after = tr(
+        "WARNING: {outside} of {count} polynomials are outside their range at these inputs; their "
+        "rows are red and have no interval.",
+        outside=PLACE,
+        count=count,
+    ).split(PLACE)
+    warning = f'"{before}"&({count}-{inside})&"{after}"'
+    sheet[f"A{row}"] = f'=IF({inside}={count},"{sound}",{warning})'
     sheet[f"A{row}"].font = Font(name=FONT, bold=True)
-    warned = FormulaRule(formula=[f'LEFT($A${row},4)="WARN"'], fill=LIGHT_RED)
+    fixed = f'COUNTIF($J${first_row()}:$J${last},"{tr(INSIDE)}")'
+    warned = FormulaRule(formula=[f"{fixed}<{count}"], fill=LIGHT_RED)
     sheet.conditional_formatting.add(f"A{row}:J{row}", warned)
 
 
 def _say_what_is_missing(sheet: Worksheet, others: Mapping[str, int]) -> None:
     """Name the surfaces that no formula evaluates."""
     if others:
-        named = ", ".join(f"{count} × {name}" for name, count in others.items())
-        text = f"Not here, because they are not polynomials of the inputs: {named}."
-        write(sheet.cell(PLATES_ROW + 6, 1), f"{text} The report and nptcs design evaluate them.")
+        text = tr(
+            "Not here, because they are not polynomials of the inputs: {named}. The report and "
+            "nptcs design evaluate them.",
+            named=", ".join(f"{count} × {surface_words(name)}" for name, count in others.items()),
+        )
+        write(sheet.cell(PLATES_ROW + 6, 1), text)
 
 
 def _finish(sheet: Worksheet, terms: Worksheet) -> None:

@@ -11,17 +11,18 @@ from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.config.studies.study import Level, MeasuredRubber, Study
+from nptcs.language import translatable
 from nptcs.report.data import Results
 from nptcs.surface.fit import Surface
 from nptcs.surface.kinds.linked import Bend, LinkedSurface
 from nptcs.surface.registry import FittedSurface
 
 INPUTS: Mapping[str, tuple[str, str, str]] = {
-    "spacing_mm": ("S", "plate spacing", "mm"),
-    "thickness_mm": ("T", "plate thickness", "mm"),
-    "angle_deg": ("A", "fibre angle", "°"),
-    "shear_band_c10_mpa": ("T-C", "C10 of the shear band", "MPa"),
-    "spoke_c10_mpa": ("S-C", "C10 of the spokes", "MPa"),
+    "spacing_mm": ("S", translatable("plate spacing"), "mm"),
+    "thickness_mm": ("T", translatable("plate thickness"), "mm"),
+    "angle_deg": ("A", translatable("fibre angle"), "°"),
+    "shear_band_c10_mpa": ("T-C", translatable("C10 of the shear band"), "MPa"),
+    "spoke_c10_mpa": ("S-C", translatable("C10 of the spokes"), "MPa"),
 }
 """Symbol, name and unit of the five inputs, by the names of the factors."""
 

@@ -8,13 +8,29 @@ from dataclasses import dataclass
 from openpyxl.styles import Font
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.language import tr, translatable
+from nptcs.report.surface_words import surface_words
 from nptcs.report.workbook.cells import FONT, head_row, write, write_row
 from nptcs.report.workbook.number_formats import EXACT
 from nptcs.report.workbook.predictor_models import INPUTS, SPACING, Link, PredictorModel
 from nptcs.surface.response_surface import INSIDE_TOLERANCE
 
-FACTOR_COLUMNS = ("factor", "value", "lowest", "highest", "centre", "half range", "coded", "inside")
-TERM_COLUMNS = ("term", "coefficient, coded", "value of the term", "product")
+FACTOR_COLUMNS = (
+    translatable("factor"),
+    translatable("value"),
+    translatable("lowest"),
+    translatable("highest"),
+    translatable("centre"),
+    translatable("half range"),
+    translatable("coded"),
+    translatable("inside"),
+)
+TERM_COLUMNS = (
+    translatable("term"),
+    translatable("coefficient, coded"),
+    translatable("value of the term"),
+    translatable("product"),
+)
 COVARIANCE = 6
 """Column at which the covariance matrix of the coefficients begins."""
 
@@ -55,16 +71,16 @@ def write_block(
         Formulas for the sheet with the predictions.
     """
     fitted = model.fitted
-    head = f"{fitted.study}, {fitted.solver}, {fitted.name}: {fitted.response}"
+    head = f"{fitted.study}, {fitted.solver}, {surface_words(fitted.name)}: {fitted.response}"
     write(sheet.cell(row, 1), head)
     sheet.cell(row, 1).font = Font(name=FONT, bold=True, size=12)
     first = row + 2
-    head_row(sheet, row + 1, FACTOR_COLUMNS)
+    head_row(sheet, row + 1, list(map(tr, FACTOR_COLUMNS)))
     coded = _write_factors(sheet, first, model, cells)
     held = _write_held(sheet, first + len(coded), model, cells)
     top = held + 1
-    head_row(sheet, top, TERM_COLUMNS)
-    write(sheet.cell(top, COVARIANCE), "covariance of the coefficients, coded")
+    head_row(sheet, top, list(map(tr, TERM_COLUMNS)))
+    write(sheet.cell(top, COVARIANCE), tr("covariance of the coefficients, coded"))
     last = _write_terms(sheet, top + 1, model, coded)
     return _results(sheet, last + 1, model, (first, held - 1), (top + 1, last))
 
@@ -78,7 +94,8 @@ def _write_factors(
     for place, name in enumerate(model.fitted.factors):
         row = first + place
         whole = name == SPACING and model.snaps
-        label = f"{INPUTS[name][0]}, whole plates" if whole else INPUTS[name][0]
+        symbol = INPUTS[name][0]
+        label = tr("{symbol}, whole plates", symbol=symbol) if whole else symbol
         write_row(sheet, row, [label, None, lower[place], upper[place], centre[place], half[place]])
         sheet[f"B{row}"] = f"={cells['realised' if whole else name]}"
         sheet[f"G{row}"] = f"=(B{row}-E{row})/F{row}"
@@ -93,7 +110,8 @@ def _write_held(
     """Write one row per value that the study holds; return the row after them."""
     row = first
     for name, value in model.fixed.items():
-        write_row(sheet, row, [f"{INPUTS[name][0]}, held by the study", None, value, value])
+        held = tr("{symbol}, held by the study", symbol=INPUTS[name][0])
+        write_row(sheet, row, [held, None, value, value])
         sheet[f"B{row}"] = f"={cells[name]}"
         sheet[f"H{row}"] = f"=IF(ABS(B{row}-C{row})<={HELD_TOLERANCE:.0E}*ABS(C{row}),1,0)"
         row += 1
@@ -149,12 +167,12 @@ def _results(
     end = sheet.cell(last, COVARIANCE + count - 1).coordinate
     for place, (label, value) in enumerate(
         (
-            ("polynomial", f"=SUM(D{top}:D{last})"),
-            ("Student's t", model.t_quantile),
-            ("standard deviation s", model.inner.residual_sd),
-            ("variance of the polynomial", f"=SUMPRODUCT(MMULT({corner}:{end},{z}),{z})"),
-            ("half width", f"=B{row + 1}*SQRT(B{row + 3}+B{row + 2}^2)"),
-            ("checks that fail", f"=COUNTIF(H{checked[0]}:H{checked[1]},0)"),
+            (tr("polynomial"), f"=SUM(D{top}:D{last})"),
+            (tr("Student's t"), model.t_quantile),
+            (tr("standard deviation s"), model.inner.residual_sd),
+            (tr("variance of the polynomial"), f"=SUMPRODUCT(MMULT({corner}:{end},{z}),{z})"),
+            (tr("half width"), f"=B{row + 1}*SQRT(B{row + 3}+B{row + 2}^2)"),
+            (tr("checks that fail"), f"=COUNTIF(H{checked[0]}:H{checked[1]},0)"),
         )
     ):
         write(sheet.cell(row + place, 1), label)
@@ -162,15 +180,16 @@ def _results(
     name = f"'{sheet.title}'!"
     inner, half, fails = (f"{name}$B${row + place}" for place in (0, 4, 5))
     low, high = _interval(model.link, inner, half)
+    none = tr("not assessed")
     outside = [
         f'IF({name}$H${place}=0,"{sheet.cell(place, 1).value}; ","")'
         for place in range(checked[0], checked[1] + 1)
     ]
     return Block(
         value=f"={INVERSE[model.link].format(inner)}",
-        low=f'=IF({fails}=0,{low},"not assessed")',
-        high=f'=IF({fails}=0,{high},"not assessed")',
-        validity=f'=IF({fails}=0,"inside",TRIM("outside: "&{"&".join(outside)}))',
+        low=f'=IF({fails}=0,{low},"{none}")',
+        high=f'=IF({fails}=0,{high},"{none}")',
+        validity=f'=IF({fails}=0,"{tr("inside")}",TRIM("{tr("outside:")} "&{"&".join(outside)}))',
         last_row=row + 5,
     )
 
@@ -179,5 +198,5 @@ def _interval(link: Link, inner: str, half: str) -> tuple[str, str]:
     """Transform the interval back; where that of 1/K reaches zero, K has no upper bound."""
     low, high = f"{inner}-{half}", f"{inner}+{half}"
     if link == "reciprocal":
-        return f"1/({high})", f'IF({low}>0,1/({low}),"no upper bound")'
+        return f"1/({high})", f'IF({low}>0,1/({low}),"{tr("no upper bound")}")'
     return INVERSE[link].format(low), INVERSE[link].format(high)

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import PurePosixPath
+from typing import assert_never
 
 import pandas as pd
 from openpyxl.styles import Font
@@ -12,9 +13,13 @@ from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.hyperlink import Hyperlink
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.language import tr, translatable
 from nptcs.report.cover import cover_lines
 from nptcs.report.data import Results
 from nptcs.report.sections.summary import findings
+from nptcs.report.surface_words import surface_words
+from nptcs.report.tables.headings import words
+from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.workbook.cells import (
     FILLS,
@@ -28,14 +33,38 @@ from nptcs.report.workbook.cells import (
 )
 from nptcs.report.workbook.layout import fit_heights, page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
-from nptcs.tables.analysis.decisions import DecisionConfirmation, Decisions
+from nptcs.tables.analysis.decisions import DecisionConfirmation, Decisions, Outcome
 from nptcs.tables.analysis.uncertainty import ResponseUncertainty
 from nptcs.tables.published.stiffness import StiffnessErrors
 
 TITLE = "Summary"
-FINDING_HEAD = ("question", "answer", "", "", "", "", "in words", "table")
-ANSWER_HEAD = ("number", "in words", "value", "from", "to", "unit", "what it rests on", "table")
-INDEX_HEAD = ("sheet", "what it says", "rows", "synthetic", "", "rule", "made from", "file")
+FINDING_HEAD = (
+    translatable("question"),
+    translatable("answer"),
+    *("", "", "", ""),
+    translatable("in words"),
+    translatable("table"),
+)
+ANSWER_HEAD = (
+    translatable("number"),
+    translatable("in words"),
+    translatable("value"),
+    translatable("from"),
+    translatable("to"),
+    translatable("unit"),
+    translatable("what it rests on"),
+    translatable("table"),
+)
+INDEX_HEAD = (
+    translatable("sheet"),
+    translatable("what it says"),
+    translatable("rows"),
+    translatable("synthetic"),
+    "",
+    translatable("rule"),
+    translatable("made from"),
+    translatable("file"),
+)
 WIDTHS = (34, 66, 12, 12, 12, 24, 66, 40)
 REFERENCE = "reference"
 
@@ -80,48 +109,73 @@ def answers(results: Results) -> list[Answer]:
 def _stiffness(results: Results) -> Iterator[Answer]:
     table = results.table(ResponseUncertainty)
     rows = table[(table["design"] == REFERENCE) & (table["response"] == "secant_stiffness")]
+    labels = factor_headings(results.config.studies)
     for row in rows.to_dict("records"):
         yield Answer(
-            f"Stiffness of the reference design at {row['at']}",
-            f"{row['mean']:.4g} ± {row['sd']:.2g} {row['unit']} (mean ± standard deviation) at "
-            f"{row['factors']}",
+            tr("Stiffness of the reference design at {load}", load=row["at"]),
+            tr(
+                "{mean} ± {sd} {unit} (mean ± standard deviation) at {design}",
+                mean=f"{row['mean']:.4g}",
+                sd=f"{row['sd']:.2g}",
+                unit=row["unit"],
+                design=in_words(row["factors"], labels),
+            ),
             "uncertainty.csv",
             row["mean"],
             row["low"],
             row["high"],
             row["unit"],
-            f"study {row['study']}, solver {row['solver']}, {row['surface']}, {row['cases']} "
-            f"cases; {row['confidence_percent']:g} % interval",
+            tr(
+                "study {study}, solver {solver}, {surface}, {cases} cases; {percent} % interval",
+                study=row["study"],
+                solver=row["solver"],
+                surface=surface_words(row["surface"]),
+                cases=row["cases"],
+                percent=f"{row['confidence_percent']:g}",
+            ),
         )
 
 
 def _decisions(results: Results) -> Iterator[Answer]:
     confirmed = results.table(DecisionConfirmation)
+    labels = factor_headings(results.config.studies)
     for row in results.table(Decisions).to_dict("records"):
-        words = {"feasible": "", "infeasible": "no design meets it; nearest: "}
-        answer = words.get(row["status"], "refused: ") + (row["design"] or row["message"])
         yield Answer(
-            f"Design for: {row['goals']}",
-            answer,
+            tr("Design for: {goals}", goals=in_words(row["goals"], labels)),
+            _outcome(row["status"], in_words(row["design"] or row["message"], labels)),
             "decisions.csv",
             row["probability"],
             None,
             None,
-            "probability",
-            f"study {row['study']}, solver {row['solver']}; asked for "
-            f"{row['with_probability']:g}; confirmation: {row['confirmation'] or 'none'}",
+            tr("probability"),
+            tr(
+                "study {study}, solver {solver}; asked for {probability}; confirmation: "
+                "{confirmation}",
+                study=row["study"],
+                solver=row["solver"],
+                probability=f"{row['with_probability']:g}",
+                confirmation=tr(row["confirmation"] or "none"),
+            ),
         )
         for one in confirmed[confirmed["decision"] == row["decision"]].to_dict("records"):
             yield Answer(
-                f"Confirmation, round {one['round']}: {one['response']} {one['at']}".rstrip(),
-                f"solved {_text(one['solved'])}, predicted {_text(one['predicted'])}: "
-                f"{one['result']}",
+                tr(
+                    "Confirmation, round {round}: {response}",
+                    round=one["round"],
+                    response=f"{words(one['response'])} {one['at']}".rstrip(),
+                ),
+                tr(
+                    "solved {solved}, predicted {predicted}: {result}",
+                    solved=_text(one["solved"]),
+                    predicted=_text(one["predicted"]),
+                    result=tr(one["result"]),
+                ),
                 "decision_confirmation.csv",
                 one["solved"],
                 one["low"],
                 one["high"],
                 one["unit"],
-                "from and to: prediction interval of the surface",
+                tr("from and to: prediction interval of the surface"),
             )
 
 
@@ -129,28 +183,53 @@ def _trust(results: Results) -> Iterator[Answer]:
     for row in results.table(StiffnessErrors).to_dict("records"):
         if row["group"] == "blind" and row["compared"]:
             yield Answer(
-                f"Difference from the published stiffness ({row['study']}, {row['solver']})",
-                f"mean {row['mean_percent']:+.2f} %, largest {row['largest_percent']:+.2f} % in "
-                f"case {row['largest_case_id']}",
+                tr(
+                    "Difference from the published stiffness ({study}, {solver})",
+                    study=row["study"],
+                    solver=row["solver"],
+                ),
+                tr(
+                    "mean {mean} %, largest {largest} % in case {case}",
+                    mean=f"{row['mean_percent']:+.2f}",
+                    largest=f"{row['largest_percent']:+.2f}",
+                    case=row["largest_case_id"],
+                ),
                 "stiffness_errors.csv",
                 row["mean_absolute_percent"],
                 None,
                 None,
                 "%",
-                f"{row['compared']} blind cases; value: mean absolute difference",
+                tr("{count} blind cases; value: mean absolute difference", count=row["compared"]),
             )
     synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
     if synthetic:
         yield Answer(
-            "Origin of the data",
-            f"{len(synthetic)} of {len(results.sheet)} specimens are SYNTHETIC example data; "
-            "sheets with an orange header rest on them",
+            tr("Origin of the data"),
+            tr(
+                "{count} of {total} specimens are SYNTHETIC example data; sheets with an orange "
+                "header rest on them",
+                count=len(synthetic),
+                total=len(results.sheet),
+            ),
             "specimens.csv",
         )
 
 
+def _outcome(status: Outcome, text: str) -> str:
+    """Say what a decision came to: its design, the nearest one, or why it was refused."""
+    match status:
+        case "feasible":
+            return text
+        case "infeasible":
+            return tr("no design meets it; nearest: {design}", design=text)
+        case "refused":
+            return tr("refused: {reason}", reason=text)
+        case _:
+            assert_never(status)
+
+
 def _text(value: float) -> str:
-    return "no value" if pd.isna(value) else f"{value:.6g}"
+    return tr("no value") if pd.isna(value) else f"{value:.6g}"
 
 
 def write_summary(worksheet: Worksheet, results: Results, index: Sequence[IndexRow]) -> None:
@@ -172,16 +251,20 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
     sound, line = results.verdict()
     settings, identity = results.config.report, results.identity
     laboratory = results.config.laboratory
-    lines = [settings.title, laboratory.name, *laboratory.address.splitlines()]
+    lines = [tr(settings.title), laboratory.name, *laboratory.address.splitlines()]
     lines += [f"{name}: {text}" for name, text in cover_lines(laboratory)]
     lines.append(line)
     if identity is not None:
-        lines.append(f"Run {identity.short}, tables complete {identity.made_text}")
+        made = {"run": identity.short, "date": identity.made_text}
+        lines.append(tr("Run {run}, tables complete {date}", **made))
+    synthetic = tr("SYNTHETIC example data: sheets with an orange header rest on it.")
     if results.any_synthetic:
-        lines.append("SYNTHETIC example data: sheets with an orange header rest on it.")
+        lines.append(synthetic)
     lines.append(
-        "Rows: red failed, yellow flagged, grey left out, assumed or calibrated on. "
-        "Units: in brackets. Point at a heading to see what it means, its rule and its range."
+        tr(
+            "Rows: red failed, yellow flagged, grey left out, assumed or calibrated on. "
+            "Units: in brackets. Point at a heading to see what it means, its rule and its range."
+        )
     )
     for row, text in enumerate(filter(None, lines), start=1):
         cell = worksheet.cell(row, 1)
@@ -189,16 +272,16 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
         cell.font = Font(name=FONT, bold=row == 1 or text == line, size=14 if row == 1 else 11)
         if text == line and not sound:
             cell.fill = FILLS["bad"]
-        if text.startswith("SYNTHETIC"):
+        if text == synthetic:
             cell.fill = SYNTHETIC
     return worksheet.max_row + 1
 
 
 def _write_findings(worksheet: Worksheet, top: int, results: Results) -> int:
     """Write the findings of the report's first screen; return the row after them."""
-    head_row(worksheet, top, FINDING_HEAD)
+    head_row(worksheet, top, list(map(tr, FINDING_HEAD)))
     for row, one in enumerate(findings(results), start=top + 1):
-        badge = " (SYNTHETIC DATA)" if one.synthetic else ""
+        badge = f" ({tr('SYNTHETIC DATA')})" if one.synthetic else ""
         known = [one.question, one.answer + badge, None, None, None, None, one.words, one.source]
         write_row(worksheet, row, known)
         for column in range(1, len(FINDING_HEAD) + 1):
@@ -211,7 +294,7 @@ def _write_findings(worksheet: Worksheet, top: int, results: Results) -> int:
 
 def _write_answers(worksheet: Worksheet, top: int, results: Results) -> int:
     """Write the answers; return the row after them."""
-    head_row(worksheet, top, ANSWER_HEAD)
+    head_row(worksheet, top, list(map(tr, ANSWER_HEAD)))
     for row, one in enumerate(answers(results), start=top + 1):
         known = (one.question, one.answer, one.value, one.low, one.high, one.unit, one.basis)
         write_row(worksheet, row, [*known, one.table])
@@ -225,9 +308,9 @@ def _write_answers(worksheet: Worksheet, top: int, results: Results) -> int:
 
 
 def _write_index(worksheet: Worksheet, top: int, index: Sequence[IndexRow]) -> None:
-    head_row(worksheet, top, INDEX_HEAD)
+    head_row(worksheet, top, list(map(tr, INDEX_HEAD)))
     for row, one in enumerate(index, start=top + 1):
-        synthetic = None if one.synthetic is None else "yes" if one.synthetic else "no"
+        synthetic = None if one.synthetic is None else tr("yes") if one.synthetic else tr("no")
         known = [one.name, one.says, one.rows, synthetic, None, one.rule, one.source, one.file]
         write_row(worksheet, row, known)
         cell = worksheet.cell(row, 1)
@@ -254,10 +337,19 @@ def beside(file: str) -> str:
 def index_row(sheet: Sheet, name: str) -> IndexRow:
     """Return the row of the index for a table, in the workbook or only as a file next to it."""
     entry = sheet.entry
-    says = entry.title
+    says = tr(entry.title)
     if not sheet.in_workbook:
-        says += f" (not a sheet: the CSV file {beside(entry.file)} next to this one)"
+        file = beside(entry.file)
+        says = tr(
+            "{title} (not a sheet: the CSV file {file} next to this one)", title=says, file=file
+        )
     return IndexRow(
-        name, says, len(sheet.table), sheet.synthetic, entry.file, entry.source, entry.rule,
+        name,
+        says,
+        len(sheet.table),
+        sheet.synthetic,
+        tr(entry.file),
+        tr(entry.source),
+        entry.rule,
         sheet.in_workbook,
-    )  # fmt: skip
+    )

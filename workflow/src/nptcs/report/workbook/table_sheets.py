@@ -11,6 +11,7 @@ from openpyxl import Workbook
 from openpyxl.comments import Comment
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.language import tr
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.workbook.cells import FILLS, HEADER, SYNTHETIC, write, write_row
@@ -82,11 +83,12 @@ def heading_comment(sheet: Sheet, column: str, contract: pa.Column | None) -> st
     """
     lines = [contract.description or ""] if contract is not None else []
     if contract is not None and (allowed := allowed_values(contract)):
-        lines.append(f"Allowed: {allowed}")
+        lines.append(tr("Allowed: {allowed}", allowed=allowed))
     if found := found_values(sheet.table[column]):
-        lines.append(f"In this run: {found}")
-    lines += [f"Rule: {sheet.entry.rule}", f"Made from: {sheet.entry.source}"]
-    lines.append(f"Column {column} of {sheet.entry.file}")
+        lines.append(tr("In this run: {found}", found=found))
+    lines.append(tr("Rule: {rule}", rule=sheet.entry.rule))
+    lines.append(tr("Made from: {source}", source=tr(sheet.entry.source)))
+    lines.append(tr("Column {column} of {file}", column=column, file=tr(sheet.entry.file)))
     return "\n".join(filter(None, lines))
 
 
@@ -108,10 +110,10 @@ def allowed_values(contract: pa.Column) -> str:
             parts.append(f"{sign} {check.statistics[bound]:g}")
         elif check.name == "isin":
             parts.append(
-                ", ".join(str(one) or "(empty)" for one in check.statistics["allowed_values"])
+                ", ".join(str(one) or tr("(empty)") for one in check.statistics["allowed_values"])
             )
     if contract.nullable:
-        parts.append("may be empty")
+        parts.append(tr("may be empty"))
     return ", ".join(parts)
 
 
@@ -121,7 +123,10 @@ def found_values(values: pd.Series[Any]) -> str:
         return ""
     numbers = values.dropna()
     if numbers.empty:
-        return "no values" if len(values) else ""
-    text = f"{numbers.min():.6g} to {numbers.max():.6g}"
-    missing = len(values) - len(numbers)
-    return f"{text}, {missing} of {len(values)} empty" if missing else text
+        return tr("no values") if len(values) else ""
+    text = tr("{low} to {high}", low=f"{numbers.min():.6g}", high=f"{numbers.max():.6g}")
+    if missing := len(values) - len(numbers):
+        return tr(
+            "{text}, {missing} of {total} empty", text=text, missing=missing, total=len(values)
+        )
+    return text

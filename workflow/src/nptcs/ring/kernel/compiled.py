@@ -1,4 +1,4 @@
-"""Whether numba is installed (`pip install nptcs[fast]`), and how formulas are marked for it."""
+"""Whether numba is installed, and how formulas are marked for it."""
 
 from __future__ import annotations
 

@@ -43,7 +43,8 @@ def band_strains(angle: Value, m: Value, d: Value) -> Value:
     alpha = angle - m[3]
     tx, ty = np.cos(alpha), np.sin(alpha)
     gx, gy = np.cos(angle) + d[0], np.sin(angle) + d[1]
-    return gx * tx + gy * ty - 1.0, gx * ty - gy * tx, m[3] - m[2], tx, ty
+    across = gx * ty - gy * tx
+    return gx * tx + gy * ty - 1.0, across, across + m[3] - m[2], tx, ty
 
 
 @compilable
@@ -104,8 +105,9 @@ def band(
     nx, ny = ty, -tx
     along_tangent(c, h, e, d, stress, stiff)
     stretch = length * stress[0]
-    across = length * c[4, 4] * q
     core = length * c[5, 5] * shear
+    # the core shears by q, too: its faces are the wires' axes, not their sections
+    across = length * c[4, 4] * q + core
     force[2] += -core
     force[3] += stretch * q - across * (1.0 + e) + core
     force[4] += length * c[6, 6] * m[4]
@@ -113,24 +115,32 @@ def band(
     force[6] += stretch * ty + across * ny
     for i in range(3):
         force[7 + i] += length * stress[i + 1]
-    along, hold = length * stiff[0, 0], length * c[4, 4]
-    tangent[2, 2] += length * c[5, 5]
-    tangent[2, 3] += -length * c[5, 5]
-    tangent[3, 2] += -length * c[5, 5]
+    slip = length * c[5, 5]
+    along, hold = length * stiff[0, 0], length * c[4, 4] + slip
+    tangent[2, 2] += slip
+    # q falls by (1 + e) with ψ, the core's shear by e
+    tangent[2, 3] += slip * e
+    tangent[3, 2] += slip * e
     tangent[3, 3] += (
         along * q * q
-        + hold * (1.0 + e) * (1.0 + e)
+        + length * c[4, 4] * (1.0 + e) * (1.0 + e)
+        + slip * e * e
         - stretch * (1.0 + e)
         - across * q
-        + length * c[5, 5]
     )
+    # the core's shear by θ and the difference
+    tangent[2, 5] += -slip * nx
+    tangent[5, 2] += -slip * nx
+    tangent[2, 6] += -slip * ny
+    tangent[6, 2] += -slip * ny
     tangent[4, 4] += length * c[6, 6]
     tangent[5, 5] += along * tx * tx + hold * nx * nx
     tangent[5, 6] += along * tx * ty + hold * nx * ny
     tangent[6, 5] += along * tx * ty + hold * nx * ny
     tangent[6, 6] += along * ty * ty + hold * ny * ny
-    turn_x = (along * q + -across) * tx + (stretch - hold * (1.0 + e)) * nx
-    turn_y = (along * q + -across) * ty + (stretch - hold * (1.0 + e)) * ny
+    held = stretch - length * c[4, 4] * (1.0 + e) - slip * e
+    turn_x = (along * q - across) * tx + held * nx
+    turn_y = (along * q - across) * ty + held * ny
     tangent[3, 5] += turn_x
     tangent[5, 3] += turn_x
     tangent[3, 6] += turn_y
@@ -153,8 +163,9 @@ def surface_point(
 ) -> tuple[Value, Value, Value, Value]:
     """Place (x, y) of the tread's surface over an element's middle: r + reach n(ψ) + shift t(ψ).
 
-    The core's shear γ moves its upper face along by c γ and keeps the thickness, as simple shear
-    does. The tread thickens where it is shortened along the ring; the arc rises above its chord.
+    The core's shear moves its upper face along by c (ψ - θ) and keeps the thickness, as simple
+    shear does. The tread thickens where it is shortened along the ring; the arc rises above its
+    chord.
 
     Returns
     -------
@@ -282,7 +293,7 @@ def ground(
 def foot_motion(w: Value, angle: Value, u: Value) -> tuple[Value, Value, Value]:
     """Motion (u_r, u_θ, φ) of the spoke's foot under a node with unknowns u.
 
-    The foot is at r - (c + foot) n(ψ) - c γ t(ψ); φ is the slope of the band's inner face.
+    The foot is at r - (c + foot) n(ψ) - c (ψ - θ) t(ψ); φ is the slope of the band's inner face.
     """
     cos, sin = np.cos(angle), np.sin(angle)
     cos_face, sin_face = np.cos(u[3]), np.sin(u[3])

@@ -49,6 +49,10 @@ class LeftOutSpokes:
         chosen = self.percent if rows is None else self.percent[rows]
         return float(np.nanmax(np.abs(chosen)))
 
+    def worst(self) -> int:
+        """Row of the spoke with the largest error in size."""
+        return int(np.argmax(np.nan_to_num(np.abs(self.percent)).max(axis=1)))
+
 
 def left_out_spokes(
     surrogate: SpokeSurrogate,

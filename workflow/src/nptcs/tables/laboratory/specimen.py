@@ -95,6 +95,11 @@ class Specimen(Strict):
         1.0,
         description="Factor of the transverse strain; -1 where a contraction is written positive",
     )
+    transverse_length_mm: float | None = Field(
+        None,
+        gt=0,
+        description="Length over which a transverse extensometer in mm measures, e.g. the width",
+    )
     diameter_mm: tuple[float, ...] = Field(
         (), description="Stations of a round bar or disc, separated by ';'"
     )

@@ -7,7 +7,9 @@ from collections.abc import Callable, Sequence
 from pathlib import Path
 
 from nptcs.errors import InputError
+from nptcs.ingest.reading.columns.words import is_reading, map_by_words
 from nptcs.ingest.reading.profiles import (
+    PLAIN,
     UNITLESS,
     FormatProfile,
     core_name,
@@ -20,6 +22,7 @@ from nptcs.ingest.reading.units import DIMENSION, find_unit
 
 STRAINS = ("strain", "strain_xx", "strain_yy", "stretch", "extension")
 LOADS = ("force", "stress")
+ACROSS = ("strain_transverse", "extension_transverse")
 
 
 def map_columns(
@@ -65,8 +68,40 @@ def map_columns(
                 )
                 wanted &= lacking
             _map_names(mapped, wanted, columns, known, part, path, found_table)
-    order = [*profile.columns, *(plain.columns if plain is not None else ())]
+    _prefer_a_sensor(mapped, columns)
+    every = plain is not None or profile.name == PLAIN
+    found_table.notes += map_by_words(mapped, _wanted_by_words(mapped, columns, every), columns)
+    order = [*profile.columns, *(plain.columns if plain is not None else ()), *DIMENSION]
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
+
+
+_OF_A_SENSOR = re.compile(r"extensom|video|laser|optical|optisch|dic|ga[u]?ge|dms|fein|aufnehm")
+
+
+def _prefer_a_sensor(mapped: dict[str, Column], columns: Sequence[Column]) -> None:
+    """Take a strain whose name says its sensor rather than a nominal one.
+
+    ISO 527 and testXpert call travel over the distance of the grips the nominal strain.
+    """
+    own = mapped.get("strain")
+    if own is None or "nomin" not in normalise(own.name):
+        return
+    measured = [c for c in columns if c is not own and _OF_A_SENSOR.search(normalise(c.name))]
+    better: dict[str, Column] = {}
+    map_by_words(better, {"strain"}, measured)
+    mapped |= better
+
+
+def _wanted_by_words(mapped: dict[str, Column], columns: Sequence[Column], every: bool) -> set[str]:
+    """Quantities that words in names may tell; only those across before the names of `PLAIN`.
+
+    A travel is wanted next to a strain, too: it tells where the strain is nothing but travel.
+    """
+    across = set() if {*ACROSS, "strain_xx"} & set(mapped) else set(ACROSS)
+    if not every:
+        return across
+    travel = set() if "displacement" in mapped else {"displacement"}
+    return across | travel | _lacking(mapped, columns, own=True)
 
 
 def _whole(name: str) -> str:
@@ -78,7 +113,9 @@ def _lacking(mapped: dict[str, Column], columns: Sequence[Column], own: bool) ->
 
     A travel counts as a strain only against the names of a profile other than its `own`.
     """
-    kinds = (LOADS, STRAINS if own else (*STRAINS, "displacement"))
+    kinds: list[tuple[str, ...]] = [LOADS, STRAINS if own else (*STRAINS, "displacement")]
+    if "strain_xx" not in mapped:
+        kinds.append(ACROSS)
     lacking = {name for kind in kinds if not set(kind) & set(mapped) for name in kind}
     lacking |= set(UNITLESS) - set(mapped)
     return lacking | ({"time"} - set(mapped) if any(c.unit for c in columns) else set())
@@ -105,6 +142,8 @@ def _map_names(
             if part is not _whole and quantity not in _NUMBERED:
                 fitting = fitting + _siblings(fitting, columns)
             if len(fitting) > 1:
+                fitting = [column for column in fitting if is_reading(column)] or fitting
+            if len(fitting) > 1:
                 raise _several(path, found_table, quantity, name, fitting)
             if fitting:
                 mapped[quantity] = fitting[0]
@@ -129,6 +168,8 @@ def _siblings(fitting: Sequence[Column], columns: Sequence[Column]) -> list[Colu
 _BY_UNIT = {
     "strain": "extension",
     "extension": "strain",
+    "strain_transverse": "extension_transverse",
+    "extension_transverse": "strain_transverse",
     "displacement": "strain",
     "force": "stress",
     "stress": "force",

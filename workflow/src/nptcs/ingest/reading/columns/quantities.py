@@ -17,7 +17,7 @@ from nptcs.ingest.reading.profiles import (
 )
 from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
 from nptcs.ingest.reading.text.cells import CellSource
-from nptcs.ingest.reading.units import DIMENSION, FACTORS, VOLTS, find_unit
+from nptcs.ingest.reading.units import DIMENSION, FACTORS, VOLTS, find_unit, usual_units
 
 Role = Literal["force", "strain", "force and strain"]
 """What a file gives to its specimen."""
@@ -27,6 +27,8 @@ NEEDS: dict[Role, tuple[tuple[str, ...], ...]] = {
     "force and strain": (LOADS, (*STRAINS, "displacement")),
 }
 """Role → sets of quantities; a table needs one of each set."""
+_PROBE = 5
+"""Rows at a place in which a channel has some reading."""
 
 
 @dataclass
@@ -63,9 +65,9 @@ def tests_in(
         label = found_table.part if not source.part else source.part
         if source.part and len(found_tables) > 1:
             label = f"{source.part}/{found_table.part}"
-        groups = _groups(found_table, profile)
+        groups = _groups(source, found_table, profile)
         for group in groups or [""]:
-            every = _without_raw_signals(found_table.columns)
+            every = _without_raw_signals(_channels(source, found_table))
             columns = [
                 column
                 for column, part in zip(every, repeated_columns(every), strict=True)
@@ -78,16 +80,28 @@ def tests_in(
     return found
 
 
+def _channels(source: CellSource, found_table: FoundTable) -> list[Column]:
+    """Leave out columns that are empty in the middle and at the end: a note beside the readings."""
+    rows = found_table.rows_of_data
+    half = len(rows) // 2
+    probe = [source.cells(row) for row in (*rows[half : half + _PROBE], *rows[-_PROBE:])]
+    return [
+        column
+        for column in found_table.columns
+        if any(column.position < len(cells) and cells[column.position] for cells in probe)
+    ] or list(found_table.columns)
+
+
 def _without_raw_signals(columns: Sequence[Column]) -> list[Column]:
     """Leave out the raw signal in volts of a channel that is there in its own unit, too."""
     measured = {normalise(column.name) for column in columns if column.unit not in VOLTS}
     return [c for c in columns if c.unit not in VOLTS or normalise(c.name) not in measured]
 
 
-def _groups(found_table: FoundTable, profile: FormatProfile) -> list[str]:
+def _groups(source: CellSource, found_table: FoundTable, profile: FormatProfile) -> list[str]:
     """Parts of columns that repeat a name the profile knows; empty if there is one test."""
     known = [name for names in profile.columns.values() for name in names]
-    columns = _without_raw_signals(found_table.columns)
+    columns = _without_raw_signals(_channels(source, found_table))
     parts = [
         part
         for column, part in zip(columns, repeated_columns(columns), strict=True)
@@ -189,7 +203,7 @@ def unit_of(
     """
     if quantity in UNITLESS:
         return column.unit or "", 1.0, ""
-    choices = ", ".join(FACTORS[DIMENSION[quantity]])
+    choices = usual_units(DIMENSION[quantity])
     note = ""
     wrong = profile.wrong_units.get(quantity)  # type: ignore[call-overload]
     unit = wrong or column.unit or profile.units.get(quantity, "")  # type: ignore[call-overload]
@@ -209,7 +223,7 @@ def unit_of(
         )
     known = find_unit(DIMENSION[quantity], unit)
     if known is None and quantity == "displacement" and unit in VOLTS:
-        note = f"column '{column.name}' in {unit} is not a travel without its calibration: left out"
+        note = f"column '{column.name}' in {unit} is no travel without its calibration: left out"
         return unit, float("nan"), note
     if known is None:
         raise InputError(

@@ -61,6 +61,10 @@ class SheetSource:
         """Leave it to the cells of the columns that are needed: each knows its own type."""
         return None
 
+    def units_in(self, row: int) -> list[str]:
+        """Leave it to the names: a number of a workbook has no unit behind it."""
+        return []
+
     def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a table as numbers; a cell that is not a number is refused with its place."""
         values = [

@@ -19,9 +19,13 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.table_columns import FoundTable
 from nptcs.ingest.reading.text.clock import holds_clock
 from nptcs.ingest.reading.text.dialect import MISSING, Dialect, number_pattern
+from nptcs.ingest.reading.text.dressed_rows import units_of_cells
 from nptcs.ingest.reading.text.regular_rows import chunk_edges, regular_width
 
 NOTHING = "nan"
+_COMMENT = re.compile(
+    r"^\s*(?:#+|//+|!+|>+|%+(?=\s+(?!\S*(?:strain|dehnung|elongation))[^\W\d_]))\s*"
+)
 Kind = Literal["data", "odd data", "empty", "remark", "names", "other"]
 """``odd data``: a row of numbers that holds something else too."""
 
@@ -51,6 +55,10 @@ class CellSource(Protocol):
 
     def odd_clock_row(self, found_table: FoundTable) -> int | None:
         """First row of a table whose times of day are not as many as in its first row."""
+        ...
+
+    def units_in(self, row: int) -> list[str]:
+        """Units behind the numbers of a row's cells; empty if its numbers stand alone."""
         ...
 
     def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
@@ -87,6 +95,7 @@ class TextSource:
     missing: frozenset[str]
     clock_lines: Mapping[int, str] = field(default_factory=dict)
     clock_counts: Mapping[int, int] = field(default_factory=dict)
+    unit_lines: Mapping[int, str] = field(default_factory=dict)
     part: str = ""
 
     @cached_property
@@ -183,11 +192,20 @@ class TextSource:
         )
         return next(odd, None)
 
+    def units_in(self, row: int) -> list[str]:
+        """Units behind the numbers of a row's cells; empty if its numbers stand alone."""
+        line = self.unit_lines.get(row)
+        return [] if line is None else units_of_cells(self.dialect.split(line))
+
     def header_cells(self, row: int, width: int) -> list[str]:
-        """Cells of a row of names: with blanks in the names where blanks also separate."""
-        line = self.lines[row].strip()
+        """Cells of a row of names: with blanks in the names where blanks also separate.
+
+        A mark of a comment before the first name (``# time force``) is no part of it.
+        """
+        line = self.lines[row]
         if self.dialect.delimiter != "spaces":
-            return self.cells(row)
+            return self.dialect.split(_COMMENT.sub("", line))
+        line = _COMMENT.sub("", line.strip()).strip()
         wide = re.split(r"\s{2,}|\t", line)
         return wide if len(wide) == width else line.split()
 

@@ -28,12 +28,14 @@ function digits(value, half) {
   return Number(value.toPrecision(Math.min(5, Math.max(3, count)))).toString();
 }
 
-// An interval in words; one narrower than the digits shown is written as its half width.
+// An interval in words; of one narrower than the digits shown it is said that it is.
 function intervalText(found, half) {
   if (found.low === undefined) return "–";
   if (half <= 1e-9 * Math.abs(found.value)) return say("exact");
   const [low, high] = [digits(found.low, half), digits(found.high, half)];
-  return low === high ? `± ${shortNumber(Number(half.toPrecision(1)))}` : `${low} – ${high}`;
+  if (low !== high) return `${low} – ${high}`;
+  const last = 10 ** (Math.floor(Math.log10(Math.abs(found.value))) - 4);
+  return `± < ${shortNumber(Number(last.toPrecision(1)))}`;
 }
 
 const unitText = (unit) => (unit ? ` ${unit}` : "");

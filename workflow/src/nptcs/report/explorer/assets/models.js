@@ -83,7 +83,7 @@ function modelRow(study, solver, response, surface, place, row, list) {
   return make(
     "tr",
     { class: chosen ? "ex-chosen" : list ? "ex-other" : "" },
-    make("th", { scope: "row" }, surface.name, make("small", {}, notes.join(" · "))),
+    make("th", { scope: "row" }, DATA.models[surface.name], make("small", {}, notes.join(" · "))),
     make("td", { class: "ex-value" }, found.value === undefined ? "–" : digits(found.value, half)),
     make("td", {}, intervalText(found, half)),
     make("td", {}, surface.rms === null || row.kind === "displacement" ? "–" : shortNumber(Number(surface.rms.toPrecision(2)))),

@@ -5,7 +5,7 @@ function showControls() {
   const solver = solverOf();
   fillSelect(parts.study, DATA.studies.map((one) => [one.name, one.title]), state.study);
   fillSelect(parts.solver, study.solvers.map((one) => [one.name, one.synthetic ? `${one.name} (${say("synthetic")})` : one.name]), state.solver);
-  fillSelect(parts.model, [["", say("best")], ...namesOfModels().map((name) => [name, name])], state.model);
+  fillSelect(parts.model, [["", say("best")], ...namesOfModels().map((name) => [name, DATA.models[name]])], state.model);
   const varied = study.factors.map((name) => [name, symbolOf(name)]);
   fillSelect(parts.across, varied, state.across);
   fillSelect(parts.up, varied, state.up);
@@ -83,7 +83,7 @@ function cellsOf(row, point, study, solver) {
   if (found.status === "absent") notes.push(say("not_by_model"));
   if (found.status === "refused") notes.push(say("refused"));
   if (found.status === "flagged") notes.push(say("flagged"));
-  if (surface) notes.push(surface.name);
+  if (surface) notes.push(DATA.models[surface.name]);
   if (row.kind === "displacement") notes.push(say("derived"));
   else if (surface && surface.rms !== null) notes.push(say("left_out", { rms: shortNumber(Number(surface.rms.toPrecision(2))), unit: row.unit }));
   let inBand = "";

@@ -4,12 +4,12 @@
 function drawSpace(canvas, grid, turn, tilt) {
   const { context, width, height } = prepared(canvas);
   const [a, e] = [(turn * Math.PI) / 180, (tilt * Math.PI) / 180];
-  const scale = Math.min(width / 3.1, height / 2.5);
   const [low, high] = grid.range;
-  const project = (u, v, w) => {
+  const flat = (u, v, w) => {
     const [px, py] = [u * Math.cos(a) - v * Math.sin(a), u * Math.sin(a) + v * Math.cos(a)];
-    return [width / 2 + scale * px, height * 0.52 - scale * (w * Math.cos(e) + py * Math.sin(e)), py * Math.cos(e) - w * Math.sin(e)];
+    return [px, -(w * Math.cos(e) + py * Math.sin(e)), py * Math.cos(e) - w * Math.sin(e)];
   };
+  const project = fitted(flat, width, height);
   const size = grid.xs.length;
   const unit = (i) => (2 * i) / (size - 1) - 1;
   const up = (value) => 1.1 * ((value - low) / (high - low || 1)) - 0.55;
@@ -37,7 +37,7 @@ function drawSpace(canvas, grid, turn, tilt) {
     context.fill();
     context.stroke();
   }
-  baseLabels(context, project, grid);
+  baseLabels(context, project, grid, width, height);
   if (grid.hereValue !== undefined) {
     const share = (value, [from, to]) => (2 * (value - from)) / (to - from) - 1;
     const at = [share(grid.here[0], grid.xRange), share(grid.here[1], grid.yRange)];
@@ -50,6 +50,19 @@ function drawSpace(canvas, grid, turn, tilt) {
   }
 }
 
+// The projection, scaled and moved so that the box with its labels fills the canvas.
+function fitted(flat, width, height) {
+  const corners = [-1, 1].flatMap((u) => [-1, 1].flatMap((v) => [flat(1.1 * u, 1.1 * v, -0.55), flat(u, v, 0.55)]));
+  const ends = (k) => [Math.min(...corners.map((c) => c[k])), Math.max(...corners.map((c) => c[k]))];
+  const [[left, right], [top, bottom]] = [ends(0), ends(1)];
+  const scale = Math.min((width - 24) / (right - left), (height - 44) / (bottom - top));
+  const [x, y] = [width / 2 - (scale * (left + right)) / 2, (height - 20) / 2 - (scale * (top + bottom)) / 2];
+  return (u, v, w) => {
+    const [px, py, depth] = flat(u, v, w);
+    return [x + scale * px, y + scale * py, depth];
+  };
+}
+
 // Foot and edges of the box.
 function base(context, project) {
   const corners = [[-1, -1], [1, -1], [1, 1], [-1, 1]];
@@ -60,7 +73,7 @@ function base(context, project) {
 }
 
 // Names and ends of the two factors, on the sides that face the reader.
-function baseLabels(context, project, grid) {
+function baseLabels(context, project, grid, width, height) {
   context.textAlign = "center";
   context.textBaseline = "middle";
   const front = (first, second) => (project(...first, -0.55)[2] < project(...second, -0.55)[2] ? -1 : 1);
@@ -68,14 +81,15 @@ function baseLabels(context, project, grid) {
   const u = front([-1, 0], [1, 0]);
   const put = (text, p, q, out) => {
     const [px, py] = project(p * out, q * out, -0.55);
-    context.fillText(text, px, py + 8);
+    const half = context.measureText(text).width / 2 + 2;
+    context.fillText(text, Math.min(width - half, Math.max(half, px)), Math.min(height - 8, py + 8));
   };
   context.fillStyle = COLOURS.ink;
   put(grid.xLabel, 0, v, 1.22);
   put(grid.yLabel, u, 0, 1.22);
   context.fillStyle = COLOURS.soft;
-  put(shortNumber(grid.xRange[0]), -0.92, v, 1.1);
-  put(shortNumber(grid.xRange[1]), 0.92, v, 1.1);
-  put(shortNumber(grid.yRange[0]), u, -0.92, 1.1);
-  put(shortNumber(grid.yRange[1]), u, 0.92, 1.1);
+  put(shortNumber(grid.xRange[0]), -0.78, v, 1.1);
+  put(shortNumber(grid.xRange[1]), 0.78, v, 1.1);
+  put(shortNumber(grid.yRange[0]), u, -0.78, 1.1);
+  put(shortNumber(grid.yRange[1]), u, 0.78, 1.1);
 }

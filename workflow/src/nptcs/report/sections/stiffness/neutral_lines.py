@@ -75,6 +75,7 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
                 band_radius_mm=tyre.band_radius_mm,
             ),
             tuple(plots),
+            shown=len(DISPLACEMENTS),
         ),
         Listing(tr("What the neutral lines show"), tuple(sentences)),
     ]
@@ -90,15 +91,15 @@ def line_words(rows: pd.DataFrame) -> list[str]:
         along = line["tangential_mm"]
         sentences.append(
             tr(
-                "{solver}, {case_id}: radially from {radial_mm:+.2f} mm at θ = "
-                "{theta_deg:.1f}° to {radial_mm_2:+.2f} mm at θ = {theta_deg_2:.1f}°; "
+                "{solver}, {case_id}: radially from {inward:+.2f} mm at θ = "
+                "{inward_theta:.1f}° to {outward:+.2f} mm at θ = {outward_theta:.1f}°; "
                 "tangentially from {lowest:+.2f} to {highest:+.2f} mm.",
                 solver=solver,
                 case_id=line["case_id"].iloc[0],
-                radial_mm=inward["radial_mm"],
-                theta_deg=inward["theta_deg"],
-                radial_mm_2=outward["radial_mm"],
-                theta_deg_2=outward["theta_deg"],
+                inward=inward["radial_mm"],
+                inward_theta=inward["theta_deg"],
+                outward=outward["radial_mm"],
+                outward_theta=outward["theta_deg"],
                 lowest=along.min(),
                 highest=along.max(),
             )

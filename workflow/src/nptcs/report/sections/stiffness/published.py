@@ -42,6 +42,7 @@ from nptcs.tables.published.stiffness import (
 )
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.tyres.spoke_stiffness import SpokeLines
+from nptcs.tables.tyres.tyre_responses import TyreResponses
 
 
 def published_stiffness_section(results: Results, sheets: Sheets) -> Section:
@@ -68,7 +69,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
                 "was calibrated on are named in the configuration and summarised "
                 "separately; all others are blind. "
             )
-            + ply_words(results)
+            + ("" if len(results.table(TyreResponses)) else ply_words(results))
         ),
         *published_facts(results),
         sheet_view(sheet_of(sheets, StiffnessErrors)),
@@ -92,6 +93,7 @@ def _stiffness_blocks(results: Results, sheets: Sheets) -> list[PageBlock]:
         Plots(
             tr("Mean difference at each level; bars reach from the lowest to the highest case."),
             tuple(_effects(results, studies, differences=True)),
+            shown=0,
         ),
         sheet_view(sheet_of(sheets, StiffnessByLevel)),
         *(_case_comparison(results, sheets, study) for study in studies),

@@ -124,11 +124,11 @@ def _study(rows: pd.DataFrame) -> list[Fact]:
             Fact(
                 tr("Exponent of the spokes' C10, {solver}", solver=solver),
                 tr(
-                    "computed {numbers}, published {numbers_2} ({held}): the computed "
+                    "computed {computed}, published {published} ({held}): the computed "
                     "stiffness is the published one times a constant and C10 to the power of "
                     "{lowest:+.3f} to {highest:+.3f}",
-                    numbers=_numbers(whole["computed_exponent"]),
-                    numbers_2=_numbers(whole["published_exponent"]),
+                    computed=_numbers(whole["computed_exponent"]),
+                    published=_numbers(whole["published_exponent"]),
                     held=_held(whole),
                     lowest=difference.min(),
                     highest=difference.max(),

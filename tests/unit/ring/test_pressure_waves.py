@@ -1,0 +1,118 @@
+"""Settlement of the layers under waves of pressure, and the ring that is matched to it."""
+
+import numpy as np
+import pytest
+from scipy.linalg import expm
+
+from nptcs.config.solvers.tyre import TyreGeometry
+from nptcs.ring.pressure_waves import (
+    HALF_WAVES,
+    FlatRing,
+    RubberLayer,
+    WireSheet,
+    matched_thickening,
+    settlement,
+)
+from nptcs.ring.rubber import Rubber
+
+WAVE = np.pi / np.array([10.0, 25.0, 80.0])
+RIGID = WireSheet(1e12, 1e18, 0.0)
+
+
+@pytest.mark.parametrize("ratio", [10.0, np.inf])
+def test_transfer_through_a_layer_is_the_exponential(ratio):
+    rubber = Rubber(5.0, ratio)
+    found = RubberLayer(rubber, 12.5).transfer(WAVE)
+    for q, own in zip(WAVE, found, strict=True):
+        equations = np.array(
+            [
+                [0.0, q, 1 / rubber.shear_mpa, 0.0],
+                [-rubber.contraction * q, 0.0, 0.0, rubber.through_compliance_per_mpa],
+                [rubber.along_mpa * q**2, 0.0, 0.0, rubber.contraction * q],
+                [0.0, 0.0, -q, 0.0],
+            ]
+        )
+        np.testing.assert_allclose(own, expm(12.5 * equations), rtol=1e-9, atol=1e-12)
+
+
+def test_two_layers_of_the_same_rubber_are_one():
+    rubber = Rubber(2.0, 10.0)
+    both = RubberLayer(rubber, 4.0).transfer(WAVE) @ RubberLayer(rubber, 7.0).transfer(WAVE)
+    np.testing.assert_allclose(both, RubberLayer(rubber, 11.0).transfer(WAVE), rtol=1e-9)
+
+
+@pytest.mark.parametrize("ratio", [10.0, np.inf])
+def test_short_waves_settle_as_a_half_space(ratio):
+    rubber = Rubber(5.0, ratio)
+    poisson = rubber.contraction / (1 + rubber.contraction)
+    wave = np.array([1.0])
+    found = settlement([RIGID, RubberLayer(rubber, 9.0)], wave)
+    assert found[0] == pytest.approx((1 - poisson) / rubber.shear_mpa, rel=1e-3)
+
+
+def test_long_waves_press_a_held_layer_as_a_confined_one():
+    rubber = Rubber(5.0, 10.0)
+    found = settlement([RIGID, RubberLayer(rubber, 9.0)], np.array([1e-3]))
+    assert found[0] == pytest.approx(9.0 * rubber.through_compliance_per_mpa, rel=1e-3)
+
+
+def test_wires_bend_as_a_beam_under_long_waves():
+    sheet, wave = WireSheet(1e4, 5e3, 0.0), np.array([0.05])
+    found = settlement([sheet, RubberLayer(Rubber(1e-3, 10.0), 1e-4)], wave)
+    assert found[0] == pytest.approx(1 / (5e3 * 0.05**4), rel=1e-3)
+
+
+def flat_ring(ratio, thickening=None):
+    """The published section, and its layers, as the section hands them over."""
+    from nptcs.ring import section
+
+    caught = {}
+
+    def keep(ring, layers, depth):
+        caught.update(ring=ring, layers=layers, depth=depth)
+        return 0.0 if thickening is None else thickening
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(section, "matched_thickening", keep)
+        section.ring_section(TyreGeometry(), Rubber(5.0, ratio), Rubber(5.0, ratio), 0.05)
+    return caught["ring"], caught["layers"], caught["depth"]
+
+
+def misfit(ring, layers, depth, change):
+    wave = np.pi / (HALF_WAVES * depth)
+    least, linear, square = ring.settlement(wave)
+    return least + linear * change + square * change**2 - settlement(layers, wave)
+
+
+def test_free_edges_settle_too_much_without_the_match():
+    ring, layers, depth = flat_ring(10.0)
+    before, change = misfit(ring, layers, depth, 0.0), matched_thickening(ring, layers, depth)
+    after = misfit(ring, layers, depth, change)
+    # 0.06 mm per MPa too soft where the contact is as short as the tread is deep
+    assert before[:2].min() > 0.05
+    assert np.abs(after).max() < 0.5 * np.abs(before).max()
+    near = [np.sum(misfit(ring, layers, depth, change + d) ** 2) for d in (-0.01, 0.0, 0.01)]
+    assert near[1] < min(near[0], near[2])
+
+
+def test_incompressible_rubber_needs_next_to_no_match():
+    ring, layers, depth = flat_ring(np.inf)
+    change = matched_thickening(ring, layers, depth)
+    assert abs(change) < 0.01 * abs(ring.thickening[2])
+
+
+def test_the_quadratic_is_the_settlement_of_the_changed_ring():
+    ring, _, _ = flat_ring(10.0)
+    least, linear, square = ring.settlement(WAVE)
+    changed = FlatRing(
+        ring.stiffness, ring.thickening + [0, 0, 0.7], ring.compliance_mm_per_mpa, ring.width_mm
+    )
+    expected = changed.settlement(WAVE)[0]
+    np.testing.assert_allclose(least + 0.7 * linear + 0.49 * square, expected, rtol=1e-10)
+
+
+def test_long_waves_bend_the_ring_as_the_layers():
+    """Sandwich and exact layers: the wires' shear is not in series with the core's."""
+    ring, layers, _ = flat_ring(np.inf)
+    wave = np.pi / np.array([300.0, 600.0])
+    assert ring.settlement(wave)[0] == pytest.approx(settlement(layers, wave), rel=1e-3)

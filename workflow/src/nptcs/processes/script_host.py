@@ -1,0 +1,115 @@
+"""A Python process in which the scripts of jobs run, each in a fork: what one imported, all have.
+
+Run as a script: ``script_host.py DESCRIPTOR``. Through the connection of that number come
+``(number, script, environment)``; back go ``(number, exit code)``. With a number of None nothing is
+run: what the script imports is imported when there is nothing else to do. The host ends when it
+gets None or the connection closes (`nptcs.processes.hosted.ScriptHost`), and its jobs with it.
+
+Starting Python with pandas, pandera and SciPy takes more processor time than most jobs need for
+their work; a fork takes a few milliseconds. The host has one thread and computes nothing, so that a
+fork of it is as good as a new interpreter.
+"""
+
+from __future__ import annotations
+
+import ast
+import gc
+import multiprocessing
+import os
+import runpy
+import signal
+import sys
+import tempfile
+import threading
+import time
+from collections import deque
+from collections.abc import Mapping
+from contextlib import suppress
+from multiprocessing.connection import Connection, wait
+from multiprocessing.context import ForkProcess
+from pathlib import Path
+from typing import Any
+
+GRACE_S = 2.0
+"""Time that a job has to leave in order when the host has ended."""
+
+
+def serve(channel: Connection) -> None:
+    """Run scripts until there are to be no more; end those that are running then."""
+    jobs: dict[int, ForkProcess] = {}
+    to_import: deque[str] = deque()
+    while True:
+        ended = {process.sentinel: number for number, process in jobs.items()}
+        ready = wait([channel, *ended], timeout=0 if to_import else None)
+        for sentinel in ended.keys() & set(ready):
+            process = jobs.pop(ended[sentinel])
+            process.join()
+            with suppress(OSError):  # nobody asks any more: the next message will say so
+                channel.send((ended[sentinel], process.exitcode))
+            process.close()
+        if channel in ready:
+            message = receive(channel)
+            if message is None:
+                for process in jobs.values():
+                    process.terminate()
+                return
+            number, script, environment = message
+            if number is None:
+                to_import.append(script)
+            else:
+                jobs[number] = start(script, environment)
+        elif not ready:
+            import_for(to_import.popleft())
+
+
+def receive(channel: Connection) -> Any:
+    """Return the next message; None also where the other side is gone."""
+    try:
+        return channel.recv()
+    except (EOFError, OSError):
+        return None
+
+
+def start(script: str, environment: Mapping[str, str]) -> ForkProcess:
+    """Import what a script imports, so that later jobs have it as well, and run it in a fork."""
+    import_for(script)
+    gc.freeze()  # the fork's collector leaves alone, and so unwritten, what is shared with the host
+    process = multiprocessing.get_context("fork").Process(target=run, args=(script, environment))
+    process.start()
+    return process
+
+
+def import_for(script: str) -> None:
+    """Execute the import statements at the top of a script; what fails there, fails in the job."""
+    with suppress(OSError, SyntaxError):
+        for statement in ast.parse(Path(script).read_bytes()).body:
+            if isinstance(statement, ast.Import | ast.ImportFrom):
+                code = compile(ast.Module([statement], []), script, "exec", dont_inherit=True)
+                with suppress(Exception):
+                    exec(code, {})
+
+
+def run(script: str, environment: Mapping[str, str]) -> None:
+    """Run a script as Python would run it as a new process; here, in a fork of the host."""
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    threading.Thread(target=_end_with_host, daemon=True).start()
+    os.environ.update(environment)
+    tempfile.tempdir = None
+    sys.argv, sys.path[0] = [script], str(Path(script).parent)
+    runpy.run_path(script, run_name="__main__")
+
+
+def _end_with_host() -> None:
+    """End this job when the host is gone, however that ended: nobody waits for the job any more."""
+    host = multiprocessing.parent_process()
+    if host is not None:
+        host.join()
+        os.kill(os.getpid(), signal.SIGTERM)
+        time.sleep(GRACE_S)
+        os.kill(os.getpid(), signal.SIGKILL)
+
+
+if __name__ == "__main__":
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is for Snakemake and the jobs
+    sys.path[0] = str(Path(__file__).parents[2])
+    serve(Connection(int(sys.argv[1])))
