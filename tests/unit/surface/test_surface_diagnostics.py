@@ -129,7 +129,15 @@ def test_mbt_as_printed_by_rsreg():
     residual = surface.y - surface.predict(surface.x)
     total = np.sum((surface.y - surface.y.mean()) ** 2)
     assert 1 - residual @ residual / total == pytest.approx(0.800257, abs=5.1e-7)
-    assert stationary_points(surface)[0].kind == "saddle"
+    (point,) = stationary_points(surface)
+    assert point.kind == "saddle"
+    np.testing.assert_allclose(surface.coded(point.point), [-0.441758, -0.309976], atol=5.1e-7)
+    np.testing.assert_allclose(point.point, [8.465935, 240.700718], atol=6e-7)
+    assert point.response == pytest.approx(83.741940, abs=5.1e-7)
+    np.testing.assert_allclose(point.curvatures, [2.528816, -9.996940], atol=5.1e-7)
+    np.testing.assert_allclose(
+        np.abs(point.axes), [[0.953223, 0.302267], [0.302267, 0.953223]], atol=5.1e-7
+    )
 
 
 def test_the_ridge_path_is_the_one_of_the_lagrange_equations():

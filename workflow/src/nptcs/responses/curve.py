@@ -9,7 +9,6 @@ from scipy.interpolate import CubicSpline
 
 from nptcs.arrays import Array
 
-
 LEAST_POINTS = 6
 LEAST_SPAN = 0.3
 """Points of the curve that a tangent rests on: so many, over this share of the last load."""
