@@ -62,7 +62,7 @@ def _numbered_apart(machines: Mapping[int, Counter[str]], strains: Sequence[str]
         key, number = _series_and_number(tokens(name))
         if key in series:
             series[key][1].update(dict.fromkeys(number, name))
-    left = {}
+    left: dict[str, str] = {}
     for numbers, named in series.values():
         shifted = any({number + step for number in named} == numbers for step in (1, -1))
         if len(named) > 1 and shifted:
