@@ -18,6 +18,7 @@ EVERYWHERE = {
     "laminate",
     "likelihood",
     "loading",
+    "machine_code",
     "mechanical_tests",
     "provenance",
     "ranges",

@@ -13,7 +13,7 @@ from nptcs.config.studies.surface import (
     name_of,
 )
 from nptcs.language import language
-from nptcs.report.surface_words import surface_words
+from nptcs.report.words.surfaces import surface_words
 
 POLYNOMIALS = [
     PolynomialModel(kind="polynomial", link=link, terms=terms, choose=choose, through_origin=origin)

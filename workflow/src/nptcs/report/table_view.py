@@ -10,15 +10,15 @@ import pandas as pd
 
 from nptcs.language import tr
 from nptcs.report.blocks import Cell, TableView
-from nptcs.report.flag_words import flag_text
-from nptcs.report.stage_messages import message_text
-from nptcs.report.surface_words import surface_words
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.names import in_words
 from nptcs.report.tables.row_classes import RowClass, no_row
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.text import DIGITS, number_text, rounded
+from nptcs.report.words.flags import flag_text
+from nptcs.report.words.messages import message_text
+from nptcs.report.words.surfaces import surface_words
 
 FEWER_DIGITS = {
     "standard_error": 3,

@@ -13,9 +13,9 @@ from nptcs.language import tr
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
 from nptcs.report.sketches import IntervalRow, Sketch, intervals
-from nptcs.report.stage_messages import message_text
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.text import with_error
+from nptcs.report.words.messages import message_text
 from nptcs.tables.analysis.decisions import (
     Confirmation,
     DecisionConfirmation,

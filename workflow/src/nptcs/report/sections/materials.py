@@ -14,13 +14,13 @@ from nptcs.language import tr
 from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
 from nptcs.report.data import Results
 from nptcs.report.figures.materials import c10_against_range, hyperelastic_fit
-from nptcs.report.flag_words import flag_text
 from nptcs.report.plots import plot
 from nptcs.report.sections.key_facts import material_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
+from nptcs.report.words.flags import flag_text
 from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.laboratory.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection

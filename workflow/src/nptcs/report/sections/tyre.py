@@ -15,12 +15,12 @@ from nptcs.report.figures.tyre import (
     load_displacement,
     plate_faces,
 )
-from nptcs.report.flag_words import flag_text
 from nptcs.report.plots import plot
 from nptcs.report.sections.ply import ply_words
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
+from nptcs.report.words.flags import flag_text
 from nptcs.responses.displacement_by_load import FIDUCIAL_PLATES
 from nptcs.tables.result_table import ReportSection
 from nptcs.tables.solver_names import PUBLISHED

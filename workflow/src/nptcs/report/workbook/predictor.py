@@ -21,8 +21,8 @@ from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.study import Study
 from nptcs.language import tr, translatable
 from nptcs.report.data import Results
-from nptcs.report.surface_words import surface_words
 from nptcs.report.tables.headings import words
+from nptcs.report.words.surfaces import surface_words
 from nptcs.report.workbook.cells import (
     FONT,
     INPUT,

@@ -9,7 +9,7 @@ from openpyxl.styles import Font
 from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.language import tr, translatable
-from nptcs.report.surface_words import surface_words
+from nptcs.report.words.surfaces import surface_words
 from nptcs.report.workbook.cells import FONT, head_row, write, write_row
 from nptcs.report.workbook.number_formats import EXACT
 from nptcs.report.workbook.predictor_models import INPUTS, SPACING, Link, PredictorModel

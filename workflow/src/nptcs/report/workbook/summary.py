@@ -17,10 +17,10 @@ from nptcs.language import tr, translatable
 from nptcs.report.cover import cover_lines
 from nptcs.report.data import Results
 from nptcs.report.sections.summary import findings
-from nptcs.report.surface_words import surface_words
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.names import factor_headings, in_words
 from nptcs.report.tables.sheets import Sheet
+from nptcs.report.words.surfaces import surface_words
 from nptcs.report.workbook.cells import (
     FILLS,
     FONT,

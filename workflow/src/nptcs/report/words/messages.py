@@ -7,7 +7,7 @@ joins them. Each part is translated where its sentence is known, and stays as it
 from __future__ import annotations
 
 from nptcs.language import tr, translatable
-from nptcs.report.flag_words import flag_text, translated
+from nptcs.report.words.flags import flag_text, translated
 
 SENTENCES = (
     # solved cases
