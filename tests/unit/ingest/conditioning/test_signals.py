@@ -94,20 +94,18 @@ def test_machine_compliance_is_taken_out(coupon):
     assert corrected.values["strain_axial"] == pytest.approx(1e-5 * FORCE)
 
 
-@pytest.mark.parametrize("channel", ["extension", "displacement"])
-def test_a_length_needs_a_gauge_length_where_the_strength_needs_a_strain(coupon, channel):
-    specimen = coupon(gauge_length_mm=None, test="shear", orientation_deg=45)
+SHEAR = {"test": "shear", "orientation_deg": 45}
+
+
+@pytest.mark.parametrize("test", [{}, SHEAR], ids=["tension", "shear"])
+def test_an_extension_always_needs_a_gauge_length(coupon, test):
     with pytest.raises(InputError, match="gauge_length_mm is empty"):
-        resolve(specimen, **{channel: FORCE})
+        resolve(coupon(gauge_length_mm=None, **test), extension=FORCE)
 
 
-def test_an_extension_always_needs_a_gauge_length(coupon):
-    with pytest.raises(InputError, match="gauge_length_mm is empty"):
-        resolve(coupon(gauge_length_mm=None), extension=FORCE)
-
-
-def test_travel_without_a_length_leaves_the_strain_empty(coupon):
-    signals, source = resolve(coupon(gauge_length_mm=None), displacement=FORCE)
+@pytest.mark.parametrize("test", [{}, SHEAR], ids=["tension", "shear"])
+def test_travel_without_a_length_leaves_the_strain_empty(coupon, test):
+    signals, source = resolve(coupon(gauge_length_mm=None, **test), displacement=FORCE)
     assert source == "none"
     assert np.isnan(signals.values["strain_axial"]).all()
 
