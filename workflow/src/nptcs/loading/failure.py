@@ -87,7 +87,7 @@ def unloads_along(
     """Whether force and strain go back along the way they came: an unloading, however fast.
 
     Every reading between 85 and 15 % of the force must have a strain within 15 % of the one at
-    which the loading had that force: a broken specimen has hardly one such, since it breaks
+    which the loading had that force: a broken specimen has hardly any, since it breaks
     within a reading of most loggers. Where no reading lies between, the fall in one step is a
     break if the strain stays behind, or the readings follow each other so fast that no machine
     returns between two of them; else the two cannot be told apart, and it is not a failure seen.

@@ -81,7 +81,7 @@ def tests_in(
 
 
 def _channels(source: CellSource, found_table: FoundTable) -> list[Column]:
-    """Leave out columns that are empty in the middle and at the end: a note beside the readings."""
+    """Leave out columns that are empty in the middle and at the end: a note next to the readings."""
     rows = found_table.rows_of_data
     half = len(rows) // 2
     probe = [source.cells(row) for row in (*rows[half : half + _PROBE], *rows[-_PROBE:])]
@@ -223,7 +223,7 @@ def unit_of(
         )
     known = find_unit(DIMENSION[quantity], unit)
     if known is None and quantity == "displacement" and unit in VOLTS:
-        note = f"column '{column.name}' in {unit} is no travel without its calibration: left out"
+        note = f"column '{column.name}' in {unit} is not a travel without its calibration: left out"
         return unit, float("nan"), note
     if known is None:
         raise InputError(
