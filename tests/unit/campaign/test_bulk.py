@@ -223,6 +223,22 @@ def test_records_and_tables_are_joined(tmp_path):
     assert list(joined)[-3:] == ["wall_time_s", "solver_version", "key"]
 
 
+@pytest.mark.parametrize("in_bulk", [False, True], ids=["records", "tables"])
+@pytest.mark.parametrize("batches", [1, 2, 3, 7])
+def test_cases_are_in_the_order_of_the_design_whatever_the_batches(tmp_path, batches, in_bulk):
+    study = study_of({"kind": [10.0, 11.0, 12.0, 13.0, 14.0, 15.0]}, "faulty")
+    job, design, (table, _) = solve(study, "faulty", FAULTY, tmp_path)
+    records = solve_batch(job, design, None, RecordStore(tmp_path / "r"), 1, 0, tmp_path / "l")
+    files = []
+    for batch in range(batches):  # as `solve_batch` and `solve_in_bulk` divide a design
+        files.append(str(tmp_path / f"batch_{batch + 1}.{'npz' if in_bulk else 'jsonl'}"))
+        if in_bulk:
+            write_bulk(files[-1], table.iloc[batch::batches].reset_index(drop=True))
+        else:
+            write_records(files[-1], records[batch::batches])
+    assert tuple(read_cases(files)["kind"]) == study.factors[0].levels
+
+
 def test_tyres_of_a_table_have_the_curves_of_single_cases(tmp_path):
     options = {
         "spoke_stiffness_table": str(PUBLISHED / "table10_spoke_stiffness.csv"),

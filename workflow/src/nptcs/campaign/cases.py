@@ -2,9 +2,12 @@
 
 from __future__ import annotations
 
+import os
 from collections.abc import Iterable, Iterator, Mapping, Sequence
+from itertools import groupby
 from typing import Any
 
+import numpy as np
 import pandas as pd
 
 from nptcs.campaign.bulk_file import read_bulk
@@ -64,18 +67,29 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
 def read_cases(paths: Sequence[str]) -> pd.DataFrame:
     """Read batch files, of records and of tables, as the table `Cases`.
 
+    Cases of a study are in the order of its design, whatever the number of batches
+    (`nptcs.campaign.record.read_records`).
+
     Raises
     ------
     InputError
         For a file that was damaged or edited.
     """
     records = read_records([path for path in paths if not path.endswith(BULK)])
-    tables = [_without_curves(read_bulk(path)) for path in paths if path.endswith(BULK)]
+    in_bulk = groupby([path for path in paths if path.endswith(BULK)], key=os.path.dirname)
+    tables = [_in_turn([_without_curves(read_bulk(path)) for path in part]) for _, part in in_bulk]
     if records or not tables:
         tables = [cases_table(records), *tables]
     joined = pd.concat(tables, ignore_index=True)
     # factors of all studies come before the load and the responses, as in a table of records
     return joined[_in_order(tables)]
+
+
+def _in_turn(tables: Sequence[pd.DataFrame]) -> pd.DataFrame:
+    """Join the tables of batches, a row of each in turn."""
+    places = [number + len(tables) * np.arange(len(table)) for number, table in enumerate(tables)]
+    order = np.argsort(np.concatenate(places))
+    return pd.concat(tables, ignore_index=True).iloc[order].reset_index(drop=True)
 
 
 def _without_curves(table: pd.DataFrame) -> pd.DataFrame:

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Mapping, Sequence
+from itertools import groupby, zip_longest
 from pathlib import Path
 from typing import Any, Self
 
@@ -130,12 +132,29 @@ class RecordStore:
 def read_records(paths: Sequence[str]) -> list[CaseRecord]:
     """Read batch files: one record per line.
 
+    Parameters
+    ----------
+    paths : sequence of str
+        All batches of a study by a solver are in one folder and follow each other by number.
+
+    Returns
+    -------
+    list of CaseRecord
+        In the order of the designs, whatever the number of batches: batch k of n holds every n-th
+        case from the k-th on.
+
     Raises
     ------
     InputError
         For a file that is missing, or that lost, doubled or changed a line.
     """
-    return [record for path in paths for record in _read_batch(path)]
+    return [
+        record
+        for _, batches in groupby(paths, key=os.path.dirname)
+        for turn in zip_longest(*map(_read_batch, batches))
+        for record in turn
+        if record is not None
+    ]
 
 
 def _read_batch(path: str) -> list[CaseRecord]:

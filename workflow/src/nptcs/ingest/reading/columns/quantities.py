@@ -81,7 +81,7 @@ def tests_in(
 
 
 def _channels(source: CellSource, found_table: FoundTable) -> list[Column]:
-    """Leave out columns that are empty in the middle and at the end: a note next to the readings."""
+    """Leave out columns that are empty in the middle and at the end: notes next to readings."""
     rows = found_table.rows_of_data
     half = len(rows) // 2
     probe = [source.cells(row) for row in (*rows[half : half + _PROBE], *rows[-_PROBE:])]
