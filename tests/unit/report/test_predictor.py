@@ -66,7 +66,7 @@ def predicted(results):
         }
         for name, surface in kinds.items():
             found.append(FittedSurface("plate", "published", name, STRESS, surface, changed))
-    process = GaussianProcess(tuple(names), x, y, None, np.zeros(4))
+    process = GaussianProcess(tuple(names), x, y, None, np.zeros(4), np.zeros((1, 4)))
     found.append(FittedSurface("plate", "published", "process", STRESS, process))
     rubber = config.study("rubber")
     x = np.array(np.meshgrid([4.0, 4.5, 5.0], [1.0, 2, 3, 4, 5], indexing="ij")).reshape(2, -1).T
