@@ -16,24 +16,31 @@ import numpy as np
 import pandas as pd
 
 from nptcs.surface import least_squares
-from nptcs.surface.fit import fit
+from nptcs.surface.fit import Surface, fit
 
 SETS = ["norris", "pontius", "noint1", "noint2", "filip", "longley"]
 SETS += [f"wampler{number}" for number in range(1, 6)]
 
 
-def digits(folder: Path, name: str) -> float:
-    """Digits that agree in the worst coefficient of a set."""
+def fit_set(folder: Path, name: str) -> tuple[Surface, pd.Series]:
+    """Fit a set; return the surface and the exact values by parameter, ``resid_sd`` among them."""
     exact = pd.read_csv(folder / "exact_rational_LS.csv")
     certified = exact[exact["set"] == name].set_index("param")["exact_LS_value"]
-    wanted = certified[certified.index != "resid_sd"].to_numpy()
     data = pd.read_csv(folder / f"{name}.csv", encoding="utf-8-sig")
     through_origin = name.startswith("noint")
-    factors = list(data)[1:] if name == "longley" else ["x1" if "x1" in data else "x"]
+    columns = [str(column) for column in data]
+    factors = columns[1:] if name == "longley" else ["x1" if "x1" in columns else "x"]
     terms = factors if len(factors) > 1 or through_origin else []
-    terms = terms or [f"{factors[0]}^{power}" for power in range(1, len(wanted))]
+    terms = terms or [f"{factors[0]}^{power}" for power in range(1, len(certified) - 1)]
     terms = terms if through_origin else ["1", *terms]
-    found = fit(data, data["y"], factors, terms, through_origin).coefficients_natural
+    return fit(data, data["y"], factors, terms, through_origin), certified
+
+
+def digits(folder: Path, name: str) -> float:
+    """Digits that agree in the worst coefficient of a set."""
+    surface, certified = fit_set(folder, name)
+    wanted = certified[certified.index != "resid_sd"].to_numpy()
+    found = surface.coefficients_natural
     return float(-np.log10(max(np.abs((found - wanted) / wanted).max(), 1e-17)))
 
 

@@ -217,7 +217,7 @@ READ: dict[str, tuple[str | bytes, Mapping[str, float | None], dict[str, Any]]] 
         FULL, {}),
     "space that was reserved and not filled": (
         export(PULL | {"Strain [%]": PERCENT}).encode() + bytes(512), FULL, {}),
-    "a note beside the readings": (
+    "a note next to the readings": (
         export(PULL | {"Strain [%]": PERCENT, "Stress": [""] * 3 + ["1440"] + [""] * 308}),
         FULL, {}),
 }  # fmt: skip

@@ -1,5 +1,6 @@
 """Digits of the least-squares fit against exact fractions: NIST's sets and sets like them."""
 
+import importlib.util
 from fractions import Fraction
 from pathlib import Path
 
@@ -13,6 +14,17 @@ NIST = Path(__file__).parents[4] / "shared" / "labdata" / "nist-regression"
 DIGITS = 11
 WAMPLER_ERRORS = [759, -2048, 2048, -2048, 2523, -2048, 2048, -2048, 1838, -2048, 2048]
 WAMPLER_ERRORS += WAMPLER_ERRORS[-2::-1]
+
+
+def load_benchmark():
+    path = Path(__file__).parents[3] / "benchmarks" / "surface_digits.py"
+    spec = importlib.util.spec_from_file_location("surface_digits", path)
+    module = importlib.util.module_from_spec(spec)
+    spec.loader.exec_module(module)
+    return module
+
+
+benchmark = load_benchmark()
 
 
 def digits(computed, exact):
@@ -71,25 +83,10 @@ def test_a_surface_through_the_origin_equals_the_exact_one(exact_solution):
 
 
 @pytest.mark.skipif(not NIST.is_dir(), reason="NIST's sets are in ../shared, which is not here")
-@pytest.mark.parametrize(
-    "name",
-    ["norris", "pontius", "noint1", "noint2", "filip", "longley"]
-    + [f"wampler{number}" for number in range(1, 6)],
-)
+@pytest.mark.parametrize("name", benchmark.SETS)
 def test_digits_of_the_nist_sets(name):
-    exact = pd.read_csv(NIST / "exact_rational_LS.csv")
-    certified = exact[exact["set"] == name].set_index("param")["exact_LS_value"]
+    surface, certified = benchmark.fit_set(NIST, name)
     coefficients = certified[certified.index != "resid_sd"].to_numpy()
-    data = pd.read_csv(NIST / f"{name}.csv", encoding="utf-8-sig")
-    through_origin = name.startswith("noint")
-    factors = list(data)[1:] if name == "longley" else ["x1" if "x1" in data else "x"]
-    terms = factors if len(factors) > 1 or through_origin else []
-    terms = terms or [f"{factors[0]}^{power}" for power in range(1, len(coefficients))]
-
-    surface = fit(
-        data, data["y"], factors, [*([] if through_origin else ["1"]), *terms], through_origin
-    )
-
     assert digits(surface.coefficients_natural, coefficients) >= DIGITS
     residual_sd = certified["resid_sd"]
     assert surface.residual_sd == pytest.approx(residual_sd, rel=1e-9, abs=1e-9)

@@ -317,18 +317,18 @@ def _write_index(worksheet: Worksheet, top: int, index: Sequence[IndexRow]) -> N
         if one.here:
             cell.hyperlink = Hyperlink(ref=cell.coordinate, location=f"'{one.name}'!A1")
         else:
-            cell.hyperlink = beside(one.file)
+            cell.hyperlink = next_to_workbook(one.file)
         cell.font = LINK
         for column in range(1, len(INDEX_HEAD) + 1):
             worksheet.cell(row, column).alignment = WRAPPED
 
 
-def beside(file: str) -> str:
+def next_to_workbook(file: str) -> str:
     """Return the address of a result next to the workbook, which is in ``results``.
 
     Examples
     --------
-    >>> beside("results/tables/plate_stress.csv")
+    >>> next_to_workbook("results/tables/plate_stress.csv")
     'tables/plate_stress.csv'
     """
     return PurePosixPath(file).relative_to("results").as_posix()
@@ -339,7 +339,7 @@ def index_row(sheet: Sheet, name: str) -> IndexRow:
     entry = sheet.entry
     says = tr(entry.title)
     if not sheet.in_workbook:
-        file = beside(entry.file)
+        file = next_to_workbook(entry.file)
         says = tr(
             "{title} (not a sheet: the CSV file {file} next to this one)", title=says, file=file
         )
