@@ -20,7 +20,7 @@ report: $(VENV)/ready
 	snakemake -j$(JOBS) report
 
 test: $(VENV)/ready-dev
-	python -m pytest -n $(JOBS)
+	python -m pytest -n $(JOBS) --dist loadfile
 
 # the numerical tests once more with the plainest kernels of OpenBLAS and NumPy, two threads and another
 # seed: a test that holds only to the last bit of one processor fails here (what a browser does is the same)

@@ -6,8 +6,8 @@ import contextlib
 from collections.abc import Iterator
 
 from axe_check import CHROMIUM as CHROMIUM
+from axe_check import LIMIT_MS, chromium
 from axe_check import NO_CHROMIUM as MISSING
-from axe_check import chromium
 
 __all__ = ["CHROMIUM", "MISSING", "Tab", "browser"]
 
@@ -39,7 +39,7 @@ class Tab:
             is_mobile=phone,
         )
         self.page = self._context.new_page()
-        self.page.set_default_timeout(0)  # the machine may be busy; pytest ends what hangs
+        self.page.set_default_timeout(LIMIT_MS)
         self.page.on("console", self._said)
         self.page.on("pageerror", lambda error: self.complaints.append(str(error)))
         self.page.on("request", self._asked)
