@@ -18,6 +18,7 @@ from nptcs.report.figures.theme import COLOURS, GREY, INK
 DRAWN_POINTS = 200
 """Readings of a curve that are drawn; the curve files hold all of them."""
 
+LEGEND_COLUMNS = 4
 MOST_NAMED = 8
 """Specimens of a panel beyond which they are not named one by one."""
 
@@ -131,7 +132,7 @@ def stress_strain(
     if moduli is not None:
         parts += _draw_moduli(axes, moduli, curves, axis, colours)
     if len(colours) <= MOST_NAMED and axes.get_lines():
-        axes.legend(loc="lower right", fontsize=7)
+        figure.legend(loc="outside lower center", ncols=LEGEND_COLUMNS, fontsize=7)
     if parts:
         columns = ["specimen", "what", axis.strain, axis.stress]
         figure.data = pd.concat(parts, ignore_index=True)[columns]
