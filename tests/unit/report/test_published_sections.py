@@ -241,7 +241,10 @@ def test_curves_lines_and_printed_ends_are_drawn(compared):
 
 def test_the_ranking_is_compared_with_table_9(compared):
     published = compared.table(Impact).dropna(subset=["published_impact"])
-    order = "spoke C10 (S-C) > plate spacing S > shear band C10 (T-C) > fibre angle A > plate thickness T"
+    order = (
+        "spoke C10 (S-C) > plate spacing S > shear band C10 (T-C) > fibre angle A > "
+        "plate thickness T"
+    )
     assert published_order(compared, published) == [f"Table 9: {order}."]
     words = verdicts(compared, published)
     assert len({text.split(",")[0] for text in words}) == len(set(published["solver"]))

@@ -14,7 +14,7 @@ UNIT = re.compile(r"(?<=\d) (?=(?:%|°C|N/mm|MPa|GPa|mm|kN|N|kg)(?!\w))")
 
 
 def kept(text: object) -> Markup:
-    """Write a text as HTML whose lines break neither in a short name nor before a unit.
+    r"""Write a text as HTML whose lines break neither in a short name nor before a unit.
 
     Examples
     --------

@@ -49,7 +49,7 @@ TERMS = ("dropped", "form", "source", "term")
 WORDS = frozenset(
     {"status", "origin", "include", "synthetic", "result", "confirmation", "group", "kind", "test"}
     | {"scope", "reported_statistic", "region", "goal_met", "drucker_stable", "outside_the_box"}
-    | {"failed", "values_used", "model", "beyond_uncertainty", "data"}
+    | {"failed", "values_used", "model", "beyond_uncertainty", "data", "path", "area_rule"}
 )
 """Columns that hold words of closed sets: the page writes them in its own language."""
 
@@ -61,11 +61,14 @@ UNCERTAIN_BY = {
 }
 """Uncertainty, and columns that are written to the second significant digit of it."""
 
-FLAGS = ("flag", "flags", "not_assessed")
+FLAGS = ("flag", "flags", "not_assessed", "notes")
 """Columns that hold flags."""
 
 MESSAGES = ("message", "note", "not_fitted", "reason", "remarks")
 """Columns that hold messages of stages."""
+
+SAID = ("rule", "source")
+"""Columns that hold names, and sentences of stages around them."""
 
 SURFACE = "surface"
 """Column that holds names of surfaces."""
@@ -237,7 +240,7 @@ def _named(column: str, value: object, entry: Entry) -> Cell:
     """Write a text with the names that people use; the names in the file come on hover."""
     text = "" if value is None or value is pd.NA else str(value)
     write = in_symbols if column in TERMS else in_words
-    words_of_it = write(text, entry.factors)
+    words_of_it = write(message_text(text) if column in SAID else text, entry.factors)
     return Cell(words_of_it, name_in_file="" if words_of_it == text else text)
 
 

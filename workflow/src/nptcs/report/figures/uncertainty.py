@@ -50,7 +50,12 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
             )
     for bar, share in zip(place, shares["share_percent"], strict=True):
         axes.annotate(
-            share_text(share), (share, bar), (3, 0), textcoords="offset points", va="center", fontsize=7.5
+            share_text(share),
+            (share, bar),
+            (3, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=7.5,
         )
     figure.data = shares
     axes.set_yticks(place, names, fontsize=7.5)

@@ -110,7 +110,7 @@ def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
 
     Rules that give the same order are one sentence.
     """
-    sentences = []
+    sentences, whole = [], published_order(results, compared)
     for solver, of_solver in compared.groupby("solver", sort=True):
         alike: dict[tuple[str, str], list[str]] = {}
         for rule, rows in of_solver.groupby("rule", sort=False):
@@ -118,16 +118,14 @@ def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
             if len(rows) > 1:
                 alike.setdefault(orders, []).append(words(str(rule)))
         for (computed, published), rules in alike.items():
-            sentence = (
-                tr("{solver}, {rules}: {order}: the same as in table 9.")
-                if computed == published
-                else tr("{solver}, {rules}: {order}: NOT that of table 9 ({published}).")
-            )
-            sentences.append(
-                sentence.format(
-                    solver=solver, rules=joined(rules), order=computed, published=published
-                )
-            )
+            if computed == published:
+                sentence = tr("{solver}, {rules}: {order}: the same as in table 9.")
+            elif tr("Table 9: {order}.", order=published) in whole:
+                sentence = tr("{solver}, {rules}: {order}: NOT that of table 9.")
+            else:
+                sentence = tr("{solver}, {rules}: {order}: NOT that of table 9 ({published}).")
+            told = {"rules": joined(rules), "order": computed, "published": published}
+            sentences.append(sentence.format(solver=solver, **told))
     return sentences
 
 

@@ -123,8 +123,7 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
     solvers = tuple(
-        Fact(name, tr(facts.about) + _choices(facts), "")
-        for name, facts in results.solvers.items()
+        Fact(name, tr(facts.about) + _choices(facts), "") for name, facts in results.solvers.items()
     )
     blocks: list[PageBlock] = [
         Facts(tr("Solvers"), solvers),
