@@ -7,6 +7,7 @@ from html.parser import HTMLParser
 import numpy as np
 import pytest
 
+from nptcs.report.factor_labels import SYMBOLS
 from nptcs.report.html import render_report
 from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.analysis.surface import SurfaceQuality, SurfaceTable
@@ -146,9 +147,11 @@ def test_a_reader_can_evaluate_the_surface_from_the_page(html, results, study):
     value = np.zeros(len(cases))
     for _, term, natural, *_ in rows:
         product = np.ones(len(cases))
-        for part in [] if term == "1" else term.split("*"):
-            name, _, power = part.partition("^")
-            product *= cases[name].to_numpy() ** int(power or 1)
+        for part in [] if term == "1" else term.split(" × "):
+            symbol = part.rstrip("²³")
+            power = {"": 1, "²": 2, "³": 3}[part[len(symbol) :]]
+            (name,) = (name for name, one in SYMBOLS.items() if one.name == symbol)
+            product *= cases[name].to_numpy() ** power
         value += float(natural) * product
     surface = results.surfaces[study]["published"]
     factors = cases[list(surface.polynomial.factors)].to_numpy(float)

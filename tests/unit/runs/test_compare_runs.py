@@ -4,6 +4,7 @@ import io
 import json
 import shutil
 import zipfile
+from dataclasses import replace
 
 import numpy as np
 import openpyxl
@@ -12,7 +13,7 @@ import pytest
 
 from nptcs.cli import main
 from nptcs.errors import InputError
-from nptcs.report.comparison.page import comparison_page
+from nptcs.report.comparison.page import comparison_page, differing
 from nptcs.report.comparison.workbook import comparison_workbook
 from nptcs.runs.all_tables import described
 from nptcs.runs.compare import compare_runs
@@ -289,6 +290,15 @@ def test_page_and_workbook_show_the_same_rows(rubber):
         names = [cell.value.split(" [")[0] for cell in sheet[1]]
         results = [row[names.index("result")].value for row in sheet.iter_rows(min_row=2)]
         assert results == [str(one) for one in part.table[RESULT]]
+
+
+def test_a_long_text_of_all_differing_rows_is_not_lost(rubber):
+    part = rubber.part("stiffness")
+    design = ", ".join(f"factor_{number}_mm {number}" for number in range(1, 7))
+    view = differing(replace(part, table=part.table.assign(design_a=design)), True)
+    assert len(view.notes) == 1
+    assert view.notes[0].endswith(design)
+    assert (view.synthetic, view.all_rows) == (True, 3)
 
 
 def test_archives_are_compared_and_a_damaged_one_is_named(march, april, tmp_path, capsys):

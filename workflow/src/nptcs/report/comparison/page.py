@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from importlib import resources
 
 from markupsafe import Markup
@@ -52,9 +53,7 @@ def differing(part: Part, synthetic: bool) -> TableView | None:
     if rows.empty:
         return None
     view = table_view(rows.iloc[:MOST_ROWS], sheet.entry, mark=mark_row, whole=True)
-    return TableView(
-        view.entry, view.caption, view.headings, view.numeric, view.rows, synthetic, len(rows)
-    )
+    return replace(view, synthetic=synthetic, all_rows=len(rows))
 
 
 def _resource(name: str) -> Markup:
