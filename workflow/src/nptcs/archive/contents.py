@@ -120,5 +120,5 @@ def _inside(path: Path, root: Path) -> str:
     except ValueError:
         remedy = "copy it into the project folder, and name the copy in the configuration"
         raise InputError(
-            "lies outside the project folder, which is all that an archive holds", remedy, path
+            "is outside the project folder, and an archive holds only that folder", remedy, path
         ) from None

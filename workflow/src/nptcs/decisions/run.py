@@ -297,7 +297,7 @@ def _responses_of(study: Study) -> list[ResponseName]:
 def _refuse_outside(inside: bool, study: Study, values: Mapping[str, float]) -> None:
     if not inside:
         raise InputError(
-            "the reference design lies outside the solved cases",
+            "the reference design is outside the solved cases",
             column=f"studies.{study.name}.reference",
             value=dict(values),
             remedy="give a design inside the range of the levels",

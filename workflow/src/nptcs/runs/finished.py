@@ -147,8 +147,8 @@ def _refuse_edited(results: Path, identity: RunIdentity) -> None:
         found = sha256_of_file(path) if file == CARD else hash_of_table(path)
         if found != written:
             raise InputError(
-                "this result is not as the run has written it: it was edited, or another run has "
-                "begun to write here",
+                "this result was changed after the run had written it: it was edited, or another "
+                "run has begun to write here",
                 _RESTORE,
                 path,
             )

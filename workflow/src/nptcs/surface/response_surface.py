@@ -171,7 +171,7 @@ def refuse_unusable(x: Array, y: Array, factors: Sequence[str], coefficients: in
     """
     if len(y) <= coefficients:
         raise InputError(
-            f"{len(y)} solved cases cannot carry {coefficients} terms",
+            f"{len(y)} solved cases cannot determine {coefficients} terms",
             column="terms",
             remedy="solve more cases or fit fewer terms",
         )
@@ -185,7 +185,7 @@ def refuse_unusable(x: Array, y: Array, factors: Sequence[str], coefficients: in
         raise InputError(
             "the response is the same in all cases",
             value=y[0],
-            remedy="check that the solver sees the factors of this study",
+            remedy="check that the solver uses the factors of this study",
         )
     lower, upper = box(x)
     if (lower == upper).any():

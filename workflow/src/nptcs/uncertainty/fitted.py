@@ -272,7 +272,7 @@ def _rubber_effect(
     if not inside_box(surface, point)[0]:
         low, high = box(surface.x)
         return None, (
-            f"effect of the rubbers not assessed: {point[0].tolist()} lies outside study "
+            f"effect of the rubbers not assessed: {point[0].tolist()} is outside study "
             f"{rubbers.study.name} ({low.tolist()} to {high.tolist()})"
         )
     return RubberEffect(surface, nominal), ""

@@ -138,7 +138,7 @@ def read_goal(kind: GoalKind, text: str) -> Goal:
     """
     found = GOAL.match(text)
     if found is None:
-        raise _fault(kind, text, "is not a goal that can be read")
+        raise _fault(kind, text, "cannot be read")
     name = ALIASES.get(found["name"], found["name"])
     _check_response(name, found["at"] is not None, text)
     value, plus_minus, at, weight = (

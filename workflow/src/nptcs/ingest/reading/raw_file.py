@@ -14,7 +14,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.head_units import add_units_of_head
 from nptcs.ingest.reading.columns.labels import LabelValue, read_labels
 from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
-from nptcs.ingest.reading.columns.quantities import Role, Test, choose_test, unit_of
+from nptcs.ingest.reading.columns.quantities import Test, choose_test, unit_of
 from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
@@ -23,6 +23,7 @@ from nptcs.ingest.reading.text.cells import CellSource, TextSource
 from nptcs.ingest.reading.text.clock import PlainLines
 from nptcs.ingest.reading.text.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.units import VOLTS
+from nptcs.tables.laboratory.curves import Role
 
 TRUE_STRAINS = ("true strain", "logarithmic strain", "hencky strain", "wahre dehnung")
 

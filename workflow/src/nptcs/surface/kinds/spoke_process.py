@@ -198,7 +198,7 @@ class SpokeProcess:
                     f"{name} {value:.6g}" for name, value in zip(SPOKE, design, strict=True)
                 )
                 raise InputError(
-                    f"a spoke has {len(own)} solved cases, which do not carry the {own.shape[1]} "
+                    f"a spoke has {len(own)} solved cases, which cannot determine the {own.shape[1]} "
                     "terms of its polynomial",
                     column="surfaces",
                     specimen=values,

@@ -100,7 +100,7 @@ def inputs_of(factor: str, low: float, high: float, given: Distribution | None) 
             assert_never(given)
     if inside < 0.01:
         raise InputError(
-            f"this distribution lies outside the cases ({low:g} to {high:g})",
+            f"this distribution is outside the cases ({low:g} to {high:g})",
             column=f"sensitivity.distributions.{factor}",
             value=words,
             remedy="give a distribution inside the range of the levels",

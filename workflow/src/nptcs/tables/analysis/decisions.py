@@ -38,7 +38,7 @@ class Decisions(pa.DataFrameModel):
     candidates: Series[pd.Int64Dtype] = pa.Field(ge=1, nullable=True)
     confirmation: Series[str] = pa.Field(
         isin=list(get_args(Confirmation)),
-        description="Where the solved response lies, by the prediction interval of the surface",
+        description="Where the solved response is, by the prediction interval of the surface",
     )
     solved_designs: Series[int] = pa.Field(ge=0, description="To confirm the choice")
     search_cpu_s: Series[float] = pa.Field(
