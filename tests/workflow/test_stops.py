@@ -102,7 +102,7 @@ def test_after_a_kill_and_after_a_signal_the_same_command_goes_on(unsolved):
 
     run = Run(unsolved)
     run.wait_for_records(5)
-    assert "no process of it lives: its lock is removed" in run.said()
+    assert "none of its processes is alive: its lock is removed" in run.said()
     family = run.family()
     run.process.send_signal(signal.SIGTERM)
     assert all_gone(run, family[1:])

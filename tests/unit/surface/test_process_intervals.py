@@ -7,7 +7,8 @@ import pandas as pd
 import pytest
 
 from nptcs.config.studies.surface import GaussianProcessModel, LaminationModel, PolynomialModel
-from nptcs.surface.diagnostics.comparison import leave_one_out
+from nptcs.errors import InputError
+from nptcs.surface.diagnostics.comparison import leave_one_level_out, leave_one_out
 from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process, kernel_of
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
 from nptcs.surface.kinds.models import Cases, fit_model
@@ -100,11 +101,18 @@ def test_unseen_spacings_and_left_out_cases_of_the_finite_elements(plates):
     left_out = leave_one_out(plates)
     assert left_out.largest <= 0.2
     assert 90 <= left_out.coverage_percent <= 99
-    for level in np.unique(plates.x[:, 0]):
-        out = plates.x[:, 0] == level
-        other = plates.refit(plates.x[~out], plates.y[~out])
-        low, high = other.interval(plates.x[out])
-        assert np.mean((low <= plates.y[out]) & (plates.y[out] <= high)) >= 0.9
+
+
+def test_two_spacings_do_not_tell_how_spacing_acts(plates):
+    kept = plates.x[:, 0] != np.unique(plates.x[:, 0])[1]
+    cases = Cases(plates.x[kept], plates.y[kept], PLATES, (), PUBLISHED_PLY)
+    with pytest.raises(InputError, match="do not determine the 7 coeff.*2 of spacing_mm"):
+        fit_model(LaminationModel(kind="lamination", coefficients=7), cases)
+    for surface in (plates, plates.mean):
+        level = leave_one_level_out(surface, 0)
+        assert np.isnan(level.largest)
+        assert "do not determine" in level.refused
+        assert leave_one_level_out(surface, 1).largest <= 3.0
 
 
 def test_the_interval_holds_for_the_fifteen_cases_of_table_7():

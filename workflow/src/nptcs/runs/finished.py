@@ -101,7 +101,7 @@ def read_run(folder: Path, name: str, software: Mapping[str, str] | None = None)
     Raises
     ------
     InputError
-        For a folder without a finished run, and for a file that is not as the run has written it.
+        For a folder without a finished run, and for a file that was changed after the run.
     """
     results = folder / "results" if (folder / "results").is_dir() else folder
     _refuse_unfinished(results, name)

@@ -49,6 +49,10 @@ class MixedGroup(ElementGroup, Protocol):
     the steps that follow.
     """
 
+    def respond(self, displacement: Array, out: Array | None = None) -> Response:
+        """As `ElementGroup.respond`; the tangents are written into `out`, if it is given."""
+        ...
+
     def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state."""
         ...
@@ -69,6 +73,13 @@ class MixedGroup(ElementGroup, Protocol):
 def element_dofs(nodes: Index, dim: int) -> Index:
     """Degrees of freedom (elements, nodes × dim) of elements' nodes."""
     return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
+
+
+def room_for_tangents(nodes: Index, field: Array) -> Array:
+    """Return an array for the tangents of elements whose nodes move as in a field (nodes, dim)."""
+    elements, count = nodes.shape
+    size = count * field.shape[1]
+    return np.empty((elements, size, size))
 
 
 def _columns(gradient: Array) -> Array:
@@ -128,11 +139,9 @@ class LinearGroup:
     def _of_strain(self, strain: Array) -> Array:
         return np.matmul(self.stiffness, strain[..., None])[..., 0]
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> Response:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
-        elements, nodes = self.nodes.shape
-        size = nodes * displacement.shape[1]
-        tangent = np.empty((elements, size, size))
+        tangent = room_for_tangents(self.nodes, displacement) if out is None else out
         energy, force = self._response(displacement, tangent)
         return Response(energy, force, tangent)
 
@@ -237,13 +246,11 @@ class RubberGroup:
         self._coupling = np.zeros((shape[0], size, shape[1]))
         self._lift = np.zeros((shape[0], size, shape[1]))
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> Response:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
-        elements, nodes = self.nodes.shape
-        size = nodes * displacement.shape[1]
+        tangent = room_for_tangents(self.nodes, displacement) if out is None else out
         # copies of this group keep theirs
-        self._eliminated(size)
-        tangent = np.empty((elements, size, size))
+        self._eliminated(tangent.shape[1])
         energy, force = self._response(displacement, tangent)
         return Response(energy, force, tangent)
 

@@ -110,7 +110,7 @@ class SpokeModel(SpokePeriod):
         for group in self.mixed:
             group.release()
         responses, force = self._respond(unloaded)
-        factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
+        factor = self._factorised(responses)
         state = self._condense(motion, unloaded, responses, force, factor, 0.0)
         return replace(state, force=np.zeros(3))
 
@@ -225,7 +225,7 @@ class SpokeModel(SpokePeriod):
             group.put_inner(inner)
         for count in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
-            factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
+            factor = self._factorised(responses)
             step, work = self._step(factor, force)
             energy = sum(response.energy for response in responses)
             # the stresses are those of the displacements only after a step

@@ -15,8 +15,9 @@ from nptcs.fe.elements.groups import (
     MixedGroup,
     Response,
     element_dofs,
+    room_for_tangents,
 )
-from nptcs.fe.matrices.block_tridiagonal import BlockPattern
+from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockPattern
 from nptcs.fe.spoke.element_groups import plate_groups, rubber_group
 from nptcs.fe.spoke.embedded_plates import straight_group
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
@@ -82,6 +83,9 @@ class SpokePeriod:
         self._arm = self.mesh.positions[self.mesh.top, 0]
         self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
         self.scale = float(design.plates)
+        # the system asks for fresh pages for arrays of megabytes, so they are kept
+        self._tangents = [room_for_tangents(g.nodes, self.mesh.positions) for g in self.mixed]
+        self._entries = self._pattern.room()
 
     @property
     def mixed(self) -> list[MixedGroup]:
@@ -114,8 +118,16 @@ class SpokePeriod:
         return slope.reshape(-1, 3), curve.ravel()
 
     def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
-        responses = [group.respond(displacement) for group in self.groups]
+        """Responses of all groups, whose tangents last until the next call, and their forces."""
+        kept = zip(self.mixed, self._tangents, strict=True)
+        responses = [group.respond(displacement, out) for group, out in kept]
+        responses += [group.respond(displacement) for group in self.embedding]
         return responses, self._summed([response.force for response in responses])
+
+    def _factorised(self, responses: Sequence[Response]) -> BlockCholesky:
+        """Factorise the matrix of these responses; lasts until the next call."""
+        tangents = [response.tangent for response in responses]
+        return BlockCholesky(self._pattern.assemble(tangents, self._entries))
 
     def _forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy, and forces on all dofs for a step with the tangents of the last response."""

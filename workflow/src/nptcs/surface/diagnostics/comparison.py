@@ -22,7 +22,7 @@ GRID_POINTS = 10_000
 MOST_LEVELS = 10
 """A factor with more values than this has no levels to leave out."""
 
-MANY_CASES = 200
+MANY_CASES = 50
 """Above so many cases a polynomial's left-out errors are taken from the leverages of one fit."""
 MOST_REFITS = 2000
 """Cases beyond which a surface is not fitted again without each of them."""

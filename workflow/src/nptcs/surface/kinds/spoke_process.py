@@ -198,8 +198,8 @@ class SpokeProcess:
                     f"{name} {value:.6g}" for name, value in zip(SPOKE, design, strict=True)
                 )
                 raise InputError(
-                    f"a spoke has {len(own)} solved cases, which cannot determine the {own.shape[1]} "
-                    "terms of its polynomial",
+                    f"a spoke has {len(own)} solved cases, which cannot determine the "
+                    f"{own.shape[1]} terms of its polynomial",
                     column="surfaces",
                     specimen=values,
                     remedy="solve more cases on each spoke, lower the degree, or narrow the range "
