@@ -19,7 +19,7 @@ from nptcs.doe.d_optimal import d_optimal, log_determinant
 from nptcs.doe.points import box_behnken, central_composite, space_filling
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
-from nptcs.surface.kinds.models import Cases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_model
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.stored import dump_registry
 from nptcs.surface.study import RESPONSE
@@ -158,7 +158,7 @@ def test_named_cases_must_exist_in_the_design():
 
 def test_further_cases_go_where_the_surface_is_least_sure():
     x = np.array([[0.0], [0.1], [0.2], [0.3], [1.0]])
-    cases = Cases(x, np.sin(3 * x[:, 0]), ("x",), [])
+    cases = FitCases(x, np.sin(3 * x[:, 0]), ("x",), [])
     surface = fit_model(GaussianProcessModel(kind="gaussian_process"), cases)
     candidates = np.linspace(0, 1, 101)[:, None]
 
@@ -194,7 +194,7 @@ def test_terms_that_cannot_be_read_are_found_with_the_configuration():
 def test_augment_prints_cases_for_the_study(tmp_path, capsys):
     table = build_design(study({"kind": "central_composite"}), {}, TyreGeometry())
     x = table[["spacing_mm", "thickness_mm", "angle_deg"]].to_numpy()
-    cases = Cases(x, x[:, 0] * 2 + x[:, 1] ** 2, tuple(table)[2:5], TERMS[:4])
+    cases = FitCases(x, x[:, 0] * 2 + x[:, 1] ** 2, tuple(table)[2:5], TERMS[:4])
     surface = fit_model(PolynomialModel(kind="polynomial"), cases)
     fitted = FittedSurface("s", "lca", "polynomial", RESPONSE, surface)
     (tmp_path / "s.json").write_text(dump_registry(SurfaceRegistry("s", (fitted,))))

@@ -100,7 +100,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 def run(arguments: argparse.Namespace) -> int:
     """Print the designs; exit code 1 if none meets the goals or the choice is not confirmed."""
     from nptcs.config.files import read_config_files
-    from nptcs.decisions.run import answer, read_run
+    from nptcs.decisions.run import answer, read_solved_studies
 
     config = read_config_files([arguments.config])
     decision = decision_of(arguments, config)
@@ -109,7 +109,7 @@ def run(arguments: argparse.Namespace) -> int:
     tables["card"] = str(results / "material_card.json")
     models = sorted(map(str, (results / "6_surface" / "models").glob("*.json")))
     added = results / "7_decide" / "added_cases.csv"
-    finished = read_run(config, tables, models, added)
+    finished = read_solved_studies(config, tables, models, added)
     store = results / "5_solve" / "records"
     done, source = answer(finished, decision, store, arguments.cores)
     print(as_json(done) if arguments.json else as_text(done))

@@ -48,7 +48,7 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
-class Problem:
+class DesignProblem:
     """Goals with the models of their responses.
 
     Parameters
@@ -83,7 +83,7 @@ class Problem:
         probabilities = np.column_stack(columns) if columns else np.ones((len(x), 0))
         return Evaluation(x, mean, sd, probabilities)
 
-    def screened(self, x: Array) -> Problem:
+    def screened(self, x: Array) -> DesignProblem:
         """Return the problem without inputs that matter to no response at any of these designs.
 
         For the search: each input that is left out has less than `NEGLIGIBLE` of the variance.
@@ -201,7 +201,7 @@ class Desirability:
         return share
 
 
-def desirability(problem: Problem, acceptable: Evaluation) -> Desirability:
+def desirability(problem: DesignProblem, acceptable: Evaluation) -> Desirability:
     """Scale the desirability by the acceptable candidates."""
     best, worst = {}, {}
     for goal in problem.objectives:

@@ -21,7 +21,7 @@ from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_out
 from nptcs.surface.kinds.lamination import FACTORS as LAMINATION_FACTORS
 from nptcs.surface.kinds.lamination import Lamination
-from nptcs.surface.kinds.models import Cases, fit_model, models_of
+from nptcs.surface.kinds.models import FitCases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box
@@ -144,7 +144,7 @@ def fit_response(
         return _plate_mass(results, tyre)
     y = results.values(response)
     has = np.isfinite(y)
-    cases = Cases(results.points[has], y[has], results.factors, results.study.terms, ply)
+    cases = FitCases(results.points[has], y[has], results.factors, results.study.terms, ply)
     fitted = _surface(results, response, surface, cases, registry)
     lamination, no_ply = _lamination(fitted.surface, response, cases)
     effect, no_rubbers = _rubber_effect(results, response, rubbers)
@@ -166,7 +166,7 @@ def _surface(
     results: StudyResults,
     response: ResponseName,
     name: str,
-    cases: Cases,
+    cases: FitCases,
     registry: SurfaceRegistry | None,
 ) -> FittedSurface:
     """Return the stored surface of a response, or fit it to the same cases."""
@@ -234,7 +234,7 @@ def _model(results: StudyResults, surface: str) -> SurfaceModel:
 
 
 def _lamination(
-    surface: ResponseSurface, response: ResponseName, cases: Cases
+    surface: ResponseSurface, response: ResponseName, cases: FitCases
 ) -> tuple[Lamination | None, str]:
     """Return the lamination form that tells what the ply does, or why there is none."""
     if response.name not in STIFFNESS:
@@ -281,7 +281,7 @@ def _rubber_effect(
 def _fit_rubbers(rubbers: StudyResults, response: ResponseName) -> ResponseSurface:
     y = rubbers.values(response)
     has = np.isfinite(y)
-    cases = Cases(rubbers.points[has], y[has], rubbers.factors, rubbers.study.terms)
+    cases = FitCases(rubbers.points[has], y[has], rubbers.factors, rubbers.study.terms)
     return fit_model(PolynomialModel(kind="polynomial"), cases)
 
 

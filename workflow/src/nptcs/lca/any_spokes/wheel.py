@@ -43,7 +43,7 @@ class Wheel:
     Parameters
     ----------
     section, law : RingSection, SpokeLaw
-        Ring and spokes.
+        ScaledRing and spokes.
     contact : {"local", "paper"}
         How the contact region's spokes act; single spokes act locally.
     spoke_angles : array, optional

@@ -8,7 +8,7 @@ import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-Outcome = Literal["feasible", "infeasible", "refused"]
+DecisionStatus = Literal["feasible", "infeasible", "refused"]
 Confirmation = Literal["not asked", "inside", "outside", "not solved", ""]
 
 
@@ -21,7 +21,7 @@ class Decisions(pa.DataFrameModel):
     goals: Series[str]
     with_probability: Series[float] = pa.Field(gt=0, lt=1, description="That was asked for")
     status: Series[str] = pa.Field(
-        isin=list(get_args(Outcome)),
+        isin=list(get_args(DecisionStatus)),
         description="refused: the question cannot be answered from these cases",
     )
     design: Series[str] = pa.Field(description="The chosen design; if infeasible, the nearest")
