@@ -116,7 +116,7 @@ class DesignProblem:
 
 
 def within(goal: Goal, mean: Array, sd: Array) -> Array:
-    """Probability that a normal response lies inside a goal's limits."""
+    """Probability that a normal response is inside a goal's limits."""
     low, high = goal.limits
     scale = np.maximum(sd, SMALLEST_SD * np.maximum(np.abs(mean), 1e-300))
     inside: Array = stats.norm.cdf((high - mean) / scale) - stats.norm.cdf((low - mean) / scale)
@@ -124,7 +124,7 @@ def within(goal: Goal, mean: Array, sd: Array) -> Array:
 
 
 def meets(goal: Goal, values: Array) -> Array:
-    """Tell which values lie inside a goal's limits."""
+    """Tell which values are inside a goal's limits."""
     low, high = goal.limits
     return np.asarray((values >= low) & (values <= high))
 

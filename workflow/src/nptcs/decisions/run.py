@@ -40,7 +40,7 @@ REFERENCE = "reference"
 
 @dataclass(frozen=True)
 class SolvedStudies:
-    """Results of a run that decisions rest on.
+    """Results of a run that decisions are based on.
 
     Parameters
     ----------
@@ -122,7 +122,7 @@ def read_added(path: Path) -> pd.DataFrame:
 def source_of(
     run: SolvedStudies, study: Study, solver: str, with_added: SolverRun | None
 ) -> Source:
-    """Gather what predictions of a study and solver rest on.
+    """Gather what predictions of a study and solver are based on.
 
     Parameters
     ----------
@@ -185,7 +185,7 @@ def solver_run(run: SolvedStudies, study: Study, solver: str, store: Path, cores
 def answer(
     run: SolvedStudies, decision: Decision, store: Path, cores: int
 ) -> tuple[Answer, Source]:
-    """Answer one decision, and confirm it where that is asked for.
+    """Answer one decision, and confirm it where that is requested.
 
     Raises
     ------
@@ -206,7 +206,7 @@ def answer(
 
 @dataclass(frozen=True)
 class Answered:
-    """Everything that a run is asked for.
+    """The answers to all decisions of a run.
 
     Parameters
     ----------

@@ -104,7 +104,7 @@ class CalibrationProblem:
 
 @dataclass(frozen=True)
 class Round:
-    """One round: the section, what it gives and what was asked for."""
+    """One round: the section, what it gives and the targets."""
 
     free: Array
     spoke_stiffness: Array

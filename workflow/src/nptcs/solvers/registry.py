@@ -150,7 +150,7 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def _check_responses(study: Study, solvers: Mapping[str, Solver]) -> None:
-    """Refuse what the study asks for and its solvers, together, do not give."""
+    """Refuse responses that the study requests and none of its solvers gives."""
     spokes = [name for name, solver in solvers.items() if not solver.loads_tyre]
     if spokes and study.terms:
         raise InputError(

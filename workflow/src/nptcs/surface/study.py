@@ -1,4 +1,4 @@
-"""The surfaces of one study: for each solver with results, one of every kind that is asked for."""
+"""The surfaces of one study: for each solver with results, one of every requested kind."""
 
 from __future__ import annotations
 

@@ -44,7 +44,7 @@ SAME_VOLUME = 1e-6
 
 @dataclass(frozen=True)
 class FittedResponse:
-    """A response with its model and what the model rests on.
+    """A response with its model and what the model is based on.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class PlateMass:
         return np.zeros(len(x))
 
     def inside(self, x: Array) -> Mask:
-        """Tell which points lie in the box of the cases."""
+        """Tell which points are in the box of the cases."""
         return np.asarray(((x >= self.lower - 1e-9) & (x <= self.upper + 1e-9)).all(axis=1))
 
 
@@ -236,7 +236,7 @@ def _model(results: StudyResults, surface: str) -> SurfaceModel:
 def _lamination(
     surface: ResponseSurface, response: ResponseName, cases: FitCases
 ) -> tuple[Lamination | None, str]:
-    """Return the lamination form that tells what the ply does, or why there is none."""
+    """Return the lamination form that gives the effect of the ply, or why there is none."""
     if response.name not in STIFFNESS:
         return None, "effect of the ply not assessed: the lamination form is made for stiffness"
     own = lamination_of(surface)
@@ -254,7 +254,7 @@ def _lamination(
 def _rubber_effect(
     results: StudyResults, response: ResponseName, rubbers: StudyResults | None
 ) -> tuple[RubberEffect | None, str]:
-    """Fit the rubber study's surface of the same response, or say why it tells nothing."""
+    """Fit the rubber study's surface of the same response, or say why it gives nothing."""
     study = results.study
     nominal = {name: float(results.solved[name].iloc[0]) for name in RUBBERS if name in study.fixed}
     if not nominal:

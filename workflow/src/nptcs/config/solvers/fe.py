@@ -15,7 +15,7 @@ RingKind = Literal["converged", "paper_mesh"]
 AxialFreedom = Literal["free_edges", "plane_strain"]
 
 
-# fields of a section that say what it was calibrated with, and are no dimensions
+# fields of a section that are not dimensions: they say what it was calibrated with
 CALIBRATION = frozenset({"calibrated_with", "calibrated_axial"})
 
 

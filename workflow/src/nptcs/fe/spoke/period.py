@@ -89,7 +89,7 @@ class SpokePeriod:
 
     @property
     def mixed(self) -> list[MixedGroup]:
-        """Element groups with unknown stresses of their own."""
+        """Element groups whose stresses are unknowns."""
         return [*self.rubbers, *self.plates]
 
     @property

@@ -95,7 +95,7 @@ def estimable(solved: pd.DataFrame, planned: Planned) -> str:
 
 
 def _levels(values: pd.Series) -> pd.Series:
-    """Name the level of each case, or the quarter of the range that it lies in."""
+    """Name the level of each case, or the quarter of the range that it is in."""
     if values.nunique() <= MANY_VALUES:
         return values.map("{:.6g}".format)
     low, high = values.min(), values.max()

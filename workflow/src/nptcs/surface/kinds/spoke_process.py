@@ -156,7 +156,7 @@ class SpokeProcess:
         return (np.exp(low), np.exp(high)) if self.logarithmic else (low, high)
 
     def refit(self, x: Array, y: Array) -> SpokeProcess:
-        """Fit to other cases; the hyperparameters are kept, all else is fitted anew."""
+        """Fit to other cases; the hyperparameters are kept, all else is fitted again."""
         other = SpokeProcess(self.factor_names, x, y, self.ply, self.degree, self.theta)
         return other.checked()
 

@@ -13,7 +13,7 @@ Confirmation = Literal["not asked", "inside", "outside", "not solved", ""]
 
 
 class Decisions(pa.DataFrameModel):
-    """``decisions.csv``: what was asked and what came out, one row per decision."""
+    """``decisions.csv``: the goals and the outcome, one row per decision."""
 
     decision: Series[str] = pa.Field(unique=True)
     study: Series[str]
