@@ -1,4 +1,4 @@
-"""``nptcs retry``: let the next run solve failed cases again, whatever the reason for the failure."""
+"""``nptcs retry``: let the next run solve failed cases again, whatever made them fail."""
 
 from __future__ import annotations
 

@@ -83,7 +83,7 @@ class ResponseSurface(Protocol):
         ...
 
     def refit(self, x: Array, y: Array) -> Self:
-        """Fit the same surface to other cases: its terms or form are kept, all parameters fitted again."""
+        """Fit the same surface to other cases: terms or form kept, parameters fitted again."""
         ...
 
     def groups(self) -> Groups:
