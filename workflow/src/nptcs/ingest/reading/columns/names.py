@@ -67,6 +67,8 @@ def map_columns(
                     {"strain"} if not set(STRAINS) & set(mapped) and part is _whole else set()
                 )
                 wanted &= lacking
+                # without its digits a channel '0x10' would be a coordinate
+                wanted -= set(UNITLESS) if part is core_name else set()
             _map_names(mapped, wanted, columns, known, part, path, found_table)
     _prefer_a_sensor(mapped, columns)
     every = plain is not None or profile.name == PLAIN
