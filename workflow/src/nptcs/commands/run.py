@@ -20,7 +20,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "run",
         "run the study: from raw files to report and workbook",
         "Runs what is missing or out of date, and nothing else; after any stop the same command "
-        "goes on. It is 'snakemake -jN' with the settings of this project: whatever Snakemake "
+        "continues. It is 'snakemake -jN' with the settings of this project: whatever Snakemake "
         "can do, 'snakemake' in this folder does too. The plan is printed first, then one line "
         "that shows how far the run is, each failure, and where report and workbook are.",
         "nptcs run",
@@ -32,8 +32,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "targets",
         nargs="*",
         metavar="TARGET",
-        help="a rule or a file of results; default: everything. What follows -- goes to Snakemake "
-        "as it is",
+        help="a rule or a file of results; default: everything. What follows -- is passed to "
+        "Snakemake unchanged",
     )
     parser.add_argument(
         "-j",

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -38,7 +37,14 @@ from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
 from nptcs.ingest.sketch import data_sketch
 from nptcs.tables.io import empty_table
-from nptcs.tables.laboratory.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.tables.laboratory.curves import (
+    CURVE_COLUMNS,
+    Curve,
+    FileRecord,
+    Geometry,
+    IngestRecord,
+    Role,
+)
 from nptcs.tables.laboratory.specimens import Specimen
 
 FEWEST_ROWS = 5
@@ -229,9 +235,7 @@ def _record(
     digest: str,
     sketch: tuple[int, ...],
 ) -> IngestRecord:
-    roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
-        ("force", "strain") if len(tables) > 1 else ("force and strain",)
-    )
+    roles: tuple[Role, ...] = ("force", "strain") if len(tables) > 1 else ("force and strain",)
     names = (specimen.force_file, specimen.strain_file)
     return IngestRecord(
         specimen=specimen.specimen,

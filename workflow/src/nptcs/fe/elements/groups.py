@@ -16,7 +16,7 @@ from nptcs.fe.elements.kinematics import deformation_gradient, green_strain
 
 
 @dataclass
-class Response:
+class ElementResponse:
     """What a group returns for one state: energy (N mm), forces (N) and tangents (N/mm)."""
 
     energy: float
@@ -32,7 +32,7 @@ class ElementGroup(Protocol):
         """Node numbers, array (elements, nodes)."""
         ...
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array) -> ElementResponse:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
         ...
 
@@ -48,6 +48,10 @@ class MixedGroup(ElementGroup, Protocol):
     MPa. A guess of displacements that stretches what is stiff then spoils neither the tangents nor
     the steps that follow.
     """
+
+    def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
+        """As `ElementGroup.respond`; the tangents are written into `out`, if it is given."""
+        ...
 
     def follow(self, step: Array, part: float = 1.0) -> None:
         """Follow part of a Newton step (nodes, dim) from the last state."""
@@ -69,6 +73,13 @@ class MixedGroup(ElementGroup, Protocol):
 def element_dofs(nodes: Index, dim: int) -> Index:
     """Degrees of freedom (elements, nodes × dim) of elements' nodes."""
     return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
+
+
+def room_for_tangents(nodes: Index, field: Array) -> Array:
+    """Return an array for the tangents of elements whose nodes move as in a field (nodes, dim)."""
+    elements, count = nodes.shape
+    size = count * field.shape[1]
+    return np.empty((elements, size, size))
 
 
 def _columns(gradient: Array) -> Array:
@@ -128,13 +139,11 @@ class LinearGroup:
     def _of_strain(self, strain: Array) -> Array:
         return np.matmul(self.stiffness, strain[..., None])[..., 0]
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
-        elements, nodes = self.nodes.shape
-        size = nodes * displacement.shape[1]
-        tangent = np.empty((elements, size, size))
+        tangent = room_for_tangents(self.nodes, displacement) if out is None else out
         energy, force = self._response(displacement, tangent)
-        return Response(energy, force, tangent)
+        return ElementResponse(energy, force, tangent)
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the stresses eliminated as in the last `respond`."""
@@ -237,15 +246,13 @@ class RubberGroup:
         self._coupling = np.zeros((shape[0], size, shape[1]))
         self._lift = np.zeros((shape[0], size, shape[1]))
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
-        elements, nodes = self.nodes.shape
-        size = nodes * displacement.shape[1]
+        tangent = room_for_tangents(self.nodes, displacement) if out is None else out
         # copies of this group keep theirs
-        self._eliminated(size)
-        tangent = np.empty((elements, size, size))
+        self._eliminated(tangent.shape[1])
         energy, force = self._response(displacement, tangent)
-        return Response(energy, force, tangent)
+        return ElementResponse(energy, force, tangent)
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the pressures eliminated as in the last `respond`.

@@ -77,13 +77,23 @@ class BlockPattern:
         target: Index = np.where(beside == 0, inside, self._blocks * self._wide**2 + outside)
         return target
 
-    def assemble(self, tangents: Sequence[Array]) -> BlockMatrix:
-        """Sum element tangents (elements, dofs, dofs)."""
+    def room(self) -> Array:
+        """Return an array that takes the entries of one matrix."""
+        wide, blocks = self._wide, self._blocks
+        return np.empty(blocks * wide**2 + (blocks - 1) * self.row * wide)
+
+    def assemble(self, tangents: Sequence[Array], out: Array | None = None) -> BlockMatrix:
+        """Sum element tangents (elements, dofs, dofs).
+
+        The matrix takes its place in `out`, an array of `room`, if it is given: whatever was there,
+        an older matrix or its factorisation, ends with that.
+        """
         from nptcs.fe.matrices.compiled import add_at
 
         wide, blocks = self._wide, self._blocks
         start = blocks * wide**2
-        whole = np.zeros(start + (blocks - 1) * self.row * wide)
+        whole = self.room() if out is None else out
+        whole[:] = 0.0
         for part, keep, targets in zip(tangents, self._keep, self._targets, strict=True):
             add_at(targets, keep, part.ravel(), whole)
         diagonal = whole[:start].reshape(blocks, wide, wide)
@@ -109,7 +119,8 @@ class BlockCholesky:
         for number, block in enumerate(matrix.diagonal):
             if number:
                 corner = self._own[-1][row:, row:]
-                link = dtrsm(1.0, corner, matrix.below[number - 1].T, side=1, lower=1, trans_a=1)
+                link = matrix.below[number - 1].T
+                link = dtrsm(1.0, corner, link, side=1, lower=1, trans_a=1, overwrite_b=1)
                 block = dsyrk(-1.0, link, beta=1.0, c=block.T, lower=1, overwrite_c=1)
                 self._next.append(link)
             else:

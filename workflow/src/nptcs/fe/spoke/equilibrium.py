@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.fe.elements.groups import Response
+from nptcs.fe.elements.groups import ElementResponse
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky
 from nptcs.fe.spoke.period import SpokeDesign, SpokePeriod
 
@@ -110,7 +110,7 @@ class SpokeModel(SpokePeriod):
         for group in self.mixed:
             group.release()
         responses, force = self._respond(unloaded)
-        factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
+        factor = self._factorised(responses)
         state = self._condense(motion, unloaded, responses, force, factor, 0.0)
         return replace(state, force=np.zeros(3))
 
@@ -225,7 +225,7 @@ class SpokeModel(SpokePeriod):
             group.put_inner(inner)
         for count in range(MAX_ITERATIONS):
             responses, force = self._respond(displacement)
-            factor = BlockCholesky(self._pattern.assemble([r.tangent for r in responses]))
+            factor = self._factorised(responses)
             step, work = self._step(factor, force)
             energy = sum(response.energy for response in responses)
             # the stresses are those of the displacements only after a step
@@ -277,7 +277,7 @@ class SpokeModel(SpokePeriod):
         self,
         motion: Array,
         displacement: Array,
-        responses: list[Response],
+        responses: list[ElementResponse],
         force: Array,
         factor: BlockCholesky,
         energy: float,

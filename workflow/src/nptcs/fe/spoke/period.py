@@ -12,11 +12,12 @@ from nptcs.arrays import Array
 from nptcs.config.solvers.fe import PlateCoupling, SpokeGeometry, SpokeMesh
 from nptcs.fe.elements.groups import (
     ElementGroup,
+    ElementResponse,
     MixedGroup,
-    Response,
     element_dofs,
+    room_for_tangents,
 )
-from nptcs.fe.matrices.block_tridiagonal import BlockPattern
+from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockPattern
 from nptcs.fe.spoke.element_groups import plate_groups, rubber_group
 from nptcs.fe.spoke.embedded_plates import straight_group
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, RUBBER_ORDERS, build_period
@@ -82,10 +83,13 @@ class SpokePeriod:
         self._arm = self.mesh.positions[self.mesh.top, 0]
         self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
         self.scale = float(design.plates)
+        # the system asks for fresh pages for arrays of megabytes, so they are kept
+        self._tangents = [room_for_tangents(g.nodes, self.mesh.positions) for g in self.mixed]
+        self._entries = self._pattern.room()
 
     @property
     def mixed(self) -> list[MixedGroup]:
-        """Element groups with unknown stresses of their own."""
+        """Element groups whose stresses are unknowns."""
         return [*self.rubbers, *self.plates]
 
     @property
@@ -113,9 +117,17 @@ class SpokePeriod:
         curve[:, 2] = -self._arm * np.sin(phi)
         return slope.reshape(-1, 3), curve.ravel()
 
-    def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
-        responses = [group.respond(displacement) for group in self.groups]
+    def _respond(self, displacement: Array) -> tuple[list[ElementResponse], Array]:
+        """Responses of all groups, whose tangents last until the next call, and their forces."""
+        kept = zip(self.mixed, self._tangents, strict=True)
+        responses = [group.respond(displacement, out) for group, out in kept]
+        responses += [group.respond(displacement) for group in self.embedding]
         return responses, self._summed([response.force for response in responses])
+
+    def _factorised(self, responses: Sequence[ElementResponse]) -> BlockCholesky:
+        """Factorise the matrix of these responses; lasts until the next call."""
+        tangents = [response.tangent for response in responses]
+        return BlockCholesky(self._pattern.assemble(tangents, self._entries))
 
     def _forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy, and forces on all dofs for a step with the tangents of the last response."""
@@ -128,7 +140,7 @@ class SpokePeriod:
             force += np.bincount(dofs.ravel(), part.ravel(), minlength=self._count)
         return force
 
-    def _top_product(self, responses: list[Response], slope: Array) -> Array:
+    def _top_product(self, responses: list[ElementResponse], slope: Array) -> Array:
         """Tangent times displacements of the top nodes (top dofs, n): array (all dofs, n)."""
         whole = np.zeros((self._count, slope.shape[1]))
         whole[self._top_dofs] = slope

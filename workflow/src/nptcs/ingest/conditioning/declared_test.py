@@ -11,8 +11,8 @@ from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.tables.laboratory.specimens import Specimen, TestType
 
-Loading = Literal["tension", "compression", "flexure"]
-WORDS: dict[Loading, re.Pattern[str]] = {
+NamedLoading = Literal["tension", "compression", "flexure"]
+WORDS: dict[NamedLoading, re.Pattern[str]] = {
     "tension": re.compile(
         r"(?i)\btens(ile|ion)|\bzug(versuch|prüf|spann|kraft|dehn)|\btraction|\btracci[oó]n"
         r"|\btrazione|\btraç[aã]o|rozciąg|\btah(u|em|ov)|растяж|引張|拉伸|인장"
@@ -39,12 +39,12 @@ _ABOUT_THE_TEST = re.compile(
 )
 
 
-def loadings_named(texts: Iterable[str]) -> set[Loading]:
+def loadings_named(texts: Iterable[str]) -> set[NamedLoading]:
     """Collect the loadings that some texts name."""
     return {loading for text in texts for loading, words in WORDS.items() if words.search(text)}
 
 
-_IN_NAMES: dict[Loading, re.Pattern[str]] = {
+_IN_NAMES: dict[NamedLoading, re.Pattern[str]] = {
     "tension": re.compile(r"(?i)\bzug\b|\bzugprobe|\btens\b|\btracc?\b"),
     "compression": re.compile(r"(?i)\bdruck\b|\bdruckprobe|\bcomp\b|\bclc\b"),
     "flexure": re.compile(r"(?i)\bbiegung|\bbend\b|\b[34]pb\b|\bflex\b"),
@@ -52,14 +52,14 @@ _IN_NAMES: dict[Loading, re.Pattern[str]] = {
 """Words that name the loading in a file's name, but may mean another thing in a text."""
 
 
-def loadings_in_name(path: str) -> set[Loading]:
+def loadings_in_name(path: str) -> set[NamedLoading]:
     """Collect the loadings that the names of a file and its folders speak of."""
     words = re.sub(r"[_/.-]", " ", path)
     short = {loading for loading, pattern in _IN_NAMES.items() if pattern.search(words)}
     return loadings_named([path.replace("_", " ")]) | short
 
 
-def loading_of(test: TestType) -> Loading:
+def loading_of(test: TestType) -> NamedLoading:
     """Return the loading of a test of the sheet: ±45° shear is a tension test."""
     match test:
         case TestType.COMPRESSION | TestType.RUBBER_COMPRESSION:

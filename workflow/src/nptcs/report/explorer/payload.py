@@ -15,7 +15,8 @@ from nptcs.report.data import Results
 from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.shared import share_covariances
-from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
+from nptcs.report.explorer.words import page_words
+from nptcs.report.words.responses import RESPONSE_TITLES
 from nptcs.report.words.surfaces import surface_words
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.published.stiffness import DIFFERENCE, StiffnessAgainstPublished
@@ -43,9 +44,6 @@ LABELS = {
 
 WANTED = ("contact_length", "plate_largest_mises", "plate_mass")
 """Responses that a reader looks for besides the stiffness: those not fitted are named."""
-
-HALF_BAND = 0.02
-"""Half width of the target band, as a share of the stiffness, where no decision names a target."""
 
 SECANT = "secant_stiffness"
 

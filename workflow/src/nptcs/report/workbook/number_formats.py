@@ -127,7 +127,7 @@ def _exponent(value: float) -> int:
 def _exact_decimals(sizes: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: int) -> int:
     """Return the fewest decimals that show every value whole, `most` at the most."""
     for decimals in range(most):
-        if np.allclose(np.round(sizes, decimals), sizes, rtol=1e-12, atol=0.0):
+        if (np.abs(np.round(sizes, decimals) - sizes) <= 1e-12 * sizes).all():
             return decimals
     return most
 

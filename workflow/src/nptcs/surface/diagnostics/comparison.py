@@ -22,7 +22,7 @@ GRID_POINTS = 10_000
 MOST_LEVELS = 10
 """A factor with more values than this has no levels to leave out."""
 
-MANY_CASES = 200
+MANY_CASES = 50
 """Above so many cases a polynomial's left-out errors are taken from the leverages of one fit."""
 MOST_REFITS = 2000
 """Cases beyond which a surface is not fitted again without each of them."""
@@ -93,7 +93,7 @@ class LevelError:
 
 
 def leave_one_out(surface: ResponseSurface) -> LeftOut:
-    """Fit the surface again without each group of cases, all parameters anew, and predict them.
+    """Fit the surface again without each group of cases, with all parameters, and predict them.
 
     A group is a single case, or all cases that the kind of surface says belong together
     (`ResponseSurface.groups`): leaving one of them out would test nothing.

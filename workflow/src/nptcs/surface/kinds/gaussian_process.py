@@ -10,16 +10,16 @@ from typing import Any
 import numpy as np
 from scipy import stats
 from scipy.linalg import cho_solve, cholesky
-from sklearn.gaussian_process import GaussianProcessRegressor
 from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, WhiteKernel
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.likelihood import SearchError, bounds_are_answers, maximise
+from nptcs.likelihood import SearchError, maximise
 from nptcs.surface.fit import Surface, coding
 from nptcs.surface.kinds.lamination import Lamination
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
 from nptcs.surface.kinds.linked import LinkedSurface
+from nptcs.surface.kinds.matern import MaternLikelihood
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
 
 Mean = Surface | LinkedSurface | Lamination
@@ -34,6 +34,9 @@ answer, too: the mean carries the surface between them, and the interval has its
 
 NOISE_BOUNDS = (1e-8, 10.0)
 VARIANCE_BOUNDS = (1e-3, 1e3)
+
+RESTARTS = 3
+"""Searches from random hyperparameters, besides the one from lengths of a half range."""
 
 
 @dataclass(frozen=True)
@@ -314,23 +317,21 @@ def _fitted(
     start = theta if theta is not None and given else kernel.theta
     draft = GaussianProcess(factors, x, y, mean, start, np.zeros((1, len(start))))
     points, residual = draft._points, draft._residual / draft._scale
-    process = GaussianProcessRegressor(
-        kernel.clone_with_theta(start),
-        alpha=NUGGET,
-        optimizer=maximise,
-        n_restarts_optimizer=0 if given else 3,
-        random_state=0,
-    )
+    likelihood = MaternLikelihood(points, residual, NUGGET, noisy=len(start) > 1 + x.shape[1])
+    generator = np.random.RandomState(0)
+    starts = [start]
+    if not given:
+        starts += [generator.uniform(*kernel.bounds.T) for _ in range(RESTARTS)]
     try:
-        with bounds_are_answers():
-            process.fit(points, residual)
+        found = [maximise(likelihood, one, kernel.bounds) for one in starts]
     except SearchError as error:
         raise InputError(
             str(error), column="surfaces", remedy="leave this surface out, or change its mean"
         ) from None
-    best = np.asarray(process.kernel_.theta)
+    best = min(found, key=lambda one: one[1])[0]
     if spread is None or not given:
-        spread = lengths_as_likely(process.kernel_, points, residual, NUGGET) - best
+        likeliest = kernel.clone_with_theta(best)
+        spread = lengths_as_likely(likeliest, points, residual, NUGGET) - best
     return GaussianProcess(factors, x, y, mean, best, spread)
 
 

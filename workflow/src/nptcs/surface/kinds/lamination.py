@@ -40,6 +40,15 @@ ABSENT = {"log_r": -np.inf, "log_a": -np.inf, "m": 1.0}
 RUBBER_PLACE = {"log_r": 2, "log_a": 3, "log_p": 4}
 """Where the rubber adds to the diagonal of ABD: A66, D11, D22."""
 
+BENDING = np.eye(6)[3]
+"""The bending moment about the plate's axis, in the order of ABD."""
+
+LARGEST_LOGARITHM = 50.0
+
+UNTOLD = 1e-9
+"""Singular value of the slopes, each column of unit length, in parts of the largest, from which on
+the cases do not tell a combination of parameters."""
+
 STARTS = {"n": (0.2,), "log_p": (5.0, 8.0), "log_r": (8.0, 11.0), "log_a": (3.0, 6.0), "m": (1.0,)}
 """Shapes from which a first fit starts, all combined; moduli in N/mm and N mm."""
 
@@ -59,7 +68,7 @@ class Lamination:
     parameters : ndarray of shape (p,)
         c0 in mm/N, c1 in 1/N, c2 in 1/mm², then the shape parameters.
     covariance : ndarray of shape (p, p)
-        s² (JᵀJ)⁺ with the Jacobian J of K.
+        s² (JᵀJ)⁻¹ with the Jacobian J of K.
     residual_sd : float
         s, N/mm.
     """
@@ -155,8 +164,8 @@ def fit_lamination(
     Raises
     ------
     InputError
-        For other factors, a ply that is missing, a response that is not positive, or cases to
-        which so many coefficients cannot be fitted.
+        For other factors, a ply that is missing, a response that is not positive, or cases that
+        do not determine so many coefficients.
     """
     if sorted(factors) != sorted(FACTORS):
         raise InputError(
@@ -209,15 +218,34 @@ def _best(
     jacobian = _jacobian(parameters, shape, x, stiffness)
     scale = np.linalg.norm(jacobian, axis=0)
     scale[scale == 0] = 1.0
-    inverse = np.linalg.pinv((jacobian / scale).T @ (jacobian / scale), hermitian=True)
+    _refuse_untold(jacobian / scale, x)
+    inverse = np.linalg.pinv(jacobian / scale) / scale[:, None]
     return Lamination(
         x=x,
         y=y,
         ply={name: ply[name] for name in ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")},
         shape=shape,
         parameters=parameters,
-        covariance=variance * inverse / np.outer(scale, scale),
+        covariance=variance * inverse @ inverse.T,
         residual_sd=float(np.sqrt(variance)),
+    )
+
+
+def _refuse_untold(slopes: Array, x: Array) -> None:
+    """Refuse cases that leave a combination of parameters free: K does not change along it.
+
+    So do two spacings, which tell no exponent. The parameters are then those of the start, and what
+    the form says between and beyond the cases comes from nowhere.
+    """
+    values = np.linalg.svd(slopes, compute_uv=False)
+    if values[-1] > UNTOLD * values[0]:
+        return
+    levels = [f"{len(np.unique(c))} of {name}" for name, c in zip(FACTORS, x.T, strict=True)]
+    raise InputError(
+        f"these cases do not determine the {slopes.shape[1]} coefficients of the lamination form",
+        column="surfaces",
+        value=f"different values: {', '.join(levels)}",
+        remedy="solve cases at more levels, or ask for fewer coefficients",
     )
 
 
@@ -229,6 +257,7 @@ def _fitted(
     found = least_squares(
         lambda parameters: _stiffness(parameters, shape, x, stiffness) - y,
         start,
+        jac=lambda parameters: _jacobian(parameters, shape, x, stiffness),
         x_scale=scale,
         max_nfev=300,
     )
@@ -247,17 +276,50 @@ def _starts(shape: tuple[str, ...], x: Array, y: Array, stiffness: Array) -> lis
     return starts
 
 
+@dataclass(frozen=True)
+class _Terms:
+    """Factors of c1 and c2 at each case, and c2's by the rubber's moduli, arrays of shape (m,)."""
+
+    spacing: Array
+    plates: Array
+    plates_by: Mapping[str, Array]
+
+
 def _compliance_terms(
     values: Array, shape: tuple[str, ...], x: Array, stiffness: Array
 ) -> tuple[Array, Array]:
     """Return the factors of c1 and c2 at each case, for the values of the shape parameters."""
+    terms = _terms(values, shape, x, stiffness)
+    return terms.spacing, terms.plates
+
+
+def _terms(values: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> _Terms:
+    """Evaluate the factors; with M⁻¹ e₄ = w, ∂(M⁻¹)₄₄/∂M_ii = -w_i²."""
     chosen = {**ABSENT, **dict(zip(shape, values, strict=True))}
     held = stiffness.copy()
     for name, place in RUBBER_PLACE.items():
-        held[:, place, place] += np.exp(np.minimum(chosen[name], 50.0))
-    bending = np.linalg.inv(held)[:, 3, 3]
+        held[:, place, place] += _modulus(chosen[name])
+    column = np.linalg.solve(held, BENDING[:, None])[:, :, 0]
     ratio = x[:, 0] / REFERENCE_SPACING_MM
-    return REFERENCE_SPACING_MM * ratio ** chosen["m"], ratio ** chosen["n"] * bending
+    by_spacing = ratio ** chosen["n"]
+    return _Terms(
+        REFERENCE_SPACING_MM * ratio ** chosen["m"],
+        by_spacing * column[:, 3],
+        {
+            name: -by_spacing * column[:, place] ** 2 * _modulus_slope(chosen[name])
+            for name, place in RUBBER_PLACE.items()
+        },
+    )
+
+
+def _modulus(logarithm: float) -> float:
+    """Stiffness that the rubber adds, N/mm or N mm; above e⁵⁰ the plate is rigid anyhow."""
+    return float(np.exp(min(logarithm, LARGEST_LOGARITHM)))
+
+
+def _modulus_slope(logarithm: float) -> float:
+    """Slope of `_modulus` by its logarithm."""
+    return _modulus(logarithm) if logarithm < LARGEST_LOGARITHM else 0.0
 
 
 def _stiffness(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:
@@ -266,12 +328,16 @@ def _stiffness(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: A
 
 
 def _jacobian(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:
-    """Differentiate K by each parameter with central differences, shape (m, p)."""
-    columns = []
-    for place, value in enumerate(parameters):
-        step = np.zeros_like(parameters)
-        step[place] = 1e-5 * (abs(value) if place < 3 else 1.0)
-        above = _stiffness(parameters + step, shape, x, stiffness)
-        below = _stiffness(parameters - step, shape, x, stiffness)
-        columns.append((above - below) / (2 * step[place]))
-    return np.column_stack(columns)
+    """Differentiate K by each parameter, shape (m, p): ∂K = -K² ∂(1/K)."""
+    terms = _terms(parameters[3:], shape, x, stiffness)
+    c0, c1, c2 = parameters[:3]
+    by_spacing = np.log(x[:, 0] / REFERENCE_SPACING_MM)
+    of_compliance = {
+        "m": c1 * terms.spacing * by_spacing,
+        "n": c2 * terms.plates * by_spacing,
+        **{name: c2 * slope for name, slope in terms.plates_by.items()},
+    }
+    linear = [np.ones(len(x)), terms.spacing, terms.plates]
+    compliance = c0 + c1 * terms.spacing + c2 * terms.plates
+    columns = np.column_stack([*linear, *(of_compliance[name] for name in shape)])
+    return -columns / compliance[:, None] ** 2

@@ -141,7 +141,7 @@ def _best(registry: SurfaceRegistry) -> Iterator[FittedSurface]:
 def _ranked(fitted: FittedSurface, settings: Sensitivity) -> list[dict[str, object]]:
     surface = fitted.surface
     inputs = {name: inputs_of(name, *limits, None) for name, limits in fitted.box().items()}
-    found = sobol_indices(surface.predict, inputs, settings.sobol)
+    found = sobol_indices(surface.predict, inputs, settings.sobol, interactions=False)
     mean_size, mean = mean_slopes(fitted, settings.sobol.seed)
     ranks = (-found.total).argsort().argsort() + 1
     return [

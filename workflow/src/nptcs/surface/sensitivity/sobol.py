@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, assert_never
 
 import numpy as np
@@ -22,7 +23,7 @@ RESAMPLES = 200
 
 
 @dataclass(frozen=True)
-class Inputs:
+class FactorDistribution:
     """One factor as it is sampled.
 
     Parameters
@@ -56,7 +57,8 @@ class Indices:
     first, total, first_confidence, total_confidence : ndarray of shape (n,)
         Indices, and the half widths of their confidence intervals.
     second, second_confidence : ndarray of shape (n, n)
-        Interactions, in the upper triangle; not a number elsewhere.
+        Interactions, in the upper triangle; not a number elsewhere, and where they were not
+        asked for.
     sd : float
         Standard deviation of the response over the inputs.
     samples : int
@@ -73,7 +75,9 @@ class Indices:
     samples: int
 
 
-def inputs_of(factor: str, low: float, high: float, given: Distribution | None) -> Inputs:
+def inputs_of(
+    factor: str, low: float, high: float, given: Distribution | None
+) -> FactorDistribution:
     """Return how a factor is sampled: uniform over its range, or as given, cut to the range.
 
     Raises
@@ -84,7 +88,9 @@ def inputs_of(factor: str, low: float, high: float, given: Distribution | None) 
     bounds: tuple[float, ...]
     match given:
         case None:
-            return Inputs(low, high, "unif", (low, high), f"uniform {low:.6g} to {high:.6g}")
+            return FactorDistribution(
+                low, high, "unif", (low, high), f"uniform {low:.6g} to {high:.6g}"
+            )
         case UniformFactor():
             bottom, top = max(low, given.low), min(high, given.high)
             inside = max(top - bottom, 0.0) / (given.high - given.low)
@@ -100,16 +106,19 @@ def inputs_of(factor: str, low: float, high: float, given: Distribution | None) 
             assert_never(given)
     if inside < 0.01:
         raise InputError(
-            f"this distribution lies outside the cases ({low:g} to {high:g})",
+            f"this distribution is outside the cases ({low:g} to {high:g})",
             column=f"sensitivity.distributions.{factor}",
             value=words,
             remedy="give a distribution inside the range of the levels",
         )
-    return Inputs(bottom, top, kind, bounds, words, 100 * (1 - inside))
+    return FactorDistribution(bottom, top, kind, bounds, words, 100 * (1 - inside))
 
 
 def sobol_indices(
-    predict: Callable[[Array], Array], inputs: Mapping[str, Inputs], settings: Sobol
+    predict: Callable[[Array], Array],
+    inputs: Mapping[str, FactorDistribution],
+    settings: Sobol,
+    interactions: bool = True,
 ) -> Indices:
     """Estimate first-order, second-order and total indices (Saltelli's scheme, SALib).
 
@@ -117,10 +126,12 @@ def sobol_indices(
     ----------
     predict : callable
         Points of shape (m, n) → responses of shape (m,).
-    inputs : mapping of str to Inputs
+    inputs : mapping of str to FactorDistribution
         The n factors in the order of the columns of the points.
     settings : Sobol
         Points, confidence and seed.
+    interactions : bool
+        Whether second-order indices are wanted, which cost as much again.
 
     Returns
     -------
@@ -131,11 +142,8 @@ def sobol_indices(
     InputError
         When the response does not vary, or is not a number somewhere.
     """
-    problem = _problem(inputs)
-    points = sobol_sample.sample(
-        problem, settings.points, calc_second_order=True, seed=settings.seed
-    )
-    response = predict(points)
+    given = tuple(inputs.items())
+    response = predict(_points(given, settings.points, settings.seed, interactions))
     if not np.isfinite(response).all() or np.ptp(response) == 0:
         raise InputError(
             "the surface is the same everywhere, or not a number somewhere, and has no indices",
@@ -143,27 +151,31 @@ def sobol_indices(
             remedy="look at surface_comparison.csv",
         )
     found = sobol_analysis.analyze(
-        problem,
+        _problem(given),
         response,
-        calc_second_order=True,
+        calc_second_order=interactions,
         num_resamples=RESAMPLES,
         conf_level=settings.confidence,
         seed=settings.seed,
     )
+    none = np.full((len(given), len(given)), np.nan)
     return Indices(
         first=found["S1"],
         first_confidence=found["S1_conf"],
         total=found["ST"],
         total_confidence=found["ST_conf"],
-        second=found["S2"],
-        second_confidence=found["S2_conf"],
+        second=found.get("S2", none),
+        second_confidence=found.get("S2_conf", none),
         sd=float(np.std(response)),
         samples=len(response),
     )
 
 
 def main_effect(
-    predict: Callable[[Array], Array], inputs: Sequence[Inputs], axis: int, settings: Sobol
+    predict: Callable[[Array], Array],
+    inputs: Sequence[FactorDistribution],
+    axis: int,
+    settings: Sobol,
 ) -> tuple[Array, Array]:
     """Mean of the response over all other factors at values of one, less its overall mean.
 
@@ -172,11 +184,8 @@ def main_effect(
     values, effects : ndarray of shape (11,)
         Evenly spaced over the factor's range; in the unit of the response.
     """
-    names = [str(number) for number in range(len(inputs))]
-    problem = _problem(dict(zip(names, inputs, strict=True)))
-    points = sobol_sample.sample(
-        problem, settings.points, calc_second_order=False, seed=settings.seed
-    )[:: len(inputs) + 2]
+    given = tuple((str(number), one) for number, one in enumerate(inputs))
+    points = _points(given, settings.points, settings.seed, False)[:: len(inputs) + 2].copy()
     values = np.linspace(inputs[axis].low, inputs[axis].high, EFFECT_POINTS)
     overall = float(predict(points).mean())
     means = []
@@ -186,11 +195,23 @@ def main_effect(
     return values, np.array(means) - overall
 
 
-def _problem(inputs: Mapping[str, Inputs]) -> dict[str, Any]:
+@lru_cache(maxsize=8)
+def _points(
+    inputs: tuple[tuple[str, FactorDistribution], ...], count: int, seed: int, interactions: bool
+) -> Array:
+    """Saltelli's sample of these inputs, which the surfaces of a solver share."""  # noqa: D401
+    sample: Array = sobol_sample.sample(
+        _problem(inputs), count, calc_second_order=interactions, seed=seed
+    )
+    sample.flags.writeable = False
+    return sample
+
+
+def _problem(inputs: tuple[tuple[str, FactorDistribution], ...]) -> dict[str, Any]:
     """Describe the inputs as SALib does."""
     return {
         "num_vars": len(inputs),
-        "names": list(inputs),
-        "bounds": [list(one.bounds) for one in inputs.values()],
-        "dists": [one.kind for one in inputs.values()],
+        "names": [name for name, _ in inputs],
+        "bounds": [list(one.bounds) for _, one in inputs],
+        "dists": [one.kind for _, one in inputs],
     }
