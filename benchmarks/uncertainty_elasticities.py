@@ -21,7 +21,7 @@ import yaml
 
 from nptcs.config.root import read_config
 from nptcs.config.studies.goals import ResponseName
-from nptcs.decisions.run import read_run, solver_run, source_of
+from nptcs.decisions.run import read_solved_studies, solver_run, source_of
 from nptcs.tables.laboratory.material_card import PlyCard
 from nptcs.uncertainty.source import Materials
 
@@ -51,7 +51,7 @@ def main() -> None:
     files = {name: str(given.results / "tables" / file) for name, file in TABLES.items()}
     files["card"] = str(given.results / "material_card.json")
     models = sorted(map(str, (given.results / "6_surface" / "models").glob("*.json")))
-    finished = read_run(config, files, models, given.results / "none.csv")
+    finished = read_solved_studies(config, files, models, given.results / "none.csv")
     study = config.study("plate")
     source = source_of(finished, study, given.solver, None)
     store = given.results / "5_solve" / "records"

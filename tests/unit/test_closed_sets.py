@@ -1,11 +1,12 @@
 """Closed sets: a new member fails here or in the type check until every place handles it."""
 
 import ast
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import get_args
 
 import pytest
+from pandera.pandas import DataFrameModel
 
 import nptcs
 from nptcs.calibrate import invariants, ogden
@@ -13,13 +14,27 @@ from nptcs.calibrate.drucker import PATHS
 from nptcs.calibrate.models import model_named
 from nptcs.config.materials.calibration import ModelName, RubberSettings
 from nptcs.config.materials.reduction import ChordMethod, ReductionSettings
+from nptcs.config.materials.standards.base import Statistic
 from nptcs.config.solvers.fe import PlateCoupling
 from nptcs.config.studies.sensitivity import AveragingRule
+from nptcs.config.studies.surface import Choice
 from nptcs.lca.batch import TARGETS
 from nptcs.lca.linear.newton import Target
 from nptcs.lca.section import SectionKind
+from nptcs.lca.state import REGIONS
 from nptcs.mechanical_tests import COMPOSITE_TESTS, RUBBER_TESTS, TestType
+from nptcs.report.figures import lca as lca_figures
+from nptcs.report.figures import uncertainty as uncertainty_figures
+from nptcs.report.sketches import Tone
 from nptcs.solvers.contract import Status
+from nptcs.surface.response_surface import Outside
+from nptcs.tables.analysis.diagnostics import SurfaceSelection
+from nptcs.tables.analysis.response_surfaces import ResponseSurfaces
+from nptcs.tables.analysis.surface import SurfaceComparison
+from nptcs.tables.analysis.uncertainty import SourceKind, UncertaintyShares
+from nptcs.tables.laboratory.files import Files, FileStatus
+from nptcs.tables.laboratory.statistics import StatisticsTable
+from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine, LcaValidation
 
 PACKAGE = Path(nptcs.__file__).parent
 MODULES = sorted(PACKAGE.rglob("*.py"))
@@ -109,6 +124,48 @@ def test_each_mode_of_a_rubber_test_is_known_to_the_models() -> None:
 
 def test_each_model_of_the_settings_can_be_made() -> None:
     assert [model_named(name, 2).name for name in get_args(ModelName)] == list(get_args(ModelName))
+
+
+def allowed(table: type[DataFrameModel], column: str) -> set[str]:
+    """Words that a contract allows in a column."""
+    (check,) = (one for one in table.to_schema().columns[column].checks if one.name == "isin")
+    return set(check.statistics["allowed_values"])
+
+
+@pytest.mark.parametrize(
+    ("table", "column", "words"),
+    [
+        (LcaValidation, "section", get_args(SectionKind)),
+        (LcaAgainstFem, "section", get_args(SectionKind)),
+        (LcaNeutralLine, "section", get_args(SectionKind)),
+        (LcaNeutralLine, "region", REGIONS),
+        (SurfaceComparison, "outside_the_box", Outside),
+        (ResponseSurfaces, "outside_the_box", Outside),
+        (SurfaceSelection, "criterion", {*get_args(Choice)} - {"as_given"}),
+        (StatisticsTable, "reported_statistic", get_args(Statistic)),
+        (UncertaintyShares, "kind", {*SourceKind, "not assessed"}),
+        (Files, "status", FileStatus),
+    ],
+)
+def test_a_contract_allows_the_members_of_its_set(
+    table: type[DataFrameModel], column: str, words: Iterable[str]
+) -> None:
+    assert allowed(table, column) == set(words)
+
+
+def test_each_statistic_of_a_standard_is_a_column_of_the_table() -> None:
+    assert set(get_args(Statistic)) <= set(StatisticsTable.to_schema().columns)
+
+
+def test_each_region_of_the_ring_and_each_source_of_uncertainty_is_drawn() -> None:
+    assert set(lca_figures.REGIONS) == set(REGIONS)
+    assert set(uncertainty_figures.KINDS) == set(SourceKind)
+    assert set(uncertainty_figures.HATCHES) == set(SourceKind)
+
+
+def test_each_tone_of_a_sketch_has_its_colours() -> None:
+    styles = (PACKAGE / "report" / "templates" / "report.css").read_text("utf-8")
+    assert [tone for tone in get_args(Tone) if f".sketch .{tone} {{" not in styles] == []
 
 
 def test_each_target_of_the_load_bearing_model_is_named_once() -> None:

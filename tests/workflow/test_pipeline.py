@@ -6,8 +6,6 @@ import re
 import openpyxl
 import yaml
 
-TABLES_OF_A_CASE_CHANGE = {"cases", "surface", "sensitivity", "problems", "report", "verdict"}
-
 SENSITIVITY = "workflow/src/nptcs/surface/sensitivity/gradients.py"
 
 

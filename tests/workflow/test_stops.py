@@ -102,12 +102,12 @@ def test_after_a_kill_and_after_a_signal_the_same_command_goes_on(unsolved):
 
     run = Run(unsolved)
     run.wait_for_records(5)
-    assert "no process of it lives: its lock is removed" in run.said()
+    assert "none of its processes is alive: its lock is removed" in run.said()
     family = run.family()
     run.process.send_signal(signal.SIGTERM)
     assert all_gone(run, family[1:])
     assert run.process.wait(timeout=60) != 0
-    assert "To go on, type the same command again:\n    python -m snakemake -j2" in run.said()
+    assert "To continue, type the same command again:\n    python -m snakemake -j2" in run.said()
 
     known = {file: file.stat().st_mtime_ns for file in run.records()}
     run = Run(unsolved)

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from nptcs.archive.contents import RESULTS, Role, contents_of, inputs_of
+from nptcs.archive.contents import RESULTS, ArchivedAs, contents_of, inputs_of
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.tables.catalogue import result_files
@@ -45,9 +45,9 @@ def project(tmp_path):
 
 def test_inputs_results_and_the_package_belong_to_it(project):
     found = contents_of(project, CONFIG)
-    assert found["raw_data/example/T0-1_wdw.txt"][1] is Role.INPUT
-    assert found["results/tables/cases.csv"][1] is Role.RESULT
-    assert found["workflow/src/nptcs/cli.py"][1] is Role.CODE
+    assert found["raw_data/example/T0-1_wdw.txt"][1] is ArchivedAs.INPUT
+    assert found["results/tables/cases.csv"][1] is ArchivedAs.RESULT
+    assert found["workflow/src/nptcs/cli.py"][1] is ArchivedAs.CODE
     assert not any("__pycache__" in name for name in found)
 
 

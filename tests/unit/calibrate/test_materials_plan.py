@@ -48,7 +48,7 @@ def test_each_complete_composite_has_a_card_and_the_study_names_its_own() -> Non
     assert plies(sheet, SETTINGS) == ["cfrp", "gfrp"]
     assert rubbers(sheet) == ["band"]
     assert ply_of(study(ply="gfrp"), sheet, SETTINGS) == "gfrp"
-    with pytest.raises(InputError, match="study one needs a ply, the sheet gives 2") as error:
+    with pytest.raises(InputError, match="study one needs one ply, the sheet has 2") as error:
         ply_of(study(), sheet, SETTINGS)
     assert "cfrp, gfrp" in str(error.value)
     assert ply_of(study(), ply("cfrp"), SETTINGS) == "cfrp"

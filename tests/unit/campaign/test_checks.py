@@ -72,7 +72,7 @@ FACTORS = [
         ({"factors": FACTORS}, {}, "studies.plate.factors", "8,000,000 cases"),
         ({}, {"campaign": {"most_cases": 8}}, "studies.plate.factors", "at most 8 of a study"),
         ({}, {"campaign": {"batches": 10}}, "campaign.batches", "only 9 cases"),
-        ({"solvers": ["lca"]}, {}, "studies.plate.solvers", "cannot see"),
+        ({"solvers": ["lca"]}, {}, "studies.plate.solvers", "does not use"),
     ],
     ids=["aliased", "too many terms", "load", "millions", "above the limit", "batches", "unseen"],
 )  # fmt: skip

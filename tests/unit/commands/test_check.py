@@ -80,8 +80,8 @@ def another_composite(project):
 FE = {"solvers": ["fe_tyre"], "fixed": PLATES}
 MISTAKES = {
     "aliased terms": (study(terms=[*TERMS, "spoke_c10_mpa^2", "spoke_c10_mpa^3"]), None, "aliased"),
-    "factor that a solver cannot see": (
-        study(factors=[*RUBBERS, factor("spacing_mm", 10, 15)]), None, "cannot see spacing_mm"),
+    "factor that a solver does not use": (
+        study(factors=[*RUBBERS, factor("spacing_mm", 10, 15)]), None, "does not use spacing_mm"),
     "factor that a solver rounds": (
         study(**FE | {"factors": [factor("spacing_mm", 14.05, 15, 20)], "terms": [], "fixed": {
             "thickness_mm": 1.8, "angle_deg": 45, "shear_band_c10_mpa": 5, "spoke_c10_mpa": 1}}),
@@ -92,7 +92,7 @@ MISTAKES = {
     "name that clashes": (study(name="records"), None, "kept for another use"),
     "name that is too long": (study(), in_sheet(material="c" + "0a1b2c" * 30), "too long"),
     "several composites": (study(**FE), another_composite, "the sheet gives 2"),
-    "unknown ply": (study(**FE, ply="gfrp"), None, "names a ply that the sheet does not give"),
+    "unknown ply": (study(**FE, ply="gfrp"), None, "names a ply that the sheet does not have"),
     "unknown rubber": (
         study(fixed={}, factors=[RUBBERS[0], factor("spoke_c10_mpa", {"rubber": "rubber_7"}, 3.0)]),
         None, "names rubber rubber_7"),

@@ -88,7 +88,7 @@ def test_default_configuration_is_sound():
 def test_a_solver_that_cannot_see_a_factor_refuses_it_by_name():
     with pytest.raises(InputError) as refusal:
         checked(["studies", 0, "solvers"], ["published", "lca", "fe_tyre_paper"])
-    assert "solver 'lca' cannot see angle_deg, spacing_mm, thickness_mm" in str(refusal.value)
+    assert "solver 'lca' does not use angle_deg, spacing_mm, thickness_mm" in str(refusal.value)
     assert "studies.plate.solvers" in str(refusal.value)
 
 

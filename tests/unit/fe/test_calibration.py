@@ -9,7 +9,7 @@ from nptcs.fe.calibration import (
     LIMITS,
     START,
     TYRE_EXPONENTS,
-    Problem,
+    CalibrationProblem,
     SpokeTarget,
     TyreTarget,
     calibrate,
@@ -37,7 +37,7 @@ INSIDE = FeModel().model_copy(
 def problem():
     spokes = tuple(SpokeTarget(VALUES | {"place": i}, 30.0 + i, 13.0 + i) for i in range(2))
     tyres = tuple(TyreTarget(VALUES | {"place": 2 + i}, 200.0 + 20.0 * i) for i in range(5))
-    return Problem(
+    return CalibrationProblem(
         INSIDE, TyreGeometry(), PUBLISHED_PLY, spokes, tyres, 5000.0, prior=1e-6, damping=1e-6
     )
 

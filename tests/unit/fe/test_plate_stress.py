@@ -2,6 +2,7 @@
 
 import numpy as np
 import pytest
+from small_tyres import spoke_design
 
 from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.output.plate_stress import face_stress, fibre_axes, mises_in_plane, rubber_extremes
@@ -10,25 +11,11 @@ from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.laminate import abd, rotated_stiffness
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
-COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
-
 
 @pytest.fixture
 def make(ply):
     def model(**change):
-        values = {
-            "geometry": SpokeGeometry(),
-            "mesh": COARSE,
-            "pitch_mm": 15.0,
-            "plate_width_mm": 5.0,
-            "thickness_mm": 1.8,
-            "angle_deg": 30.0,
-            "c10_mpa": 1.0,
-            "ply": ply,
-            "plates": 14,
-            "plate_coupling": "embedded",
-        }
-        return SpokeModel(SpokeDesign(**{**values, **change}))
+        return SpokeModel(spoke_design(**{"angle_deg": 30.0, "ply": ply, **change}))
 
     return model
 

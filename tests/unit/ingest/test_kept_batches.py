@@ -32,7 +32,7 @@ def script() -> Any:
 
 @pytest.fixture
 def batch(lab, tmp_path):
-    """Three specimens, of which the last has a file that is no test; run and list what changed."""
+    """Three specimens, the last with a file that is not a test; run and list what changed."""
     time = np.arange(0, 60, 0.5)
     columns = {"Time [s]": time, "Load [N]": 20 * time, "Strain [%]": 0.02 * time}
     for name in NAMES[:2]:

@@ -16,7 +16,7 @@ from nptcs.files import UNFINISHED, atomic_path, remove_unfinished, write_text
 @pytest.mark.parametrize("number", sorted(REMEDIES))
 def test_each_known_error_has_words_and_a_remedy(number):
     error = explained(OSError(number, "as the system says", "results/a.csv"))
-    assert error.remedy.endswith("no half written file is left")
+    assert error.remedy.endswith("no half-written file is left")
     assert str(error).startswith("results/a.csv: ")
 
 

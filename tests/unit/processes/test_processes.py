@@ -98,7 +98,7 @@ def test_the_lock_of_a_dead_run_is_lifted(locked, sleeper, capsys):
     note(locked, ended(sleeper))
     assert runs.begin_run(locked) is True
     assert locks(locked) == 0
-    assert "no process of it lives" in capsys.readouterr().err
+    assert "none of its processes is alive" in capsys.readouterr().err
     noted = (locked / "runs" / f"{os.getpid()}.json").read_text()
     assert read_name(noted.splitlines()[0]) == name_of()
 

@@ -25,7 +25,7 @@ from nptcs.report.data import LcaRing, SolverFacts
 from nptcs.report.explorer.markup import asset, explorer_markup
 from nptcs.report.explorer.models import plain_surface
 from nptcs.report.explorer.payload import explorer_payload
-from nptcs.surface.kinds.models import Cases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_model
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -64,7 +64,7 @@ def fitted(study, cases):
             if response.unit == "N/mm" or not isinstance(model, LaminationModel):
                 if getattr(model, "mean", None) is LAMINATION and response.unit != "N/mm":
                     continue
-                surface = fit_model(model, Cases(x, y, names, study.terms, PUBLISHED_PLY))
+                surface = fit_model(model, FitCases(x, y, names, study.terms, PUBLISHED_PLY))
                 yield FittedSurface(
                     study.name, "published", name_of(model), response, surface, left_out_rms=1.0
                 )
@@ -133,7 +133,7 @@ def spoke_surface():
     y = 200 * x[:, 3] ** 0.4 * x[:, 4] ** 0.5 * (1 + 0.1 * np.log1p(plates)) / x[:, 0] ** 0.2
     names = ("spacing_mm", "thickness_mm", "angle_deg", "shear_band_c10_mpa", "spoke_c10_mpa")
     model = SpokeProcessModel(kind="spoke_process", degree=3)
-    return fit_model(model, Cases(x, y, names, (), PUBLISHED_PLY))
+    return fit_model(model, FitCases(x, y, names, (), PUBLISHED_PLY))
 
 
 def difference(tab, surface):

@@ -1,32 +1,15 @@
 """The solver `ring` on a coarse finite element spoke, next to `fe_tyre` on the same."""
 
 import pytest
+from small_tyres import COARSE_SPOKE, COARSE_TABLE, VALUES
 
-from nptcs.config.solvers.fe import EnergyTableOptions, SpokeMesh
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers import fe_tyre, ring
 from nptcs.solvers.contract import CaseInputs, Status
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
-VALUES = {
-    "spacing_mm": 15.0,
-    "thickness_mm": 1.8,
-    "angle_deg": 45.0,
-    "spoke_c10_mpa": 3.0,
-    "shear_band_c10_mpa": 5.0,
-}
-OPTIONS = {
-    "spoke_mesh": SpokeMesh(rows=(1, 1, 1, 1, 1, 1)),
-    "table": EnergyTableOptions(
-        elongation_mm=(-12.0, 5.0),
-        inclination_rad=0.1,
-        phi_rad=(-0.08, 0.08),
-        samples=(4, 3, 3),
-        degrees=(6, 4),
-    ),
-    "load_steps": 3,
-}
+OPTIONS = {"spoke_mesh": COARSE_SPOKE, "table": COARSE_TABLE, "load_steps": 3}
 
 
 def solved(solver, options, load_n=900.0, tyre=None):

@@ -213,7 +213,7 @@ def test_an_edited_table_is_named(march, tmp_path):
     shutil.copytree(march, tmp_path / "run")
     table = tmp_path / "run" / "results" / "tables" / "cases.csv"
     table.write_text(table.read_text("utf-8").replace("5000.0", "4999.0", 1), encoding="utf-8")
-    with pytest.raises(InputError, match="not as the run has written it") as refusal:
+    with pytest.raises(InputError, match="changed after the run had written it") as refusal:
         read_run(tmp_path / "run", "B")
     assert "cases.csv" in str(refusal.value)
 

@@ -7,6 +7,7 @@ from pathlib import Path
 from types import SimpleNamespace
 
 import pytest
+from small_tyres import VALUES
 
 from nptcs.config.solvers.abaqus import AbaqusMesh
 from nptcs.config.solvers.tyre import TyreGeometry
@@ -27,13 +28,6 @@ FAKE = str(Path(__file__).with_name("fake_abaqus.py"))
 SMALL = AbaqusMesh(
     rows=(1, 1, 1, 1, 1, 1), columns=1, spoke_axial=3, plate=(1, 1), around=60, band_axial=1
 )
-VALUES = {
-    "spacing_mm": 15.0,
-    "thickness_mm": 1.8,
-    "angle_deg": 45.0,
-    "spoke_c10_mpa": 3.0,
-    "shear_band_c10_mpa": 5.0,
-}
 
 
 def case(mode, *words, values=VALUES, **options):

@@ -3,10 +3,11 @@ import sys
 import numpy as np
 import pytest
 from pydantic import ValidationError
+from small_tyres import COARSE_SPOKE, COARSE_TABLE, VALUES
 
 from nptcs.campaign.record import CaseRecord
 from nptcs.config.solvers.abaqus import AbaqusModel
-from nptcs.config.solvers.fe import EnergyTableOptions, SpokeMesh, TyreMesh
+from nptcs.config.solvers.fe import EnergyTableOptions, TyreMesh
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.decks.calculix import complaints
@@ -18,19 +19,11 @@ from nptcs.solvers.contract import SPOKE_RESPONSES, CaseInputs, Status
 from nptcs.solvers.registry import model_choices
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
-VALUES = {
-    "spacing_mm": 15.0,
-    "thickness_mm": 1.8,
-    "angle_deg": 45.0,
-    "spoke_c10_mpa": 3.0,
-    "shear_band_c10_mpa": 5.0,
+TYRE_OPTIONS = {
+    "spoke_mesh": COARSE_SPOKE,
+    "table": COARSE_TABLE,
+    "tyre_mesh": TyreMesh(gap_elements=1),
 }
-COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
-TABLE = EnergyTableOptions(
-    elongation_mm=(-12.0, 5.0), inclination_rad=0.1, phi_rad=(-0.08, 0.08), samples=(4, 3, 3),
-    degrees=(6, 4),
-)  # fmt: skip
-TYRE_OPTIONS = {"spoke_mesh": COARSE, "table": TABLE, "tyre_mesh": TyreMesh(gap_elements=1)}
 
 
 def inputs(options, values=VALUES, load_n=800.0, ply=PUBLISHED_PLY):
@@ -92,7 +85,12 @@ def test_the_stiffness_at_25_mm_is_that_of_a_tyre_solved_there(tmp_path):
     """The curve goes on from the load of the case; tyres are then solved at loads around 25 mm."""
     soft = {**VALUES, "spoke_c10_mpa": 1.0}
     deep = EnergyTableOptions(elongation_mm=(-32.0, 8.0), inclination_rad=0.22)
-    options = {"spoke_mesh": COARSE, "table": deep, "plate_stress": "off", "spoke_cache": tmp_path}
+    options = {
+        "spoke_mesh": COARSE_SPOKE,
+        "table": deep,
+        "plate_stress": "off",
+        "spoke_cache": tmp_path,
+    }
     further = fe_tyre.FeTyreOptions(**options, load_steps=5, curve_to_mm=25.0)
     result = fe_tyre.solve(inputs(further, soft, load_n=3000.0))
     assert result.message == ""
@@ -139,7 +137,7 @@ def test_fe_tyre_reports_the_secant_of_its_own_curve_and_reuses_spokes(tmp_path)
 
 
 def test_a_tyre_that_leaves_its_table_is_diverged_with_its_last_point(tmp_path):
-    narrow = EnergyTableOptions(**{**TABLE.model_dump(), "elongation_mm": (-1.0, 5.0)})
+    narrow = EnergyTableOptions(**{**COARSE_TABLE.model_dump(), "elongation_mm": (-1.0, 5.0)})
     options = fe_tyre.FeTyreOptions(load_steps=3, **{**TYRE_OPTIONS, "table": narrow})
     result = fe_tyre.solve(inputs(options, load_n=5000.0))
     assert result.status is Status.DIVERGED
@@ -150,7 +148,7 @@ def test_a_tyre_that_leaves_its_table_is_diverged_with_its_last_point(tmp_path):
 
 
 def test_fe_spoke_gives_curve_and_lines():
-    result = fe_spoke.solve(inputs(fe_spoke.FeSpokeOptions(spoke_mesh=COARSE)))
+    result = fe_spoke.solve(inputs(fe_spoke.FeSpokeOptions(spoke_mesh=COARSE_SPOKE)))
     assert result.status is Status.OK
     assert len(result.curve["force_n"]) == 57
     assert result.curve["displacement_mm"][0] == -20.0
@@ -198,7 +196,7 @@ def fake_ccx(tmp_path, body):
 
 def calculix_case(tmp_path, body, **options):
     command = fake_ccx(tmp_path, body)
-    chosen = calculix.CalculixOptions(spoke_mesh=COARSE, command=command, **options)
+    chosen = calculix.CalculixOptions(spoke_mesh=COARSE_SPOKE, command=command, **options)
     return calculix.solve(inputs(chosen))
 
 

@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
+from small_tyres import COARSE_SPOKE, COARSE_TABLE, VALUES
 
-from nptcs.config.solvers.fe import SECTIONS, EnergyTableOptions, SpokeMesh
+from nptcs.config.solvers.fe import SECTIONS
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.solvers import fe_tyre, fe_tyre_paper
@@ -9,24 +10,7 @@ from nptcs.solvers.contract import CaseInputs, Status
 from nptcs.solvers.registry import model_choices, read_options
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
-VALUES = {
-    "spacing_mm": 15.0,
-    "thickness_mm": 1.8,
-    "angle_deg": 45.0,
-    "spoke_c10_mpa": 3.0,
-    "shear_band_c10_mpa": 5.0,
-}
-SMALL = {
-    "spoke_mesh": SpokeMesh(rows=(1, 1, 1, 1, 1, 1)),
-    "table": EnergyTableOptions(
-        elongation_mm=(-12.0, 5.0),
-        inclination_rad=0.1,
-        phi_rad=(-0.08, 0.08),
-        samples=(4, 3, 3),
-        degrees=(6, 4),
-    ),
-    "load_steps": 2,
-}
+SMALL = {"spoke_mesh": COARSE_SPOKE, "table": COARSE_TABLE, "load_steps": 2}
 
 
 def test_the_papers_ring_comes_with_its_section_and_says_so():

@@ -66,7 +66,7 @@ def test_what_failures_do_to_the_terms_is_said(failed, least, word):
 
 
 def test_a_study_without_terms_asks_for_no_surface():
-    assert "no surface is asked for" in covered(cases(), terms=()).loc[("", ""), "estimable"]
+    assert "no surface is requested" in covered(cases(), terms=()).loc[("", ""), "estimable"]
 
 
 def test_below_the_least_number_no_surface_is_fitted():

@@ -175,7 +175,7 @@ def test_a_term_that_cannot_be_read_is_named(term):
 
 def test_too_few_cases_and_constant_factors_are_refused():
     few = pd.DataFrame({"a": [1.0, 2.0]})
-    with pytest.raises(InputError, match="2 solved cases cannot carry 2 terms"):
+    with pytest.raises(InputError, match="2 solved cases cannot determine 2 terms"):
         fit(few, pd.Series([1.0, 2.0]), ["a"], ["1", "a"])
     with pytest.raises(InputError, match="no response to fit"):
         fit(pd.DataFrame({"a": [1.0, 2.0, 3.0]}), pd.Series([5.0, np.nan, 6.0]), ["a"], ["1", "a"])

@@ -18,7 +18,7 @@ from nptcs.surface.cases import SolvedCases
 from nptcs.surface.diagnostics.comparison import directions, leave_one_level_out, leave_one_out
 from nptcs.surface.diagnostics.influence import influence
 from nptcs.surface.kinds.gaussian_process import fit_process
-from nptcs.surface.kinds.models import Cases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_model
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import predict
 from nptcs.surface.stored import dump_registry, load_registry
@@ -47,7 +47,7 @@ def table_5(order=FACTORS):
     table = pd.read_csv(PUBLISHED / "table5_plate_doe.csv")
     terms = pd.read_csv(PUBLISHED / "table6_plate_coefficients.csv", dtype={"term": str})["term"]
     x, y = table[list(order)].to_numpy(float), table["stiffness_n_per_mm"].to_numpy(float)
-    return Cases(x, y, order, list(terms), PUBLISHED_PLY)
+    return FitCases(x, y, order, list(terms), PUBLISHED_PLY)
 
 
 @pytest.fixture(scope="module")
@@ -138,7 +138,7 @@ def test_the_order_of_the_factors_does_not_matter(fitted):
 
 def test_the_compliance_of_a_made_up_tyre_is_recovered():
     exact = fit_model(LAMINATION, table_5())
-    made = Cases(exact.x, exact.predict(exact.x), FACTORS, [], PUBLISHED_PLY)
+    made = FitCases(exact.x, exact.predict(exact.x), FACTORS, [], PUBLISHED_PLY)
     again = fit_model(LAMINATION, made)
     assert again.shape == exact.shape
     np.testing.assert_allclose(again.parameters, exact.parameters, rtol=1e-4)
@@ -162,10 +162,10 @@ def test_the_lamination_forms_slopes_are_those_of_differences(coefficients):
 def test_the_lamination_form_refuses_what_it_is_not_made_for():
     cases = table_5()
     for wrong, match in (
-        (Cases(cases.x, cases.y, ("a", "b", "c"), [], PUBLISHED_PLY), "has the factors"),
-        (Cases(cases.x, cases.y, FACTORS, [], None), "needs the constants"),
-        (Cases(cases.x, -cases.y, FACTORS, [], PUBLISHED_PLY), "positive stiffness"),
-        (Cases(cases.x[:5], cases.y[:5], FACTORS, [], PUBLISHED_PLY), "5 solved cases"),
+        (FitCases(cases.x, cases.y, ("a", "b", "c"), [], PUBLISHED_PLY), "has the factors"),
+        (FitCases(cases.x, cases.y, FACTORS, [], None), "needs the constants"),
+        (FitCases(cases.x, -cases.y, FACTORS, [], PUBLISHED_PLY), "positive stiffness"),
+        (FitCases(cases.x[:5], cases.y[:5], FACTORS, [], PUBLISHED_PLY), "5 solved cases"),
     ):
         with pytest.raises(InputError, match=match):
             fit_model(LAMINATION, wrong)
@@ -173,7 +173,7 @@ def test_the_lamination_form_refuses_what_it_is_not_made_for():
 
 def test_log_and_reciprocal_need_a_positive_response():
     cases = table_5()
-    shifted = Cases(cases.x, cases.y - 250, FACTORS, cases.terms)
+    shifted = FitCases(cases.x, cases.y - 250, FACTORS, cases.terms)
     for link in ("log", "reciprocal"):
         with pytest.raises(InputError, match=f"the {link} link needs a positive response"):
             fit_model(PolynomialModel(kind="polynomial", link=link), shifted)
@@ -197,7 +197,7 @@ def test_repeated_cases_that_differ_give_the_process_a_noise():
 def test_a_polynomial_chosen_by_press_predicts_at_least_as_well():
     cases = table_5()
     terms = [*cases.terms, "thickness_mm*angle_deg^2", "angle_deg^4", "angle_deg^5", "angle_deg^6"]
-    wide = Cases(cases.x, cases.y, FACTORS, terms)
+    wide = FitCases(cases.x, cases.y, FACTORS, terms)
     every = fit_model(PolynomialModel(kind="polynomial"), wide)
     chosen = fit_model(PolynomialModel(kind="polynomial", choose="press"), wide)
     rms = [np.sqrt(np.mean(influence(s).left_out ** 2)) for s in (every, chosen)]
@@ -207,13 +207,14 @@ def test_a_polynomial_chosen_by_press_predicts_at_least_as_well():
 
 def test_what_cannot_be_assessed_is_not_a_number():
     x = np.linspace(0, 1, 12)[:, None]
-    cases = Cases(x, x[:, 0] ** 2, ("x",), ["1", "x", "x^2"])
+    cases = FitCases(x, x[:, 0] ** 2, ("x",), ["1", "x", "x^2"])
     surface = fit_model(PolynomialModel(kind="polynomial"), cases)
     level = leave_one_level_out(surface, 0)
     assert np.isnan(level.largest)
     assert level.refused == "not assessed: 12 values and no levels"
     few = fit_model(
-        PolynomialModel(kind="polynomial"), Cases(x[:4], x[:4, 0] ** 3, ("x",), ["1", "x", "x^2"])
+        PolynomialModel(kind="polynomial"),
+        FitCases(x[:4], x[:4, 0] ** 3, ("x",), ["1", "x", "x^2"]),
     )
     assert np.isnan(leave_one_out(few).error).all()
     done = StudySurfaces("study", (Fit("s", "polynomial", RESPONSE, few),), {"s": SOLVED}, None)

@@ -6,7 +6,8 @@ from SALib.analyze import sobol as sobol_analysis
 from SALib.sample import sobol as sobol_sample
 from scipy import stats
 
-from nptcs.uncertainty.inputs import SourceKind, UncertainInput
+from nptcs.tables.analysis.uncertainty import SourceKind
+from nptcs.uncertainty.inputs import UncertainInput
 from nptcs.uncertainty.propagate import assessed, distribution, moments
 
 

@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.config.studies.surface import GaussianProcessModel, LaminationModel, PolynomialModel
-from nptcs.surface.kinds.models import Cases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_model
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 from nptcs.uncertainty.response_model import (
     RubberEffect,
@@ -27,7 +27,7 @@ LAMINATION = LaminationModel(kind="lamination", coefficients=7)
 def process():
     """Our finite elements of table 5's cases under a Gaussian process on the lamination form."""
     table = pd.read_csv(Path(__file__).with_name("fe_plate_stiffness.csv"), comment="#")
-    cases = Cases(
+    cases = FitCases(
         table[list(FACTORS)].to_numpy(float),
         table["stiffness_n_per_mm"].to_numpy(float),
         FACTORS,
@@ -42,7 +42,7 @@ def rubber_surface():
     """Table 7 under equation 22."""
     table = pd.read_csv(PUBLISHED / "table7_rubber_doe.csv")
     terms = pd.read_csv(PUBLISHED / "table8_rubber_coefficients.csv", dtype={"term": str})["term"]
-    cases = Cases(
+    cases = FitCases(
         table[list(RUBBERS)].to_numpy(float),
         table["stiffness_n_per_mm"].to_numpy(float),
         RUBBERS,
@@ -103,7 +103,7 @@ def test_rubbers_change_the_response_in_proportion(process, rubber_surface):
 
 
 def test_beyond_the_edge_two_factors_go_on_along_their_slopes():
-    cases = Cases(
+    cases = FitCases(
         np.array([[a, b] for a in (0.0, 1.0, 2.0) for b in (0.0, 1.0)]),
         np.array([3 * a + 5 * b for a in (0.0, 1.0, 2.0) for b in (0.0, 1.0)]),
         ("a", "b"),

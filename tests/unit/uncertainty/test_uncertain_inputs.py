@@ -5,6 +5,7 @@ import pytest
 
 from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.errors import InputError
+from nptcs.tables.analysis.uncertainty import SourceKind
 from nptcs.tables.laboratory.material_card import (
     Covariance,
     MaterialCard,
@@ -12,7 +13,7 @@ from nptcs.tables.laboratory.material_card import (
     Quantity,
     RubberCard,
 )
-from nptcs.uncertainty.inputs import SourceKind, ply_inputs, uncertain_inputs
+from nptcs.uncertainty.inputs import ply_inputs, uncertain_inputs
 
 TENSION, SHEAR = ("T0-1", "T0-2", "T0-3", "T0-4"), ("S45-1", "S45-2")
 

@@ -34,7 +34,7 @@ DIGITS = 6
 def build_design(
     study: Study, rubber_c10_mpa: Mapping[str, float], tyre: TyreGeometry
 ) -> pd.DataFrame:
-    """Build the design table that a study asks for.
+    """Build the design table of a study.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def build_design(
 
 
 def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.DataFrame:
-    """Build the table of all combinations of the levels, whatever design the study asks for.
+    """Build the table of all combinations of the levels, whatever the design of the study.
 
     The last factor of the configuration changes fastest, so that spacing × thickness × angle
     gives the numbering of table 5 and T-C × S-C that of table 7. Parameters, result and errors
@@ -157,8 +157,8 @@ def _between(
     for factor in study.factors:
         if any(isinstance(level, MeasuredRubber) for level in factor.levels):
             raise InputError(
-                "this kind of design needs values between the levels, and there is no rubber "
-                "between tested ones",
+                "this kind of design needs values between the levels, which tested rubbers do not "
+                "have",
                 column=f"studies.{study.name}.factors.{factor.name}",
                 value=study.design.kind,
                 remedy="use full_factorial or d_optimal, or give numbers as levels",

@@ -66,7 +66,7 @@ class InputError(ValueError):
         return (type(self), (*fields, self.specimen, self.value))
 
 
-_GO_ON = "then type the same command again; no half written file is left"
+_GO_ON = "then type the same command again; no half-written file is left"
 REMEDIES: Mapping[int, tuple[str, str]] = {
     errno.ENOSPC: ("the disk is full", f"make room on it, {_GO_ON}"),
     errno.EDQUOT: ("your quota on this disk is used up", f"make room on it, {_GO_ON}"),

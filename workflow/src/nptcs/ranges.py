@@ -50,7 +50,7 @@ class Range:
         return f"{words} {self.unit}".rstrip()
 
     def fault(self, value: float) -> str:
-        """Say what is wrong with a value; empty where it lies in the range."""
+        """Say what is wrong with a value; empty where it is in the range."""
         above = value > self.low or (value == self.low and not self.open_low)
         below = value < self.high or (value == self.high and not self.open_high)
         return "" if isfinite(value) and above and below else f"must be {self}, got {value:g}"

@@ -155,7 +155,7 @@ def _check(seal: object, kind: str, content: str) -> None:
         raise BrokenSealError("it has no checksum: it is cut off, or an older version wrote it")
     if (seal.get("format"), seal.get("version")) != (kind, FORMATS[kind]):
         found = f"{seal.get('format')} {seal.get('version')}"
-        raise BrokenSealError(f"it is of format {found}, not {kind} {FORMATS[kind]}")
+        raise BrokenSealError(f"it has format {found}, not {kind} {FORMATS[kind]}")
     if seal.get("sha256") != _sha256(content):
         raise BrokenSealError("the content does not match its checksum: it was edited or damaged")
 

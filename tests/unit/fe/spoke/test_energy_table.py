@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from small_tyres import COARSE_SPOKE, spoke_design
 
 from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
 from nptcs.fe.energy_cache import read_table, shared_table, table_key, write_table
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit
 from nptcs.fe.spoke.equilibrium import SpokeModel
-from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import sample
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -20,7 +20,6 @@ OPTIONS = EnergyTableOptions(
 )  # fmt: skip
 SAMPLE_FIELDS = ("coordinates", "energy", "force", "tangent")
 HEIGHT = SpokeGeometry().height_mm
-COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 
 
 def manufactured(coordinates):
@@ -120,22 +119,6 @@ def test_a_table_that_ends_early_has_a_lower_degree():
     assert table.low[0] > -4.0
 
 
-def spoke_design(**change):
-    values = {
-        "geometry": SpokeGeometry(),
-        "mesh": COARSE,
-        "pitch_mm": 15.0,
-        "plate_width_mm": 5.0,
-        "thickness_mm": 1.8,
-        "angle_deg": 45.0,
-        "c10_mpa": 1.0,
-        "ply": PUBLISHED_PLY,
-        "plates": 14,
-        "plate_coupling": "embedded",
-    }
-    return SpokeDesign(**{**values, **change})
-
-
 def test_the_table_of_a_spoke_predicts_states_between_its_samples():
     model = SpokeModel(spoke_design())
     table = fit(sample(model, OPTIONS), OPTIONS, HEIGHT)
@@ -185,7 +168,7 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
         return TABLE
 
     monkeypatch.setattr("nptcs.fe.energy_cache.computed_table", computed)
-    model = FeModel(spoke_mesh=COARSE, table=OPTIONS)
+    model = FeModel(spoke_mesh=COARSE_SPOKE, table=OPTIONS)
     first = shared_table(model, spoke_design(), tmp_path)
     again = shared_table(model, spoke_design(), tmp_path)
     assert len(calls) == 1

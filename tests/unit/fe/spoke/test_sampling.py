@@ -2,39 +2,21 @@
 
 import numpy as np
 import pytest
+from small_tyres import COARSE_SPOKE, spoke_design
 
-from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry
 from nptcs.fe.energy_cache import shared_table
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeFields, SpokeModel
-from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.sampling import START, Grid, sampled_states
-from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 OPTIONS = EnergyTableOptions(
     elongation_mm=(-14.0, 4.0), inclination_rad=0.09, phi_rad=(-0.08, 0.08), samples=(6, 3, 3),
     degrees=(8, 4),
 )  # fmt: skip
 FEW = OPTIONS.model_copy(update={"samples": (4, 3, 3), "degrees": (5, 4)})
-COARSE = SpokeMesh(rows=(1, 1, 1, 1, 1, 1))
 HEIGHT = SpokeGeometry().height_mm
-MODEL = FeModel(spoke_mesh=COARSE, table=FEW)
+MODEL = FeModel(spoke_mesh=COARSE_SPOKE, table=FEW)
 ANGLES = (20.0, 45.0)
-
-
-def design(angle_deg, **change):
-    values = {
-        "geometry": SpokeGeometry(),
-        "mesh": COARSE,
-        "pitch_mm": 15.0,
-        "plate_width_mm": 5.0,
-        "thickness_mm": 1.8,
-        "angle_deg": angle_deg,
-        "c10_mpa": 1.0,
-        "ply": PUBLISHED_PLY,
-        "plates": 14,
-        "plate_coupling": "embedded",
-    }
-    return SpokeDesign(**{**values, **change})
 
 
 @pytest.fixture
@@ -64,7 +46,9 @@ def test_the_order_of_the_spokes_does_not_change_a_bit(tmp_path):
     tables = {}
     for name, angles in {"up": ANGLES, "down": ANGLES[::-1]}.items():
         for angle in angles:
-            tables[name, angle] = shared_table(MODEL, design(angle), tmp_path / name)
+            tables[name, angle] = shared_table(
+                MODEL, spoke_design(angle_deg=angle), tmp_path / name
+            )
     for angle in ANGLES:
         up, down = (tables[name, angle].coefficients for name in ("up", "down"))
         assert np.array_equal(up, down)
@@ -72,12 +56,12 @@ def test_the_order_of_the_spokes_does_not_change_a_bit(tmp_path):
 
 def test_a_matrix_is_used_for_several_steps(counted):
     """Without this each state takes four to six matrices."""
-    states = sampled_states(SpokeModel(design(30.0), FEW.accepted_work), FEW)
+    states = sampled_states(SpokeModel(spoke_design(angle_deg=30.0), FEW.accepted_work), FEW)
     assert len(counted) < 2.7 * len(states)
 
 
 def test_states_are_those_of_newtons_method_with_a_new_matrix_for_each_step(monkeypatch):
-    few = sampled_states(SpokeModel(design(30.0), FEW.accepted_work), FEW)
+    few = sampled_states(SpokeModel(spoke_design(angle_deg=30.0), FEW.accepted_work), FEW)
 
     def one_step(self, displacement, factor, step, work):
         for group in self.mixed:
@@ -85,7 +69,7 @@ def test_states_are_those_of_newtons_method_with_a_new_matrix_for_each_step(monk
         return displacement + step
 
     monkeypatch.setattr(SpokeModel, "_followed", one_step)
-    many = sampled_states(SpokeModel(design(30.0), 1e-12), FEW)
+    many = sampled_states(SpokeModel(spoke_design(angle_deg=30.0), 1e-12), FEW)
     energy, force, tangent = differences(few, many)
     assert energy < 1e-8
     assert force < 1e-7
@@ -93,7 +77,7 @@ def test_states_are_those_of_newtons_method_with_a_new_matrix_for_each_step(monk
 
 
 def test_a_guess_that_misleads_does_not_change_a_state():
-    model = SpokeModel(design(30.0), OPTIONS.accepted_work)
+    model = SpokeModel(spoke_design(angle_deg=30.0), OPTIONS.accepted_work)
     state = model.move(model.rest(), np.array([-5.0, 1.0, 0.03]))
     noise = np.random.default_rng(1).normal(0.0, 0.002, state.displacement.shape)
     noise[model.mesh.top] = noise[model.mesh.bottom] = 0.0
@@ -108,7 +92,7 @@ def test_a_guess_that_misleads_does_not_change_a_state():
 
 
 def test_stresses_of_another_state_do_not_reach_the_tangent():
-    model = SpokeModel(design(30.0), FEW.accepted_work)
+    model = SpokeModel(spoke_design(angle_deg=30.0), FEW.accepted_work)
     state = model.move(model.rest(), np.array([-5.0, 1.0, 0.03]))
     other = SpokeFields(state.displacement, state.pressures, [50.0 + s for s in state.stresses])
     tangent = model.settle(state.motion, other).tangent
@@ -131,7 +115,7 @@ def test_rows_take_turns_and_the_middle_one_has_every_level():
 
 
 def test_a_row_that_loses_its_stability_ends_the_table_at_its_last_level(monkeypatch):
-    model = SpokeModel(design(30.0), OPTIONS.accepted_work)
+    model = SpokeModel(spoke_design(angle_deg=30.0), OPTIONS.accepted_work)
     grid = Grid(OPTIONS, HEIGHT)
     side = next(row for row in grid.rows() if row.beta > 0 and row.levels == (0, 2, 4, 5))
     limit = grid.motions(side, [1])[0]

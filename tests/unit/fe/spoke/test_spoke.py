@@ -1,40 +1,28 @@
 import numpy as np
 import pytest
+from small_tyres import spoke_design
 
 from nptcs.config.solvers.fe import SpokeGeometry, SpokeMesh
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.mesh import build_period
-from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.spoke.pull import pull
 
 COARSE = SpokeMesh(rows=(1, 1, 2, 1, 1, 1))
 
 
-def design(ply, **change):
-    values = {
-        "geometry": SpokeGeometry(),
-        "mesh": COARSE,
-        "pitch_mm": 15.0,
-        "plate_width_mm": 5.0,
-        "thickness_mm": 1.8,
-        "angle_deg": 45.0,
-        "c10_mpa": 1.0,
-        "ply": ply,
-        "plates": 14,
-        "plate_coupling": "embedded",
-    }
-    return SpokeDesign(**{**values, **change})
+def spoke(ply, **change):
+    return SpokeModel(spoke_design(**{"ply": ply, "mesh": COARSE, **change}))
 
 
 @pytest.fixture(scope="module")
 def model(published_ply):
-    return SpokeModel(design(published_ply))
+    return spoke(published_ply)
 
 
 def test_the_mesh_fills_the_section(ply):
     geometry = SpokeGeometry()
     mesh = build_period(geometry, COARSE, 15.0, 5.0)
-    model = SpokeModel(design(ply))
+    model = spoke(ply)
     volume = sum(block.weight.sum() for block in model.rubbers)
     heights, thickness = geometry.section()
     area = 2.0 * np.trapezoid(thickness, heights) / np.cos(np.radians(geometry.leg_angle_deg))
@@ -77,16 +65,16 @@ def test_the_way_to_a_state_does_not_matter(model):
 
 def test_stiffness_scales_with_all_moduli(ply, model):
     harder = {name: v * (3.0 if name.endswith("mpa") else 1.0) for name, v in ply.items()}
-    triple = SpokeModel(design(harder, c10_mpa=3.0)).rest().tangent
+    triple = spoke(harder, c10_mpa=3.0).rest().tangent
     assert triple == pytest.approx(3.0 * model.rest().tangent, rel=1e-6, abs=1e-6)
 
 
 def test_more_and_thicker_plates_along_the_leg_stiffen(ply, model):
     base = model.rest().tangent[0, 0]
-    assert SpokeModel(design(ply, pitch_mm=10.0, plates=21)).rest().tangent[0, 0] > 1.02 * base
-    assert SpokeModel(design(ply, angle_deg=0.0)).rest().tangent[0, 0] > 1.01 * base
-    assert SpokeModel(design(ply, thickness_mm=2.4)).rest().tangent[0, 0] > 1.005 * base
-    assert SpokeModel(design(ply, angle_deg=90.0)).rest().tangent[0, 0] < 0.995 * base
+    assert spoke(ply, pitch_mm=10.0, plates=21).rest().tangent[0, 0] > 1.02 * base
+    assert spoke(ply, angle_deg=0.0).rest().tangent[0, 0] > 1.01 * base
+    assert spoke(ply, thickness_mm=2.4).rest().tangent[0, 0] > 1.005 * base
+    assert spoke(ply, angle_deg=90.0).rest().tangent[0, 0] < 0.995 * base
 
 
 def test_plates_that_may_bow_are_softer_where_the_fibres_are_oblique(ply):
@@ -94,7 +82,7 @@ def test_plates_that_may_bow_are_softer_where_the_fibres_are_oblique(ply):
     added = {}
     for angle in (0.0, 45.0, 90.0):
         held, free = (
-            SpokeModel(design(ply, angle_deg=angle, plate_coupling=coupling)).rest().tangent[0, 0]
+            spoke(ply, angle_deg=angle, plate_coupling=coupling).rest().tangent[0, 0]
             for coupling in ("embedded", "conforming")
         )
         added[angle] = held / free - 1.0
@@ -122,7 +110,7 @@ def test_mesh_converges(ply):
         SpokeMesh(rows=(2, 2, 4, 2, 2, 2)),
         SpokeMesh(rows=(3, 3, 6, 3, 3, 3), columns=2),
     ):
-        model = SpokeModel(design(ply, mesh=mesh))
+        model = spoke(ply, mesh=mesh)
         stiffness.append(model.rest().tangent[0, 0])
     assert abs(stiffness[1] / stiffness[2] - 1.0) < abs(stiffness[0] / stiffness[2] - 1.0)
     assert stiffness[0] == pytest.approx(stiffness[2], rel=0.04)

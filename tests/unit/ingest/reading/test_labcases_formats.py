@@ -16,7 +16,6 @@ E_MPA = 120_000.0
 TIME = np.arange(0, 30.0, 0.5)
 STRAIN = 0.0002 * (TIME / 0.5)
 FORCE = 10 * E_MPA * STRAIN
-KIND_15 = {"width_mm": (15.0,)}
 
 
 @pytest.mark.parametrize(

@@ -14,7 +14,7 @@ from nptcs.solvers.registry import load, module_of, read_options
 from nptcs.tables.catalogue import result_files
 
 
-class Role(StrEnum):
+class ArchivedAs(StrEnum):
     """What a file is to the study."""
 
     INPUT = "input"
@@ -35,7 +35,7 @@ PROJECT = ("pyproject.toml", "constraints.txt", "Makefile", "LICENSE", "CITATION
 """Files of a clone; a project folder with an installed package has none of them."""
 
 
-def contents_of(root: Path, config: Config) -> dict[str, tuple[Path, Role]]:
+def contents_of(root: Path, config: Config) -> dict[str, tuple[Path, ArchivedAs]]:
     """List the files of a study's archive.
 
     Parameters
@@ -56,20 +56,20 @@ def contents_of(root: Path, config: Config) -> dict[str, tuple[Path, Role]]:
     InputError
         For a result or an input that is missing or lies outside the project folder.
     """
-    found: dict[str, tuple[Path, Role]] = {}
+    found: dict[str, tuple[Path, ArchivedAs]] = {}
     for path in inputs_of(root, config):
-        found[_inside(path, root)] = (path, Role.INPUT)
+        found[_inside(path, root)] = (path, ArchivedAs.INPUT)
     for path in _results(root, config):
-        found[_inside(path, root)] = (path, Role.RESULT)
+        found[_inside(path, root)] = (path, ArchivedAs.RESULT)
     for pattern in (*CODE, *PROJECT):
         for path in sorted(root.glob(pattern)):
-            found.setdefault(_inside(path, root), (path, Role.CODE))
+            found.setdefault(_inside(path, root), (path, ArchivedAs.CODE))
     source = Path(nptcs.__file__).parents[1]
     for package in PACKAGES:
         for path in sorted((source / package).rglob("*")):
             if path.is_file() and "__pycache__" not in path.parts:
                 name = f"workflow/src/{path.relative_to(source).as_posix()}"
-                found.setdefault(name, (path, Role.CODE))
+                found.setdefault(name, (path, ArchivedAs.CODE))
     return found
 
 
@@ -120,5 +120,5 @@ def _inside(path: Path, root: Path) -> str:
     except ValueError:
         remedy = "copy it into the project folder, and name the copy in the configuration"
         raise InputError(
-            "lies outside the project folder, which is all that an archive holds", remedy, path
+            "is outside the project folder, and an archive holds only that folder", remedy, path
         ) from None

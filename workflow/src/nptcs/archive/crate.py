@@ -14,7 +14,7 @@ import yaml
 from rocrate.rocrate import ROCrate
 
 from nptcs import __version__
-from nptcs.archive.contents import VERDICT, Role
+from nptcs.archive.contents import VERDICT, ArchivedAs
 from nptcs.archive.environment import environment_facts
 from nptcs.config.root import Config
 from nptcs.files import atomic_path, sha256_of_file
@@ -28,7 +28,7 @@ WORKFLOW = "workflow/Snakefile"
 
 
 def write_crate(
-    target: Path, files: Mapping[str, tuple[Path, Role]], config: Config, commit: str
+    target: Path, files: Mapping[str, tuple[Path, ArchivedAs]], config: Config, commit: str
 ) -> int:
     """Write the archive of a finished study.
 
@@ -67,7 +67,7 @@ def write_crate(
     return len(sums)
 
 
-def _description(files: Mapping[str, tuple[Path, Role]]) -> str:
+def _description(files: Mapping[str, tuple[Path, ArchivedAs]]) -> str:
     ended = (
         "Every specimen and case gave a result."
         if f"results/{VERDICT}" in files
@@ -94,11 +94,11 @@ def _describe(
     crate: ROCrate,
     held: Mapping[str, Path],
     sums: Mapping[str, str],
-    roles: Mapping[str, Role],
+    roles: Mapping[str, ArchivedAs],
     commit: str,
 ) -> None:
     """Add each file with its checksum, and the run that made the results."""
-    entities: dict[Role, list[Any]] = {role: [] for role in Role}
+    entities: dict[ArchivedAs, list[Any]] = {role: [] for role in ArchivedAs}
     for name, path in sorted(held.items()):
         properties = {"sha256": sums[name], "contentSize": str(path.stat().st_size)}
         if name == WORKFLOW:
@@ -108,13 +108,13 @@ def _describe(
             )
             workflow["codeCommit"] = commit
             continue
-        role = roles.get(name, Role.INPUT)
+        role = roles.get(name, ArchivedAs.INPUT)
         entities[role].append(crate.add_file(path, name, properties=properties))
     crate.add_action(
         crate.mainEntity,
         identifier="#run",
-        object=entities[Role.INPUT],
-        result=entities[Role.RESULT],
+        object=entities[ArchivedAs.INPUT],
+        result=entities[ArchivedAs.RESULT],
         properties={"name": f"Run of nptcs {__version__}, commit {commit}"},
     )
 

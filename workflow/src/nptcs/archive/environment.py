@@ -1,4 +1,4 @@
-"""What a run rests on outside the project: Python, packages, platform, linear algebra."""
+"""What a run depends on outside the project: Python, packages, platform, linear algebra."""
 
 from __future__ import annotations
 

@@ -13,7 +13,7 @@ from nptcs.tables.run_columns import OF_THE_RUN
 
 
 @dataclass(frozen=True)
-class Comparison:
+class TableDifference:
     """What differs between two tables: `fault` where they cannot be compared."""
 
     file: str
@@ -34,13 +34,13 @@ class Comparison:
         return f"{self.file:36} {self.rows:6d} rows, numbers differ by {self.largest:.1e}{words}"
 
 
-def compare_tables(before: pd.DataFrame, after: pd.DataFrame) -> tuple[float, tuple[str, ...]]:
+def table_difference(before: pd.DataFrame, after: pd.DataFrame) -> tuple[float, tuple[str, ...]]:
     """Return the largest relative difference of the numbers, and the columns whose text differs.
 
     Examples
     --------
     >>> one = pd.DataFrame({"a": [1.0, 2.0], "b": ["x", "y"]})
-    >>> compare_tables(one, one.assign(a=[1.0, 4.0], b=["x", "z"]))
+    >>> table_difference(one, one.assign(a=[1.0, 4.0], b=["x", "z"]))
     (0.5, ('b',))
     """
     largest = 0.0
@@ -69,7 +69,7 @@ def compare_folders(
     renamed: Mapping[str, str] | None = None,
     columns: Mapping[str, str] | None = None,
     ignored: Collection[str] = OF_THE_RUN,
-) -> list[Comparison]:
+) -> list[TableDifference]:
     """Compare all CSV tables of two folders, table by table.
 
     Parameters
@@ -85,7 +85,7 @@ def compare_folders(
 
     Returns
     -------
-    list of Comparison
+    list of TableDifference
         One per table of either folder.
     """
     renamed = renamed or {}
@@ -95,15 +95,15 @@ def compare_folders(
     for name in sorted(first):
         other = second.pop(renamed.get(name, name), None)
         if other is None:
-            found.append(Comparison(name, fault=f"is missing in {after}"))
+            found.append(TableDifference(name, fault=f"is missing in {after}"))
             continue
         tables = [pd.read_csv(path, comment="#") for path in (first[name], other)]
         tables[0] = tables[0].rename(columns=dict(columns or {}))
         one, two = (table.drop(columns=list(ignored), errors="ignore") for table in tables)
         if list(one) != list(two) or len(one) != len(two):
             stray = sorted(map(str, set(one) ^ set(two)))
-            found.append(Comparison(name, fault=f"other columns or rows: {stray}"))
+            found.append(TableDifference(name, fault=f"other columns or rows: {stray}"))
             continue
-        found.append(Comparison(name, len(one), *compare_tables(one, two)))
-    found += [Comparison(name, fault=f"is missing in {before}") for name in sorted(second)]
+        found.append(TableDifference(name, len(one), *table_difference(one, two)))
+    found += [TableDifference(name, fault=f"is missing in {before}") for name in sorted(second)]
     return found

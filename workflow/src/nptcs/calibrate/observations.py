@@ -17,7 +17,7 @@ from nptcs.mechanical_tests import HYPERELASTIC_FIT
 from nptcs.reduce.curve.branch import loading_branch
 from nptcs.reduce.origin import Origin
 from nptcs.reduce.rows import finite_pair
-from nptcs.reduce.standards.rubber_compression import UNIFORM
+from nptcs.reduce.standards.rubber_compression import disc_barrels
 from nptcs.tables.laboratory.specimens import Specimen
 
 SMALLEST_NUMBER_OF_POINTS = 3
@@ -129,7 +129,7 @@ def specimens_in_fit(name: str, specimens: Sequence[Specimen], only: str | None)
         If the one specimen is not among them.
     """
     chosen = [s for s in specimens if s.material == name and s.test.is_rubber]
-    chosen = [s for s in chosen if s.platens in ("", UNIFORM)]
+    chosen = [s for s in chosen if not disc_barrels(s.platens)]
     chosen = [s for s in chosen if s.gives(HYPERELASTIC_FIT)]
     if only is None:
         return chosen
@@ -148,8 +148,8 @@ def _platen_words(name: str, specimens: Sequence[Specimen]) -> list[str]:
     """Say which discs are not in the fit, and which may carry friction."""
     included = [s for s in specimens if s.material == name and s.include and s.test.is_rubber]
     discs = [s for s in included if s.test.load_sign < 0]
-    barrelled = [s.specimen for s in discs if s.platens not in ("", UNIFORM)]
-    unknown = [s.specimen for s in discs if not s.platens]
+    barrelled = [s.specimen for s in discs if disc_barrels(s.platens)]
+    unknown = [s.specimen for s in discs if disc_barrels(s.platens) is None]
     words = []
     if barrelled:
         words.append(f"not in the fit, dry or bonded platens: {', '.join(barrelled)}")

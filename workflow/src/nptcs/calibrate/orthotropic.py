@@ -126,7 +126,7 @@ def _require_positive_definite(values: Mapping[str, float], material: str) -> No
             f"(lowest scaled eigenvalue {lowest:.3g}), Poisson's ratios "
             f"nu12 {values['nu12']:.4g}, nu13 {values['nu13']:.4g}, nu23 {values['nu23']:.4g}",
             "check the transverse strains and the assumed Poisson's ratios: "
-            "|nu12| < sqrt(E1/E2) and its like must hold",
+            "|nu12| < sqrt(E1/E2), and likewise for nu13 and nu23",
             column="nu12, nu13, nu23",
         )
 

@@ -72,9 +72,9 @@ def ply_of(study: Study, specimens: Sequence[Specimen], settings: CalibrationSet
     ]
     remedy = f"name one of {', '.join(known)} as ply of the study" if known else "add specimens"
     if study.ply is None:
-        message = f"study {study.name} needs a ply, the sheet gives {len(known)}"
+        message = f"study {study.name} needs one ply, the sheet has {len(known)}"
     else:
-        message = f"study {study.name} names a ply that the sheet does not give"
+        message = f"study {study.name} names a ply that the sheet does not have"
     raise InputError(
         "; ".join([message, *reasons]),
         remedy,

@@ -146,7 +146,7 @@ def measured_quantity(
 def assumed_quantities(
     assumptions: PlyAssumptions, measured: dict[str, Quantity]
 ) -> dict[str, Quantity]:
-    """Quantities that rest on an assumption: a number, or equal to a measured constant."""
+    """Quantities that are assumed: a number, or equal to a measured constant."""
     quantities = {}
     for name, assumption in assumptions:
         if isinstance(assumption, str):

@@ -25,7 +25,7 @@ Options = Mapping[str, Mapping[str, Any]]
 
 @dataclass(frozen=True)
 class Asked:
-    """A study with all that its solvers are asked, before the materials are known.
+    """A study with everything that its solvers are given, before the materials are known.
 
     Parameters
     ----------

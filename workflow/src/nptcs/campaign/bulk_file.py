@@ -52,7 +52,7 @@ def read_bulk(path: str | Path) -> pd.DataFrame:
         For a file that is missing, was cut off or edited, or is of another format.
     """
     if not Path(path).is_file():
-        remedy = "run snakemake again; it writes this file anew"
+        remedy = "run snakemake again; it writes this file again"
         raise InputError("this file of results does not exist", remedy, file=path)
     try:
         return _opened(path)
@@ -67,7 +67,7 @@ def _opened(path: str | Path) -> pd.DataFrame:
     header: dict[str, Any] = json.loads(arrays.pop(HEADER).tobytes())
     if (header["format"], header["version"]) != (KIND, FORMATS[KIND]):
         found = f"{header['format']} {header['version']}"
-        raise BrokenSealError(f"it is of format {found}, not {KIND} {FORMATS[KIND]}")
+        raise BrokenSealError(f"it has format {found}, not {KIND} {FORMATS[KIND]}")
     arrays = {name: arrays[name] for name in header["columns"]}
     if header["sha256"] != _checksum(arrays):
         raise BrokenSealError("the content does not match its checksum: it was edited or damaged")

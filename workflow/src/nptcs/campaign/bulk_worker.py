@@ -1,4 +1,4 @@
-"""A part of a table of cases, solved in a process of its own."""
+"""A part of a table of cases, solved in its own process."""
 
 from __future__ import annotations
 

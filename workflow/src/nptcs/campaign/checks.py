@@ -114,9 +114,7 @@ KEPT_BY_WINDOWS = frozenset({"con", "prn", "aux", "nul"}) | {
 
 
 def _kept(kind: str, name: str) -> InputError:
-    return InputError(
-        "this name is kept for another use", "choose another", column=kind, value=name
-    )
+    return InputError("this name is reserved", "choose another", column=kind, value=name)
 
 
 def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:

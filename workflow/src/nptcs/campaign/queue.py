@@ -1,4 +1,4 @@
-"""What a batch of cases asks of a queue: number of jobs, memory, time and licences."""
+"""What a batch of cases requests from a queue: number of jobs, memory, time and licences."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ MARGIN = 2.0
 
 
 class JobNeeds(Needs, Protocol):
-    """What a job asks a queue for: options of a solver, or `nptcs.start.facts.SolverFacts`."""
+    """What a job requests from a queue: options of a solver, or `nptcs.start.facts.SolverFacts`."""
 
     @property
     def case_s(self) -> float:
@@ -68,7 +68,7 @@ def batch_count(cases: int, campaign: Campaign, options: JobNeeds) -> int:
 
 
 def batch_memory_mb(cores: int, options: JobNeeds, attempt: int = 1) -> int:
-    """Return the memory that a job asks for, in MB: its cases' times the attempt, and its own.
+    """Return the memory that a job requests, in MB: its cases' times the attempt, and its own.
 
     Examples
     --------
@@ -81,7 +81,7 @@ def batch_memory_mb(cores: int, options: JobNeeds, attempt: int = 1) -> int:
 
 
 def batch_minutes(cases: int, batches: int, cores: int, options: JobNeeds, attempt: int = 1) -> int:
-    """Return the wall time that a job asks for, in minutes.
+    """Return the wall time that a job requests, in minutes.
 
     Twice the usual time of its cases, times the attempt, and one case more that runs into its
     time limit.

@@ -172,7 +172,7 @@ def write_records(path: str | Path, records: Sequence[CaseRecord]) -> None:
 
 
 def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
-    """Read the CSV files that a solver asks for, as rows of plain numbers and text.
+    """Read the CSV files that a solver needs, as rows of plain numbers and text.
 
     Raises
     ------

@@ -18,7 +18,7 @@ class Needs(Protocol):
 
 
 def batch_cores(cores_per_batch: int, options: Needs) -> int:
-    """Return the cores that a batch asks for: at least those of one case."""
+    """Return the cores that a batch requests: at least those of one case."""
     return max(cores_per_batch, options.cores_per_case())
 
 

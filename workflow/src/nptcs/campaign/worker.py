@@ -1,4 +1,4 @@
-"""One solver case in a process of its own."""
+"""One solver case in its own process."""
 
 from __future__ import annotations
 

@@ -40,20 +40,14 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.calibrate.plan import check_materials
     from nptcs.campaign.checks import name_faults, study_faults
     from nptcs.campaign.plan import plan_lines
-    from nptcs.config.root import read_config
-    from nptcs.errors import InputError
+    from nptcs.config.files import read_config_files
     from nptcs.ingest.check_files import check_files
     from nptcs.ingest.reading.profiles import load_profiles
     from nptcs.report.page_files import page_faults
     from nptcs.solvers.registry import needs_ply
     from nptcs.tables.laboratory.specimens import read_sheet
-    from nptcs.yaml_files import read_yaml
 
-    path = Path(arguments.config)
-    values = read_yaml(path) or {}
-    if not isinstance(values, dict):
-        raise InputError("is not a configuration", "write 'key: value' lines", path)
-    config = read_config(values, str(path))
+    config = read_config_files([arguments.config])
     faults = [*study_faults(config), *page_faults(config)]
     if not faults:
         print(*plan_lines(config, arguments.results), sep="\n")

@@ -157,7 +157,7 @@ def open_run(given: Path, stack: ExitStack) -> FinishedRun:
     if faults := packed_faults(folder):
         more = f" and {len(faults) - 1} more" if len(faults) > 1 else ""
         raise InputError(
-            f"this archive is not as it was packed: {faults[0]}{more}",
+            f"this archive was changed after it was packed: {faults[0]}{more}",
             "'nptcs verify' lists every fault; copy the archive again from where it was written",
             given,
         )

@@ -70,7 +70,11 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--hold", action="append", default=[], metavar="FACTOR=VALUE", help="a factor's value"
     )
     parser.add_argument(
-        "--step", action="append", default=[], metavar="FACTOR=STEP", help="values that are made"
+        "--step",
+        action="append",
+        default=[],
+        metavar="FACTOR=STEP",
+        help="step of the values that can be made",
     )
     parser.add_argument("--top", type=whole(1, 50), help="designs to list; default: 5")
     parser.add_argument("--confirm", action="store_true", help="solve the chosen design")
@@ -95,23 +99,17 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 def run(arguments: argparse.Namespace) -> int:
     """Print the designs; exit code 1 if none meets the goals or the choice is not confirmed."""
-    from nptcs.config.root import read_config
-    from nptcs.decisions.run import answer, read_run
-    from nptcs.errors import InputError
-    from nptcs.yaml_files import read_yaml
+    from nptcs.config.files import read_config_files
+    from nptcs.decisions.run import answer, read_solved_studies
 
-    path = Path(arguments.config)
-    values = read_yaml(path) or {}
-    if not isinstance(values, dict):
-        raise InputError("is not a configuration", "write 'key: value' lines", path)
-    config = read_config(values, str(path))
+    config = read_config_files([arguments.config])
     decision = decision_of(arguments, config)
     results: Path = arguments.results
     tables = {name: str(results / "tables" / file) for name, file in TABLES.items()}
     tables["card"] = str(results / "material_card.json")
     models = sorted(map(str, (results / "6_surface" / "models").glob("*.json")))
     added = results / "7_decide" / "added_cases.csv"
-    finished = read_run(config, tables, models, added)
+    finished = read_solved_studies(config, tables, models, added)
     store = results / "5_solve" / "records"
     done, source = answer(finished, decision, store, arguments.cores)
     print(as_json(done) if arguments.json else as_text(done))
@@ -119,7 +117,7 @@ def run(arguments: argparse.Namespace) -> int:
         _append(added, decision, new)
         print(
             f"outside the prediction: the case was added to {added}; the next run of snakemake "
-            "solves nothing for it and fits with it",
+            "includes it in the fits without solving it again",
             file=sys.stderr,
         )
     if done.outcome is None or not done.outcome.found.feasible:

@@ -11,7 +11,7 @@ from nptcs.config.solvers.fe import AxialFreedom, RingKind
 if TYPE_CHECKING:
     import pandas
 
-    from nptcs.fe.calibration import Problem, Round
+    from nptcs.fe.calibration import CalibrationProblem, Round
 
 # fiducial, and the corners of spacing with the softest and the stiffest plates
 CASES = (32, 49, 15, 7, 57)
@@ -103,7 +103,7 @@ def run(arguments: argparse.Namespace) -> int:
     return 0
 
 
-def build_problem(arguments: argparse.Namespace) -> Problem:
+def build_problem(arguments: argparse.Namespace) -> CalibrationProblem:
     """Read the targets.
 
     Raises
@@ -114,7 +114,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     from nptcs.config.solvers.fe import FeModel
     from nptcs.config.solvers.tyre import TyreGeometry
     from nptcs.errors import InputError
-    from nptcs.fe.calibration import START, Problem, SpokeTarget, TyreTarget
+    from nptcs.fe.calibration import START, CalibrationProblem, SpokeTarget, TyreTarget
     from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
     if len(arguments.cases) > 5:
@@ -145,7 +145,7 @@ def build_problem(arguments: argparse.Namespace) -> Problem:
     options = {"ring": arguments.ring}
     if arguments.axial is not None:
         options["axial"] = arguments.axial
-    return Problem(
+    return CalibrationProblem(
         FeModel(**options).model_copy(update={"geometry": start}),
         TyreGeometry(),
         PUBLISHED_PLY,
@@ -188,7 +188,7 @@ def _read(path: str, columns: tuple[str, ...]) -> pandas.DataFrame:
     return table
 
 
-def _report(problem: Problem, state: Round) -> None:
+def _report(problem: CalibrationProblem, state: Round) -> None:
     """Print one round: dimensions, then computed against wanted."""
     import numpy as np
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nptcs.arguments import add_command, existing_file, existing_folder, output_file
+from nptcs.arguments import add_command, add_reading, existing_file, output_file
 
 
 def register(subparsers: Any) -> None:
@@ -23,28 +23,17 @@ def register(subparsers: Any) -> None:
     parser.add_argument("file", type=existing_file, help="raw file of a test machine or camera")
     parser.add_argument("--format", default="", help="name of a profile; default: detect")
     parser.add_argument(
-        "--formats",
-        type=existing_folder,
-        default="config/formats",
-        help="folder of profiles; default: %(default)s",
-    )
-    parser.add_argument(
         "--write-profile",
         type=output_file(".yaml", ".yml"),
         metavar="YAML",
         help="write a profile to start from",
     )
-    parser.add_argument(
-        "--config",
-        type=Path,
-        default=Path("config/config.yaml"),
-        help="configuration whose limits on the size of files count; default: %(default)s",
-    )
+    add_reading(parser)
     parser.set_defaults(run=run)
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the inspection; 0 if the file can be used."""
+    """Print the inspection; 0 if the file can be used and no load or strain was left unread."""
     from nptcs.config.materials.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
@@ -61,4 +50,4 @@ def run(arguments: argparse.Namespace) -> int:
             raise InputError("this file exists already", "choose another name", target)
         write_text(target, draft_profile(inspection, target.stem))
         print(f"\nprofile written to {target}: check every line of it")
-    return 0 if inspection.usable else 1
+    return 0 if inspection.usable and not inspection.unread() else 1

@@ -103,7 +103,7 @@ def _solve(arguments: argparse.Namespace) -> int:
 
 
 def as_text(result: pandas.DataFrame, given: Sequence[str]) -> str:
-    """Write solved designs for a reader: what tells the rows apart, and the main results.
+    """Write solved designs for a reader: what distinguishes the rows, and the main results.
 
     Parameters
     ----------

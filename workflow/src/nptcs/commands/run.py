@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from nptcs.arguments import add_command, existing_file, existing_folder, whole
+from nptcs.arguments import add_command, add_project, existing_file, whole
 
 CONFIG = "config/config.yaml"
 """The configuration that the Snakefile names itself; further files go on top of it."""
@@ -20,7 +20,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "run",
         "run the study: from raw files to report and workbook",
         "Runs what is missing or out of date, and nothing else; after any stop the same command "
-        "goes on. It is 'snakemake -jN' with the settings of this project: whatever Snakemake "
+        "continues. It is 'snakemake -jN' with the settings of this project: whatever Snakemake "
         "can do, 'snakemake' in this folder does too. The plan is printed first, then one line "
         "that shows how far the run is, each failure, and where report and workbook are.",
         "nptcs run",
@@ -32,8 +32,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "targets",
         nargs="*",
         metavar="TARGET",
-        help="a rule or a file of results; default: everything. What follows -- goes to Snakemake "
-        "as it is",
+        help="a rule or a file of results; default: everything. What follows -- is passed to "
+        "Snakemake unchanged",
     )
     parser.add_argument(
         "-j",
@@ -60,12 +60,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "-n", "--dry-run", action="store_true", help="list what would be run, and run nothing"
     )
-    parser.add_argument(
-        "--project",
-        type=existing_folder,
-        default=".",
-        help="the project folder; default: the current one",
-    )
+    add_project(parser)
     parser.set_defaults(run=run)
 
 

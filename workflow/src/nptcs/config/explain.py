@@ -14,7 +14,7 @@ def describe(error: ValidationError, model: type[BaseModel]) -> str:
     for fault in error.errors():
         path = ".".join(str(part) for part in fault["loc"]) or "(top level)"
         if fault["type"] == "extra_forbidden":
-            known = _keys_beside(model, fault["loc"])
+            known = _known_keys_at(model, fault["loc"])
             near = difflib.get_close_matches(str(fault["loc"][-1]), known, n=1)
             hint = f"did you mean '{near[0]}'?" if near else f"known keys: {', '.join(known)}"
             lines.append(f"{path}: unknown key; {hint}")
@@ -25,8 +25,8 @@ def describe(error: ValidationError, model: type[BaseModel]) -> str:
     return "; ".join(lines)
 
 
-def _keys_beside(model: type[BaseModel], location: tuple[int | str, ...]) -> list[str]:
-    """Name the known keys of the section in which `location` lies."""
+def _known_keys_at(model: type[BaseModel], location: tuple[int | str, ...]) -> list[str]:
+    """Name the known keys of the section that contains `location`."""
     schema = model.model_json_schema()
     section: dict[str, Any] = schema
     for part in location[:-1]:

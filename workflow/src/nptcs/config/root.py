@@ -42,7 +42,7 @@ class Campaign(Strict):
     most_cases: int = Field(
         2000,
         ge=1,
-        description="Cases of a study above which a run is refused; raise it to ask for more, or "
+        description="Cases of a study above which a run is refused; raise it to allow more, or "
         "start the run with `nptcs run --yes`",
     )
     bulk_from: int = Field(
@@ -72,7 +72,7 @@ class Campaign(Strict):
     cores_per_batch: int = Field(
         2,
         ge=1,
-        description="Cores that a batch asks for, at most those of `-j`; divided by the cores of "
+        description="Cores that a batch requests, at most those of `-j`; divided by the cores of "
         "one case (one, or the solver's `cpus`) they give the number of cases solved at a time",
     )
 

@@ -38,7 +38,7 @@ class Compared:
 
     @property
     def result(self) -> str:
-        """Say whether the solved value lies in the prediction interval."""
+        """Say whether the solved value is in the prediction interval."""
         if not np.isfinite(self.solved):
             return "not solved"
         return "inside" if self.low <= self.solved <= self.high else "outside"
@@ -113,7 +113,7 @@ class SolverRun:
 def confirmed(
     decision: Decision, source: Source, run: SolverRun
 ) -> tuple[Outcome, list[Round], Source]:
-    """Decide, solve the choice, and choose again with the case while it lies outside.
+    """Decide, solve the choice, and choose again with that case while it is outside the interval.
 
     Parameters
     ----------

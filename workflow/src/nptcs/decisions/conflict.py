@@ -4,17 +4,17 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.decisions.evaluate import Problem, at_least_all
-from nptcs.decisions.search import Found
+from nptcs.decisions.evaluate import DesignProblem, at_least_all
+from nptcs.decisions.search import SearchResult
 
 
-def conflict_words(problem: Problem, found: Found, probability: float) -> str:
+def conflict_words(problem: DesignProblem, found: SearchResult, probability: float) -> str:
     """Say how near the goals can be met, alone and together.
 
     Parameters
     ----------
-    problem : Problem
-    found : Found
+    problem : DesignProblem
+    found : SearchResult
         Without an acceptable design.
     probability : float
         That was asked for.

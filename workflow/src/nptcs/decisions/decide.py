@@ -11,8 +11,8 @@ from nptcs.arrays import Array
 from nptcs.config.studies.decisions import Decision
 from nptcs.config.studies.goals import Goal, ResponseName
 from nptcs.decisions.conflict import conflict_words
-from nptcs.decisions.evaluate import Problem
-from nptcs.decisions.search import Found, search
+from nptcs.decisions.evaluate import DesignProblem
+from nptcs.decisions.search import SearchResult, search
 from nptcs.decisions.space import DesignSpace, design_space
 from nptcs.uncertainty.source import Source
 from nptcs.uncertainty.study_results import StudyResults
@@ -28,9 +28,9 @@ class Outcome:
     Parameters
     ----------
     decision : Decision
-    problem : Problem
+    problem : DesignProblem
     space : DesignSpace
-    found : Found
+    found : SearchResult
     not_assessed : mapping of str to str
         Quantities whose uncertainty is not assessed, with the reason.
     samples : tuple of mapping
@@ -44,9 +44,9 @@ class Outcome:
     """
 
     decision: Decision
-    problem: Problem
+    problem: DesignProblem
     space: DesignSpace
-    found: Found
+    found: SearchResult
     not_assessed: Mapping[str, str]
     samples: tuple[Mapping[ResponseName, Array], ...]
     sampled: Array
@@ -89,7 +89,7 @@ def decide(decision: Decision, source: Source) -> Outcome:
         for goal in {goal.response: goal for goal in goals}.values()
     }
     inputs = source.inputs()
-    problem = Problem(goals, fitted, inputs.inputs)
+    problem = DesignProblem(goals, fitted, inputs.inputs)
     space = design_space(
         [one.model for one in fitted.values()],
         decision.hold,

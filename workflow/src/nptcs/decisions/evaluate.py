@@ -48,7 +48,7 @@ class Evaluation:
 
 
 @dataclass(frozen=True)
-class Problem:
+class DesignProblem:
     """Goals with the models of their responses.
 
     Parameters
@@ -83,7 +83,7 @@ class Problem:
         probabilities = np.column_stack(columns) if columns else np.ones((len(x), 0))
         return Evaluation(x, mean, sd, probabilities)
 
-    def screened(self, x: Array) -> Problem:
+    def screened(self, x: Array) -> DesignProblem:
         """Return the problem without inputs that matter to no response at any of these designs.
 
         For the search: each input that is left out has less than `NEGLIGIBLE` of the variance.
@@ -116,7 +116,7 @@ class Problem:
 
 
 def within(goal: Goal, mean: Array, sd: Array) -> Array:
-    """Probability that a normal response lies inside a goal's limits."""
+    """Probability that a normal response is inside a goal's limits."""
     low, high = goal.limits
     scale = np.maximum(sd, SMALLEST_SD * np.maximum(np.abs(mean), 1e-300))
     inside: Array = stats.norm.cdf((high - mean) / scale) - stats.norm.cdf((low - mean) / scale)
@@ -124,7 +124,7 @@ def within(goal: Goal, mean: Array, sd: Array) -> Array:
 
 
 def meets(goal: Goal, values: Array) -> Array:
-    """Tell which values lie inside a goal's limits."""
+    """Tell which values are inside a goal's limits."""
     low, high = goal.limits
     return np.asarray((values >= low) & (values <= high))
 
@@ -201,7 +201,7 @@ class Desirability:
         return share
 
 
-def desirability(problem: Problem, acceptable: Evaluation) -> Desirability:
+def desirability(problem: DesignProblem, acceptable: Evaluation) -> Desirability:
     """Scale the desirability by the acceptable candidates."""
     best, worst = {}, {}
     for goal in problem.objectives:

@@ -7,7 +7,7 @@ from pathlib import Path
 import pandas as pd
 import pandera.pandas as pa
 
-from nptcs.decisions.run import FinishedRun, answer_all
+from nptcs.decisions.run import SolvedStudies, answer_all
 from nptcs.decisions.tables import decision_tables
 from nptcs.tables.analysis.decisions import (
     DecisionConfirmation,
@@ -23,12 +23,12 @@ Tables = dict[str, tuple[pd.DataFrame, type[pa.DataFrameModel]]]
 """Table and contract by the name of the output."""
 
 
-def result_tables(run: FinishedRun, store: Path, cores: int) -> Tables:
+def result_tables(run: SolvedStudies, store: Path, cores: int) -> Tables:
     """Answer the decisions of a run and write everything that is known of them.
 
     Parameters
     ----------
-    run : FinishedRun
+    run : SolvedStudies
     store : Path
         Folder of solved cases; designs that are solved to confirm a choice are kept there.
     cores : int

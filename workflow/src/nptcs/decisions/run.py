@@ -39,8 +39,8 @@ REFERENCE = "reference"
 
 
 @dataclass(frozen=True)
-class FinishedRun:
-    """Results of a run that decisions rest on.
+class SolvedStudies:
+    """Results of a run that decisions are based on.
 
     Parameters
     ----------
@@ -67,9 +67,9 @@ class FinishedRun:
     added: pd.DataFrame = field(default_factory=lambda: pd.DataFrame(columns=["study", "solver"]))
 
 
-def read_run(
+def read_solved_studies(
     config: Config, files: Mapping[str, str], models: Sequence[str], added: Path
-) -> FinishedRun:
+) -> SolvedStudies:
     """Read the results of a run.
 
     Parameters
@@ -87,7 +87,7 @@ def read_run(
     InputError
         For a file that is missing, damaged or not what it should be.
     """
-    return FinishedRun(
+    return SolvedStudies(
         config=config,
         cases=read_table(files["cases"], Cases),
         responses=read_table(files["responses"], TyreResponses),
@@ -119,12 +119,14 @@ def read_added(path: Path) -> pd.DataFrame:
     return table
 
 
-def source_of(run: FinishedRun, study: Study, solver: str, with_added: SolverRun | None) -> Source:
-    """Gather what predictions of a study and solver rest on.
+def source_of(
+    run: SolvedStudies, study: Study, solver: str, with_added: SolverRun | None
+) -> Source:
+    """Gather what predictions of a study and solver are based on.
 
     Parameters
     ----------
-    run : FinishedRun
+    run : SolvedStudies
     study : Study
     solver : str
     with_added : SolverRun or None
@@ -166,7 +168,7 @@ def source_of(run: FinishedRun, study: Study, solver: str, with_added: SolverRun
     return replace(source, results=results.with_cases(further))
 
 
-def solver_run(run: FinishedRun, study: Study, solver: str, store: Path, cores: int) -> SolverRun:
+def solver_run(run: SolvedStudies, study: Study, solver: str, store: Path, cores: int) -> SolverRun:
     """Return how designs of a study are solved."""
     composites = run.statistics[~run.statistics["material"].isin(run.card.rubbers)]["material"]
     names = sorted(set(composites))
@@ -180,8 +182,10 @@ def solver_run(run: FinishedRun, study: Study, solver: str, store: Path, cores: 
     )
 
 
-def answer(run: FinishedRun, decision: Decision, store: Path, cores: int) -> tuple[Answer, Source]:
-    """Answer one decision, and confirm it where that is asked for.
+def answer(
+    run: SolvedStudies, decision: Decision, store: Path, cores: int
+) -> tuple[Answer, Source]:
+    """Answer one decision, and confirm it where that is requested.
 
     Raises
     ------
@@ -202,7 +206,7 @@ def answer(run: FinishedRun, decision: Decision, store: Path, cores: int) -> tup
 
 @dataclass(frozen=True)
 class Answered:
-    """Everything that a run is asked for.
+    """The answers to all decisions of a run.
 
     Parameters
     ----------
@@ -218,7 +222,7 @@ class Answered:
     problems: pd.DataFrame
 
 
-def answer_all(run: FinishedRun, store: Path, cores: int) -> Answered:
+def answer_all(run: SolvedStudies, store: Path, cores: int) -> Answered:
     """Answer all decisions of the configuration and gather the designs to be assessed.
 
     A decision that cannot be answered, an infeasible one, and one whose design was not confirmed
@@ -260,7 +264,7 @@ def _faults(one: Answer) -> Iterator[tuple[str, str]]:
 
 
 def _references(
-    run: FinishedRun, study: Study
+    run: SolvedStudies, study: Study
 ) -> tuple[list[NamedDesign], list[tuple[str, str, str, str, str]]]:
     """Gather a study's reference design by each solver that has the surface, and the refusals.
 
@@ -297,7 +301,7 @@ def _responses_of(study: Study) -> list[ResponseName]:
 def _refuse_outside(inside: bool, study: Study, values: Mapping[str, float]) -> None:
     if not inside:
         raise InputError(
-            "the reference design lies outside the solved cases",
+            "the reference design is outside the solved cases",
             column=f"studies.{study.name}.reference",
             value=dict(values),
             remedy="give a design inside the range of the levels",
@@ -308,7 +312,7 @@ def _fixed_numbers(study: Study) -> dict[str, float]:
     return {name: value for name, value in study.fixed.items() if isinstance(value, float)}
 
 
-def _ply(run: FinishedRun, study: Study) -> PlyCard | None:
+def _ply(run: SolvedStudies, study: Study) -> PlyCard | None:
     plies = run.card.plies
     if study.ply is not None:
         return plies.get(study.ply)

@@ -9,7 +9,7 @@ from scipy.optimize import minimize
 
 from nptcs.arrays import Array, Mask, Rows
 from nptcs.config.studies.goals import GoalKind
-from nptcs.decisions.evaluate import Desirability, Evaluation, Problem, desirability, nearness
+from nptcs.decisions.evaluate import DesignProblem, Desirability, Evaluation, desirability, nearness
 from nptcs.decisions.space import DesignSpace
 from nptcs.doe.whole_plates import SPACING
 
@@ -33,7 +33,7 @@ STEP = 1e-4
 
 
 @dataclass(frozen=True)
-class Found:
+class SearchResult:
     """What a search has found.
 
     Parameters
@@ -69,7 +69,9 @@ class Found:
         return float(100 * np.mean(self.acceptable))
 
 
-def search(problem: Problem, space: DesignSpace, probability: float, top: int) -> Found:
+def search(
+    problem: DesignProblem, space: DesignSpace, probability: float, top: int
+) -> SearchResult:
     """Find the designs that meet the goals best.
 
     Candidates are spread over every cell of the space (each whole number of plates). From the best
@@ -79,7 +81,7 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
 
     Parameters
     ----------
-    problem : Problem
+    problem : DesignProblem
     space : DesignSpace
     probability : float
         With which all targets and bounds must hold together.
@@ -88,7 +90,7 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
 
     Returns
     -------
-    Found
+    SearchResult
     """
     spread = [space.candidates(cell) for cell in space.cells]
     problem = problem.screened(np.vstack([points[:SCREENED] for points in spread]))
@@ -99,9 +101,9 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
         nearest = nearest_design(problem, space, candidates)
         if nearest.probability[0] < probability:
             none = chosen(candidates, np.zeros(0, dtype=int))
-            return Found(nearest, np.zeros(1), False, candidates, acceptable, none)
+            return SearchResult(nearest, np.zeros(1), False, candidates, acceptable, none)
         scale = desirability(problem, nearest)
-        return Found(nearest, scale.of(nearest), True, candidates, acceptable, nearest)
+        return SearchResult(nearest, scale.of(nearest), True, candidates, acceptable, nearest)
     accepted = chosen(candidates, np.flatnonzero(acceptable))
     scale = desirability(problem, accepted)
     promising = _promising(problem, parts, scale, probability, top)
@@ -120,10 +122,12 @@ def search(problem: Problem, space: DesignSpace, probability: float, top: int) -
     designs = chosen(pool, picked)
     everything = joined([accepted, designs])
     front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
-    return Found(designs, scale.of(designs), True, candidates, acceptable, front, note)
+    return SearchResult(designs, scale.of(designs), True, candidates, acceptable, front, note)
 
 
-def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation) -> Evaluation:
+def nearest_design(
+    problem: DesignProblem, space: DesignSpace, candidates: Evaluation
+) -> Evaluation:
     """Return the design that can be made and comes nearest to the goals.
 
     By `nearness`, improved from the best candidates (Nelder–Mead).
@@ -150,12 +154,12 @@ def nearest_design(problem: Problem, space: DesignSpace, candidates: Evaluation)
     return chosen(pool, np.array([int(nearness(problem.must_hold, pool).argmax())]))
 
 
-def rank(problem: Problem, scale: Desirability, found: Evaluation) -> Array:
+def rank(problem: DesignProblem, scale: Desirability, found: Evaluation) -> Array:
     """Order of merit: log D, or the probability where no goal has a weight."""
     return scale.logarithm(found) if scale.goals else found.probability
 
 
-def pareto(problem: Problem, found: Evaluation) -> Mask:
+def pareto(problem: DesignProblem, found: Evaluation) -> Mask:
     """Tell which designs no other one betters in all objectives; all of one are its best."""
     if not problem.objectives:
         return np.zeros(len(found.x), dtype=bool)
@@ -194,7 +198,11 @@ def chosen(found: Evaluation, places: Rows) -> Evaluation:
 
 
 def _promising(
-    problem: Problem, parts: list[Evaluation], scale: Desirability, probability: float, top: int
+    problem: DesignProblem,
+    parts: list[Evaluation],
+    scale: Desirability,
+    probability: float,
+    top: int,
 ) -> list[Evaluation]:
     """Choose the cells in which the search goes on.
 
@@ -215,7 +223,7 @@ def _promising(
 
 
 def _best_of_cell(
-    problem: Problem,
+    problem: DesignProblem,
     space: DesignSpace,
     part: Evaluation,
     scale: Desirability,
@@ -237,7 +245,11 @@ def _best_of_cell(
 
 
 def _improved(
-    problem: Problem, space: DesignSpace, start: Array, scale: Desirability, probability: float
+    problem: DesignProblem,
+    space: DesignSpace,
+    start: Array,
+    scale: Desirability,
+    probability: float,
 ) -> Array:
     """Improve a design within its cell; what comes out may be no better."""
     free = space.free
@@ -284,7 +296,11 @@ def _improved(
 
 
 def _make(
-    problem: Problem, space: DesignSpace, acceptable: Evaluation, scale: Desirability, top: int
+    problem: DesignProblem,
+    space: DesignSpace,
+    acceptable: Evaluation,
+    scale: Desirability,
+    top: int,
 ) -> Evaluation:
     """Move the best acceptable candidates to values that can be made."""
     order = np.argsort(-rank(problem, scale, acceptable), kind="stable")

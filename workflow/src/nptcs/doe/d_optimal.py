@@ -65,11 +65,6 @@ def log_determinant(matrix: Array) -> float:
     return float(value) if sign > 0 else -np.inf
 
 
-def d_efficiency(matrix: Array) -> float:
-    """Return det(XᵀX)^(1/p) / m in percent: 100 for an orthogonal design in the corners."""
-    return float(100 * np.exp(log_determinant(matrix) / matrix.shape[1]) / len(matrix))
-
-
 def _exchanged(candidates: Array, chosen: Rows) -> Rows:
     """Exchange the pair of cases that gains most, until none gains."""
     chosen = chosen.copy()

@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 from itertools import combinations, product
-from typing import Literal
 
 import numpy as np
 from scipy.stats import qmc
 
 from nptcs.arrays import Array
+from nptcs.config.studies.design import AxialCases, SpaceFillingKind
 from nptcs.errors import InputError
 
 BOX_BEHNKEN_FACTORS = (3, 4, 5)
 """Numbers of factors for which the design consists of all pairs; more need incomplete blocks."""
 
 
-def space_filling(
-    kind: Literal["latin_hypercube", "sobol"], cases: int, factors: int, seed: int
-) -> Array:
+def space_filling(kind: SpaceFillingKind, cases: int, factors: int, seed: int) -> Array:
     """Spread cases over the box, shape (cases, factors).
 
     A Latin hypercube is evened out by random exchanges that lower its centred discrepancy. Of a
@@ -32,9 +30,7 @@ def space_filling(
     return 2 * sequence.random_base2(int(np.ceil(np.log2(cases))))[:cases] - 1
 
 
-def central_composite(
-    factors: int, axial: Literal["face", "inscribed"], centre_cases: int
-) -> Array:
+def central_composite(factors: int, axial: AxialCases, centre_cases: int) -> Array:
     """Corners, axial points and centre, shape (2ⁿ + 2n + centre, n).
 
     With inscribed axial points the corners lie at 2^(-n/4), and the variance of a second-order

@@ -77,7 +77,7 @@ class TyreTarget:
 
 
 @dataclass(frozen=True)
-class Problem:
+class CalibrationProblem:
     """Everything that stays the same during a calibration."""
 
     model: FeModel
@@ -104,14 +104,16 @@ class Problem:
 
 @dataclass(frozen=True)
 class Round:
-    """One round: the section, what it gives and what was asked for."""
+    """One round: the section, what it gives and the targets."""
 
     free: Array
     spoke_stiffness: Array
     tyre_stiffness: Array
 
 
-def log_spoke_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> list[float]:
+def log_spoke_stiffness(
+    problem: CalibrationProblem, free: Array, values: Mapping[str, float]
+) -> list[float]:
     """Return ln k_t and ln k_c of the spoke of one case."""
     model = problem.with_section(free)
     spoke = SpokeModel(spoke_design(model, problem.tyre, problem.ply, values))
@@ -119,7 +121,9 @@ def log_spoke_stiffness(problem: Problem, free: Array, values: Mapping[str, floa
     return [float(np.log(fit.slope)) for fit in (result.tension_fit, result.compression_fit)]
 
 
-def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float]) -> list[float]:
+def log_tyre_stiffness(
+    problem: CalibrationProblem, free: Array, values: Mapping[str, float]
+) -> list[float]:
     """Return ln K of one case."""
     model = problem.with_section(free)
     design = spoke_design(model, problem.tyre, problem.ply, values)
@@ -132,7 +136,7 @@ def log_tyre_stiffness(problem: Problem, free: Array, values: Mapping[str, float
 Mapper = Callable[[Callable[..., Any], Iterable[Any]], Iterable[Any]]
 
 
-def _computed(problem: Problem, points: list[Array], mapper: Mapper) -> Array:
+def _computed(problem: CalibrationProblem, points: list[Array], mapper: Mapper) -> Array:
     """Logarithms of all stiffnesses at each point: array (points, 2 × spokes + tyres).
 
     Raises
@@ -148,7 +152,7 @@ def _computed(problem: Problem, points: list[Array], mapper: Mapper) -> Array:
     return np.array([row[tyres:] + row[:tyres] for row in rows])
 
 
-def _job(problem: Problem, job: tuple[Array, SpokeTarget | TyreTarget]) -> list[float]:
+def _job(problem: CalibrationProblem, job: tuple[Array, SpokeTarget | TyreTarget]) -> list[float]:
     free, target = job
     if isinstance(target, SpokeTarget):
         return log_spoke_stiffness(problem, free, target.values)
@@ -156,7 +160,7 @@ def _job(problem: Problem, job: tuple[Array, SpokeTarget | TyreTarget]) -> list[
 
 
 def calibrate(
-    problem: Problem, rounds: int, workers: int, report: Callable[[Round], None]
+    problem: CalibrationProblem, rounds: int, workers: int, report: Callable[[Round], None]
 ) -> FeModel:
     """Find the section by rounds of damped Gauss–Newton steps.
 
@@ -165,7 +169,7 @@ def calibrate(
 
     Parameters
     ----------
-    problem : Problem
+    problem : CalibrationProblem
     rounds : int
     workers : int
         Processes.
@@ -199,7 +203,9 @@ def calibrate(
     return problem.with_section(best)
 
 
-def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[Array, Array]:
+def _reach(
+    problem: CalibrationProblem, free: Array, step: Array, mapper: Mapper
+) -> tuple[Array, Array]:
     """Take a step, halved while a spoke or tyre of the new section cannot be loaded."""
     for _ in range(HALVINGS + 1):
         moved = free + step
@@ -211,7 +217,7 @@ def _reach(problem: Problem, free: Array, step: Array, mapper: Mapper) -> tuple[
     raise failure
 
 
-def _slopes(problem: Problem, free: Array, mapper: Mapper) -> Array:
+def _slopes(problem: CalibrationProblem, free: Array, mapper: Mapper) -> Array:
     """∂ ln (stiffness) / ∂ ln (dimension): array (stiffnesses, dimensions).
 
     The first tyre is solved for each dimension. The others follow from their spokes by
@@ -242,7 +248,7 @@ def _corrected(slopes: Array, step: Array, change: Array) -> Array:
     return corrected
 
 
-def _spoke_job(problem: Problem, job: tuple[Array, Mapping[str, float]]) -> list[float]:
+def _spoke_job(problem: CalibrationProblem, job: tuple[Array, Mapping[str, float]]) -> list[float]:
     return log_spoke_stiffness(problem, *job)
 
 
@@ -251,19 +257,21 @@ def _limits() -> Array:
     return limits
 
 
-def _weights(problem: Problem) -> Array:
+def _weights(problem: CalibrationProblem) -> Array:
     spokes = np.full(2 * len(problem.spokes), problem.spoke_weight)
     return np.concatenate([spokes, np.full(len(problem.tyres), problem.tyre_weight)])
 
 
-def _misfit(problem: Problem, computed: Array, moved: Array) -> Array:
+def _misfit(problem: CalibrationProblem, computed: Array, moved: Array) -> Array:
     """Weighted differences of the logarithms; the prior pulls towards the first section."""
     wanted = [k for t in problem.spokes for k in (t.tension_n_per_mm, t.compression_n_per_mm)]
     wanted += [t.stiffness_n_per_mm for t in problem.tyres]
     return np.concatenate([_weights(problem) * (computed - np.log(wanted)), problem.prior * moved])
 
 
-def _step(problem: Problem, slopes: Array, misfit: Array, free: Array, damping: float) -> Array:
+def _step(
+    problem: CalibrationProblem, slopes: Array, misfit: Array, free: Array, damping: float
+) -> Array:
     """Least squares within the limits."""
     jacobian = [
         _weights(problem)[:, None] * slopes,

@@ -71,22 +71,31 @@ def _status(
         return FileStatus.SHEET, ""
     if path is None:
         return FileStatus.MISSING, f"named for {', '.join(ids)}, but not in the folder"
-    if not ids and is_note(name):
+    if ids:
+        return _status_as_read(ids, specimens, outcomes, again)
+    if is_note(name):
         return FileStatus.NOTE, "a README is a note, not test data"
-    if not ids:
-        return FileStatus.NOT_NAMED, "no row of the sheet names it"
+    return FileStatus.NOT_NAMED, "no row of the sheet names it"
+
+
+def _status_as_read(
+    ids: list[str],
+    specimens: dict[str, Specimen],
+    outcomes: dict[str, IngestRecord],
+    again: dict[str, str],
+) -> tuple[FileStatus, str]:
+    """Say what became of a file that the sheet names for these specimens."""
     good = [id_ for id_ in ids if id_ in outcomes and outcomes[id_].understood]
     included = [id_ for id_ in good if id_ in specimens and specimens[id_].include]
-    told = [f"{id_} repeats the data of {again[id_]}" for id_ in included if id_ in again]
+    repeats = [f"{id_} repeats the data of {again[id_]}" for id_ in included if id_ in again]
     if included:
-        repeated = len(told) == len(included)
-        reason = "; ".join(told) + ", not counted again" if told else ""
-        return FileStatus.REPEATED if repeated else FileStatus.USED, reason
+        reason = "; ".join(repeats) + ", not counted again" if repeats else ""
+        all_repeat = len(repeats) == len(included)
+        return FileStatus.REPEATED if all_repeat else FileStatus.USED, reason
     if good:
-        return FileStatus.LEFT_OUT, "; ".join(
-            specimens[id_].reason for id_ in good if id_ in specimens
-        )
-    messages = [outcomes[id_].message for id_ in ids if id_ in outcomes]
+        reasons = (specimens[id_].reason for id_ in good if id_ in specimens)
+        return FileStatus.LEFT_OUT, "; ".join(reasons)
+    messages = (outcomes[id_].message for id_ in ids if id_ in outcomes)
     return FileStatus.NOT_UNDERSTOOD, "; ".join(messages) or "its row in the sheet has an error"
 
 

@@ -8,10 +8,10 @@ from pathlib import Path
 from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.folder import find_file
-from nptcs.ingest.reading.columns.quantities import Role
 from nptcs.ingest.reading.profiles import FormatProfile, choose
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.strain_fields import read_strain_fields
+from nptcs.tables.laboratory.curves import Role
 from nptcs.tables.laboratory.specimens import Specimen
 
 

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 import numpy as np
 import pandas as pd
@@ -18,6 +17,7 @@ from nptcs.ingest.conditioning.excursions import empty_excursions, empty_in_tabl
 from nptcs.ingest.conditioning.factors import apply_factors
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
+from nptcs.ingest.conditioning.saturation import cut_saturated
 from nptcs.ingest.conditioning.sensors import empty_after_removal, empty_lost_channels
 from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.conditioning.signs import orient
@@ -37,7 +37,14 @@ from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
 from nptcs.ingest.sketch import data_sketch
 from nptcs.tables.io import empty_table
-from nptcs.tables.laboratory.curves import CURVE_COLUMNS, Curve, FileRecord, Geometry, IngestRecord
+from nptcs.tables.laboratory.curves import (
+    CURVE_COLUMNS,
+    Curve,
+    FileRecord,
+    Geometry,
+    IngestRecord,
+    Role,
+)
 from nptcs.tables.laboratory.specimens import Specimen
 
 FEWEST_ROWS = 5
@@ -129,6 +136,7 @@ def ingest_specimen(
     orient(signals, specimen, strain.path, settings.signs, source)
     settle_transverse(signals, specimen, strain.columns)
     flag_tare(signals)
+    cut_saturated(signals)
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)
@@ -227,9 +235,7 @@ def _record(
     digest: str,
     sketch: tuple[int, ...],
 ) -> IngestRecord:
-    roles: tuple[Literal["force", "strain", "force and strain"], ...] = (
-        ("force", "strain") if len(tables) > 1 else ("force and strain",)
-    )
+    roles: tuple[Role, ...] = ("force", "strain") if len(tables) > 1 else ("force and strain",)
     names = (specimen.force_file, specimen.strain_file)
     return IngestRecord(
         specimen=specimen.specimen,

@@ -15,7 +15,7 @@ from nptcs.errors import InputError
 from nptcs.lca.linear.contact import LARGEST_KAPPA_ANGLE, hardness
 from nptcs.lca.linear.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
 from nptcs.lca.linear.newton import Target, by_brackets, is_solution, newton, start_angle
-from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.scaling import ScaledRing
 from nptcs.lca.linear.system import Arcs, Joined, join
 
 CHUNK = 2048
@@ -188,12 +188,12 @@ def bad_rows(table: dict[str, Floating], target: str) -> NDArray[np.object_]:
     return texts
 
 
-def scaled(table: Mapping[str, Floating]) -> Ring:
+def scaled(table: Mapping[str, Floating]) -> ScaledRing:
     """Return the dimensionless designs of a table with `DESIGN_COLUMNS`."""
     shear, radius = table["shear_stiffness_n"], table["radius_mm"]
     # R² k/GA with k = k_t N/(2πR)
     foundation = radius * table["spoke_count"] / (2 * np.pi * shear)
-    return Ring(
+    return ScaledRing(
         shear / table["axial_stiffness_n"],
         shear * radius**2 / table["bending_stiffness_n_mm2"],
         foundation * table["compression_n_per_mm"],
@@ -235,7 +235,7 @@ class Piece:
         Columns `RESULT_COLUMNS`.
     status, message : array of str, list of str
         One per row.
-    ring, arcs, joined : Ring, Arcs, Joined
+    ring, arcs, joined : ScaledRing, Arcs, Joined
         The scaled designs and their solutions.
     """
 
@@ -243,7 +243,7 @@ class Piece:
     numbers: dict[str, Floating]
     status: NDArray[np.str_]
     message: list[str]
-    ring: Ring
+    ring: ScaledRing
     arcs: Arcs
     joined: Joined
 
@@ -274,7 +274,7 @@ def solve_rows(table: dict[str, Floating], name: str) -> list[Piece]:
 
 def _finish(
     table: dict[str, Floating],
-    ring: Ring,
+    ring: ScaledRing,
     arcs: Arcs,
     target: Target,
     value: Floating,
@@ -311,7 +311,7 @@ def _finish(
     return Piece(rows, numbers, status, message, ring, arcs, joined)
 
 
-def _numbers(table: dict[str, Floating], ring: Ring, joined: Joined) -> dict[str, Floating]:
+def _numbers(table: dict[str, Floating], ring: ScaledRing, joined: Joined) -> dict[str, Floating]:
     """Return the result columns in N, mm, MPa and degrees."""
     shear, radius = table["shear_stiffness_n"], table["radius_mm"]
     displacement, load = joined.sinking[:, 0] * radius, joined.force[:, 0] * shear

@@ -10,7 +10,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from nptcs.arrays import Floating
 from nptcs.lca.linear.fields import compression_states, contact_states, tension_states
-from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.scaling import ScaledRing
 from nptcs.lca.linear.system import Arcs, Joined
 from nptcs.lca.section import RingSection
 from nptcs.lca.spokes.linear import LinearSpokes
@@ -57,7 +57,7 @@ class LcaState:
     lowest_pressure_mpa: float
     balance_residual: float
     doubts: str
-    _ring: Ring = field(repr=False)
+    _ring: ScaledRing = field(repr=False)
     _arcs: Arcs = field(repr=False)
     _joined: Joined = field(repr=False)
 

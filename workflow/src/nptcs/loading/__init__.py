@@ -1,7 +1,7 @@
-"""What the course of a test tells: its loadings, and whether the specimen failed.
+"""What the course of a test shows: its loadings, and whether the specimen failed.
 
-In come force and strain (or travel) in the order of recording, the load positive; out go the rows
-of each loading and the evidence of failure. Nothing here knows of files, standards or materials.
+Force and strain (or travel) in the order of recording come in, with the load positive; the rows of
+each loading and the evidence of failure go out. Files, standards and materials are not known here.
 """
 
 from nptcs.loading.cycles import Loading, loadings, noise_of

@@ -15,10 +15,17 @@ ABRUPT = 10.0
 """A force that falls so many times faster than it rose is not an unloading by the machine, ..."""
 SNAP = 100.0
 """... and so many times even where the strain goes back with it."""
+ELASTIC, TOO_LITTLE = 0.7, 0.5
+"""Shares of the strain that an elastic unloading gives back: from the first on it is one; below the
+second it is none, since nothing unloads twice as stiffly as it ever was."""
 UNLOADING_ROWS = 4
 """Readings over which strain and force go back together when the machine unloads."""
 SLOW_LOGGER_S = 0.4
 """Time between readings within which a machine may return: a fall in one step tells nothing."""
+_FEWEST_UP, _FEWEST_DOWN = 20, 2
+_WAY_BACK = 5
+_LATE = 1
+"""Readings by which a strain may lag behind its force."""
 TOO_FEW = "so few readings that a break and a return of the machine look alike"
 """Words for such a fall."""
 
@@ -70,6 +77,9 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
+    if not along and ratio >= ABRUPT and max(_given_back(force, strain, near, start)) < TOO_LITTLE:
+        words = f"{fell}, abruptly, and the strain goes back by less than in an unloading"
+        return Failure(seen=True, words=words)
     if change > 0.01:
         return Failure(seen=True, words=f"{fell} while the strain grows")
     if along and rows < UNLOADING_ROWS:
@@ -88,7 +98,8 @@ def unloads_along(
 
     Every reading between 85 and 15 % of the force must have a strain within 15 % of the one at
     which the loading had that force: a broken specimen has hardly any, since it breaks
-    within a reading of most loggers. Where no reading lies between, the fall in one step is a
+    within a reading of most loggers. So it is if the strain goes back by what the steepest part of
+    the loading gives for the fall of the force (`ELASTIC`): a laminate that yielded. Where no reading lies between, the fall in one step is a
     break if the strain stays behind, or the readings follow each other so fast that no machine
     returns between two of them; else the two cannot be told apart, and it is not a failure seen.
 
@@ -118,8 +129,47 @@ def unloads_along(
         if time_s is None or end >= len(force) or not time_s[end] - time_s[begin] > SLOW_LOGGER_S:
             return False
         rows = np.array([end])
+    elif len(rows) >= _FEWEST_DOWN and min(_given_back(force, strain, begin, start)) >= ELASTIC:
+        return True
     expected = np.interp(force[rows], rising, known)
     return bool((np.abs(strain[rows] - expected) <= 0.15 * abs(known[-1] - known[0])).all())
+
+
+def _given_back(force: Array, strain: Array, near: int, start: int) -> tuple[float, float]:
+    """Shares of the strain of an elastic unloading given back at the middle and end of the fall.
+
+    Elastic is the steepest stretch of the way up, by fifths of the force. The fall goes to the
+    lowest force before the next loading, within `_WAY_BACK` times the readings of the fall to
+    15 %. NaN where the strain was not read.
+    """
+    nothing = (float("nan"), float("nan"))
+    up = start + np.flatnonzero(np.isfinite(strain[start : near + 1]))
+    if len(up) < _FEWEST_UP:
+        return nothing
+    levels = force[near] * np.linspace(0.1, 0.9, 5)
+    reached = strain[up][np.searchsorted(np.maximum.accumulate(force[up]), levels)]
+    gained = np.diff(reached)
+    if not (gained > 0).any():
+        return nothing
+    steepest = 0.2 * float(force[near]) / float(gained[gained > 0].min())
+    rest = force[near:]
+    again = np.flatnonzero(rest[1:] > rest[0])
+    rest = rest[: int(again[0]) + 1] if len(again) else rest
+    below = np.flatnonzero(rest < 0.15 * rest[0])
+    # a softened rubber has lost most of its force long before its strain is back
+    window = _WAY_BACK * (int(below[0]) + 1) if len(below) else len(rest)
+    end = int(np.argmin(rest[:window]))
+    if not end:
+        return nothing
+    middle = int(np.argmax(rest <= 0.5 * (rest[0] + rest[end])))
+    before = float(strain[up[-1]])
+    shares = []
+    for row in (middle, end):
+        later = strain[near + row : near + row + 1 + _LATE]
+        later = later[np.isfinite(later)]
+        back = before - float(later.min()) if len(later) else float("nan")
+        shares.append(back * steepest / float(force[near] - rest[row]))
+    return (shares[0], shares[1]) if np.isfinite(shares).all() else nothing
 
 
 def _onset(force: Array, start: int, peak: int) -> int:

@@ -74,7 +74,7 @@ def name_of(pid: int | None = None) -> ProcessName:
 
 
 def lives(name: ProcessName) -> bool | None:
-    """Tell whether a process still runs; None where this machine cannot know."""
+    """Tell whether a process is still running; None where this machine cannot know."""
     if name.host != socket.gethostname():
         return None
     if name.boot != _boot():

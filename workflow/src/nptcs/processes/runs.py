@@ -80,8 +80,8 @@ def _lift(locks: list[Path], dead: list[Path]) -> None:
     for lock in locks:
         lock.unlink(missing_ok=True)
     print(
-        f"The run that began at {when} was killed and no process of it lives: its lock is removed, "
-        "and this run goes on where it stopped.",
+        f"The run that began at {when} was killed and none of its processes is alive: its lock is "
+        "removed, and this run continues where it stopped.",
         file=sys.stderr,
     )
 
@@ -89,8 +89,8 @@ def _lift(locks: list[Path], dead: list[Path]) -> None:
 def _name_foreign(runs: list[ProcessName | None]) -> None:
     where = ", ".join(f"{run.host} (process {run.pid})" for run in runs if run)
     print(
-        f"This folder is locked by a run on {where}, of which this machine cannot know whether it "
-        f"goes on. If it does not: {UNLOCK}, then the same command again.",
+        f"This folder is locked by a run on {where}, and this machine cannot know whether that is "
+        f"still running. If it is not: {UNLOCK}, then the same command again.",
         file=sys.stderr,
     )
 

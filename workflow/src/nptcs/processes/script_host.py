@@ -71,7 +71,7 @@ def receive(channel: Connection) -> Any:
 
 
 def start(script: str, environment: Mapping[str, str]) -> ForkProcess:
-    """Import what a script imports, so that later jobs have it as well, and run it in a fork."""
+    """Import what a script imports, so that later jobs have it too, and run it in a fork."""
     import_for(script)
     gc.freeze()  # the fork's collector leaves alone, and so unwritten, what is shared with the host
     process = multiprocessing.get_context("fork").Process(target=run, args=(script, environment))

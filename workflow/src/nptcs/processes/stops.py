@@ -67,7 +67,7 @@ def _stopping(before: Handler, again: str) -> Handler:
     def stop(number: int, frame: FrameType | None) -> None:
         print(
             "\nStopping: the running jobs are ended; all cases that were solved are kept.\n"
-            f"To go on, type the same command again:\n    {again}",
+            f"To continue, type the same command again:\n    {again}",
             file=sys.stderr,
             flush=True,
         )

@@ -34,7 +34,6 @@ DEFAULTS = {
 TURN = re.compile(r"rotate\((-?[\d.]+)")
 MOVE = re.compile(r"translate\((-?[\d.]+)[ ,]+(-?[\d.]+)\)")
 LEAVES = ("path", "use", "text")
-GEOMETRY = ("d", "x", "y", "href", "transform")
 
 
 @dataclass(frozen=True)

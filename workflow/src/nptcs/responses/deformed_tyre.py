@@ -29,7 +29,7 @@ def outlines_of_study(
     design: pd.DataFrame,
     ply: Mapping[str, float],
 ) -> pd.DataFrame:
-    """Draw the first solved one of the cases whose neutral line a study asks for.
+    """Draw the first solved one of the cases whose neutral line a study requests.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""What a designer asks of a loaded ring."""
+"""Responses of a loaded ring that a designer needs."""
 
 from __future__ import annotations
 

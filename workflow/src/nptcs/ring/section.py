@@ -1,4 +1,4 @@
-"""Cross-section of the ring: its stiffness, and where its surfaces lie.
+"""Cross-section of the ring: its stiffness, and where its surfaces are.
 
 The generalised strains of the ring are, in this order,
 

@@ -1,6 +1,6 @@
 """Finished runs as things that have an identity and can be compared.
 
 The tables, inputs, configuration and code of a run come in; its identity (a hash of their content)
-goes out, or the differences between two runs, table by table. Computed against published values is
-the room `compare`; pages and sheets are made in `report`.
+goes out, or the differences between two runs, table by table. Comparing computed with published
+values belongs to `compare`; pages and sheets are made in `report`.
 """

@@ -146,7 +146,7 @@ def _data(
     two: Quantity,
     files: tuple[Mapping[str, frozenset[str]], Mapping[str, frozenset[str]]],
 ) -> str:
-    """Say whether two constants rest on the same files, by their checksums."""
+    """Say whether two constants are based on the same files, by their checksums."""
     held = [
         {digest for name in quantity.specimens for digest in known.get(name, ())}
         for quantity, known in zip((one, two), files, strict=True)

@@ -101,7 +101,7 @@ def read_run(folder: Path, name: str, software: Mapping[str, str] | None = None)
     Raises
     ------
     InputError
-        For a folder without a finished run, and for a file that is not as the run has written it.
+        For a folder without a finished run, and for a file that was changed after the run.
     """
     results = folder / "results" if (folder / "results").is_dir() else folder
     _refuse_unfinished(results, name)
@@ -147,8 +147,8 @@ def _refuse_edited(results: Path, identity: RunIdentity) -> None:
         found = sha256_of_file(path) if file == CARD else hash_of_table(path)
         if found != written:
             raise InputError(
-                "this result is not as the run has written it: it was edited, or another run has "
-                "begun to write here",
+                "this result was changed after the run had written it: it was edited, or another "
+                "run has begun to write here",
                 _RESTORE,
                 path,
             )

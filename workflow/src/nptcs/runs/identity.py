@@ -24,7 +24,7 @@ SHORT = 12
 
 
 class RunIdentity(Strict):
-    """What a run is, by content; `made` and `software` are told, but are not part of it."""
+    """What a run is, by content; `made` and `software` are recorded, but are not part of it."""
 
     identity: str = Field(description="SHA-256 over inputs, configuration, code and tables")
     inputs: dict[str, str] = Field(description="SHA-256 of each input file")

@@ -1,4 +1,4 @@
-"""One part of a comparison: a table with one row per thing compared, and what is said of it."""
+"""One part of a comparison: a table with one row per item compared, and what is said about it."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ RESULT = "result"
 
 
 class Found(StrEnum):
-    """What was found of one thing in two runs."""
+    """What comparing one item of two runs has found."""
 
     SAME = "same"
     DIFFERENT = "different"
@@ -97,7 +97,7 @@ def counted(found: Found, count: int) -> str:
 
 
 def presence(in_a: bool, in_b: bool) -> Found | None:
-    """Tell of a thing that only one run has; None if both have it."""
+    """Name the run that alone has an item; None if both have it."""
     if in_a and in_b:
         return None
     return Found.ONLY_A if in_a else Found.ONLY_B

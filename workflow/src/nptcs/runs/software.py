@@ -19,7 +19,7 @@ PACKAGES = (
 
 
 def software_versions() -> dict[str, str]:
-    """Return the versions of nptcs, Python and the packages that numbers and pages rest on."""
+    """Return the versions of nptcs, Python and the packages that numbers and pages depend on."""
     return {
         "nptcs": __version__,
         "Python": platform.python_version(),

@@ -182,7 +182,7 @@ def _arguments(options: AbaqusOptions) -> list[str]:
 
 @contextmanager
 def _folder(keep: Path | None, case_id: str) -> Iterator[Path]:
-    """Give a folder to work in: a temporary one, or one of its own in `keep`."""
+    """Give a folder to work in: a temporary one, or a separate one in `keep`."""
     if keep is None:
         with tempfile.TemporaryDirectory(prefix="nptcs-abaqus-") as name:
             yield Path(name)

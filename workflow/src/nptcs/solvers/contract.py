@@ -21,7 +21,7 @@ from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.tables.status import Status as Status
 
 CASE_S = "Wall time that a case usually takes; decides the size and the time limit of a job"
-CASE_MEMORY = "Memory that a case may need; a job of a queue asks for it"
+CASE_MEMORY = "Memory that a case may need; a job of a queue requests it"
 
 
 class SolverOptions(Strict):
@@ -134,8 +134,8 @@ class SolverResult(BaseModel):
     )
     realised: dict[str, float] = Field(
         default_factory=dict,
-        description="Values that were really used, of those factors of which the solver can use "
-        "some values only (a whole number of plates); a factor that is not named was used as given",
+        description="Values actually used for factors of which the solver can use only some "
+        "values (a whole number of plates); a factor that is not named was used as given",
     )
     curve: dict[str, list[float]] | None = Field(
         None, description="Columns of equal length, e.g. displacement_mm and force_n"

@@ -100,7 +100,7 @@ def run_command(
 
 
 def end_all() -> None:
-    """End at once whatever commands of this process still run."""
+    """End at once all commands of this process that are still running."""
     for group in list(_groups):
         _signal(group, signal.SIGKILL)
 

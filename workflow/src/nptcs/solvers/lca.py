@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 import pandas as pd
@@ -13,7 +13,8 @@ from nptcs import lca
 from nptcs.arrays import Floating
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
-from nptcs.lca.section import section_stiffness
+from nptcs.lca.any_spokes.wheel import ContactSpokes
+from nptcs.lca.section import SectionKind, section_stiffness
 from nptcs.lca.single import REMEDIES
 from nptcs.lca.spokes.law_table import SpokeLawTable
 from nptcs.lca.spokes.stiffness_table import OutOfRangeError, SpokeStiffnessTable
@@ -40,7 +41,7 @@ NEUTRAL_LINE_DEG = np.arange(-180.0, 181.0)
 class LcaOptions(SolverOptions):
     """Options of the solver ``lca``."""
 
-    section: Literal["sandwich", "printed"] = Field(
+    section: SectionKind = Field(
         "sandwich", description="Section of the shear band: the physical one or section 3.3.3's"
     )
     spoke_stiffness_table: str = Field(
@@ -53,7 +54,7 @@ class LcaOptions(SolverOptions):
         description="CSV with spoke_c10_mpa, elongation_mm and force_n: force–displacement curves "
         "of one spoke, tension positive, that replace the two stiffnesses",
     )
-    contact_spokes: Literal["paper", "local"] = Field(
+    contact_spokes: ContactSpokes = Field(
         "paper",
         description="Spokes over the contact: all shortened by the wheel's displacement "
         "(equation 14), or each by the band's displacement at its place",

@@ -39,7 +39,7 @@ class PublishedOptions(SolverOptions):
         return {"archive": self.archive}
 
     def load_fault(self, load_n: float) -> str:
-        """Name the one load of the archive where another is asked for."""
+        """Name the only load of the archive where another one is requested."""
         if math.isclose(load_n, self.archive_load_n):
             return ""
         return f"the archive holds results at {self.archive_load_n:g} N, not at {load_n:g} N"

@@ -134,11 +134,11 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
         varied = {factor.name for factor in study.factors}
         if unseen := sorted(varied - solver.factors):
             raise InputError(
-                f"solver '{name}' cannot see {', '.join(unseen)}: its result would not change "
+                f"solver '{name}' does not use {', '.join(unseen)}: its result would not change "
                 "with it",
                 column=f"studies.{study.name}.solvers",
                 value=name,
-                remedy=f"leave '{name}' out of this study; it sees "
+                remedy=f"leave '{name}' out of this study; it uses "
                 + ", ".join(sorted(solver.factors)),
             )
         if lacking := sorted(solver.required - varied - set(study.fixed)):
@@ -150,7 +150,7 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
 
 
 def _check_responses(study: Study, solvers: Mapping[str, Solver]) -> None:
-    """Refuse what the study asks for and its solvers, together, do not give."""
+    """Refuse responses that the study requests and none of its solvers gives."""
     spokes = [name for name, solver in solvers.items() if not solver.loads_tyre]
     if spokes and study.terms:
         raise InputError(
@@ -158,7 +158,7 @@ def _check_responses(study: Study, solvers: Mapping[str, Solver]) -> None:
             "fitted",
             column=f"studies.{study.name}.solvers",
             value=", ".join(spokes),
-            remedy="leave `terms` out, or give the spokes a study of their own",
+            remedy="leave `terms` out, or put the spokes in a separate study",
         )
     if study.published_spoke_stiffness and not spokes:
         raise InputError(

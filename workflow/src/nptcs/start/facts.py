@@ -1,4 +1,4 @@
-"""Facts for the rules: found once, then read from a file until what they rest on changes."""
+"""Facts for the rules: found once, then read from a file until what they depend on changes."""
 
 from __future__ import annotations
 
@@ -100,7 +100,7 @@ def known_facts(
     inputs: Sequence[str | Path],
     find: Callable[[], Facts],
 ) -> Facts:
-    """Read the facts from a file if they rest on the same, or find them and keep them.
+    """Read the facts from a file if what they depend on is unchanged, or find and keep them.
 
     Parameters
     ----------
@@ -132,7 +132,7 @@ def known_facts(
 
 
 def keys_of(given: Mapping[str, Any], inputs: Sequence[str | Path]) -> tuple[str, str]:
-    """Hash everything that facts rest on, and what hashes of code rest on.
+    """Hash everything that facts depend on, and what hashes of code depend on.
 
     Facts rest on the values, the files, this package and the version of Python; hashes of code on
     the Python files among them and on that version, so that another configuration leaves them.

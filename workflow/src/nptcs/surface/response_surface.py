@@ -40,7 +40,7 @@ class Groups:
 
 
 def single_cases(y: Array) -> Groups:
-    """Each case is a group of its own."""
+    """Each case is a separate group."""
     return Groups(np.arange(len(y)), "a case")
 
 
@@ -83,7 +83,7 @@ class ResponseSurface(Protocol):
         ...
 
     def refit(self, x: Array, y: Array) -> Self:
-        """Fit the same surface to other cases: its terms or form kept, all parameters anew."""
+        """Fit the same surface to other cases: terms or form kept, parameters fitted again."""
         ...
 
     def groups(self) -> Groups:
@@ -122,14 +122,14 @@ def box(x: Array) -> tuple[Array, Array]:
 
 
 def inside_box(surface: ResponseSurface, x: Array) -> Mask:
-    """Tell which points, shape (m, n), lie in the box of the cases of a surface."""
+    """Tell which points, shape (m, n), are in the box of the cases of a surface."""
     lower, upper = box(surface.x)
     slack = INSIDE_TOLERANCE * (upper - lower)
     return np.asarray(((x >= lower - slack) & (x <= upper + slack)).all(axis=1))
 
 
 def predict(surface: ResponseSurface, x: Array, confidence: float = 0.95) -> Prediction:
-    """Predict with an interval, and refuse or flag what lies outside the range of validity.
+    """Predict with an interval, and refuse or flag what is outside the range of validity.
 
     Parameters
     ----------
@@ -171,7 +171,7 @@ def refuse_unusable(x: Array, y: Array, factors: Sequence[str], coefficients: in
     """
     if len(y) <= coefficients:
         raise InputError(
-            f"{len(y)} solved cases cannot carry {coefficients} terms",
+            f"{len(y)} solved cases cannot determine {coefficients} terms",
             column="terms",
             remedy="solve more cases or fit fewer terms",
         )
@@ -185,7 +185,7 @@ def refuse_unusable(x: Array, y: Array, factors: Sequence[str], coefficients: in
         raise InputError(
             "the response is the same in all cases",
             value=y[0],
-            remedy="check that the solver sees the factors of this study",
+            remedy="check that the solver uses the factors of this study",
         )
     lower, upper = box(x)
     if (lower == upper).any():

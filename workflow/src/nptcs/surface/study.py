@@ -1,4 +1,4 @@
-"""The surfaces of one study: for each solver with results, one of every kind that is asked for."""
+"""The surfaces of one study: for each solver with results, one of every requested kind."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases, solved_cases
 from nptcs.surface.diagnostics.comparison import LeftOut, leave_one_out
 from nptcs.surface.fit import Surface
-from nptcs.surface.kinds.models import Cases, fit_model, models_of
+from nptcs.surface.kinds.models import FitCases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
 from nptcs.tables.problems import Problem, problems_table
@@ -209,7 +209,7 @@ def _fits(wanted: _Wanted) -> Iterator[Fit | Problem]:
             continue
         start = time.process_time()
         try:
-            surface = fit_model(model, Cases(x, y, factors, study.terms, wanted.ply))
+            surface = fit_model(model, FitCases(x, y, factors, study.terms, wanted.ply))
         except InputError as error:
             yield _refusal(study, about if name == POLYNOMIAL else [*about, name], error)
             continue

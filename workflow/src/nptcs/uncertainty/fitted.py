@@ -21,7 +21,7 @@ from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_out
 from nptcs.surface.kinds.lamination import FACTORS as LAMINATION_FACTORS
 from nptcs.surface.kinds.lamination import Lamination
-from nptcs.surface.kinds.models import Cases, fit_model, models_of
+from nptcs.surface.kinds.models import FitCases, fit_model, models_of
 from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box
@@ -44,7 +44,7 @@ SAME_VOLUME = 1e-6
 
 @dataclass(frozen=True)
 class FittedResponse:
-    """A response with its model and what the model rests on.
+    """A response with its model and what the model is based on.
 
     Parameters
     ----------
@@ -105,7 +105,7 @@ class PlateMass:
         return np.zeros(len(x))
 
     def inside(self, x: Array) -> Mask:
-        """Tell which points lie in the box of the cases."""
+        """Tell which points are in the box of the cases."""
         return np.asarray(((x >= self.lower - 1e-9) & (x <= self.upper + 1e-9)).all(axis=1))
 
 
@@ -144,7 +144,7 @@ def fit_response(
         return _plate_mass(results, tyre)
     y = results.values(response)
     has = np.isfinite(y)
-    cases = Cases(results.points[has], y[has], results.factors, results.study.terms, ply)
+    cases = FitCases(results.points[has], y[has], results.factors, results.study.terms, ply)
     fitted = _surface(results, response, surface, cases, registry)
     lamination, no_ply = _lamination(fitted.surface, response, cases)
     effect, no_rubbers = _rubber_effect(results, response, rubbers)
@@ -166,7 +166,7 @@ def _surface(
     results: StudyResults,
     response: ResponseName,
     name: str,
-    cases: Cases,
+    cases: FitCases,
     registry: SurfaceRegistry | None,
 ) -> FittedSurface:
     """Return the stored surface of a response, or fit it to the same cases."""
@@ -234,9 +234,9 @@ def _model(results: StudyResults, surface: str) -> SurfaceModel:
 
 
 def _lamination(
-    surface: ResponseSurface, response: ResponseName, cases: Cases
+    surface: ResponseSurface, response: ResponseName, cases: FitCases
 ) -> tuple[Lamination | None, str]:
-    """Return the lamination form that tells what the ply does, or why there is none."""
+    """Return the lamination form that gives the effect of the ply, or why there is none."""
     if response.name not in STIFFNESS:
         return None, "effect of the ply not assessed: the lamination form is made for stiffness"
     own = lamination_of(surface)
@@ -254,7 +254,7 @@ def _lamination(
 def _rubber_effect(
     results: StudyResults, response: ResponseName, rubbers: StudyResults | None
 ) -> tuple[RubberEffect | None, str]:
-    """Fit the rubber study's surface of the same response, or say why it tells nothing."""
+    """Fit the rubber study's surface of the same response, or say why it gives nothing."""
     study = results.study
     nominal = {name: float(results.solved[name].iloc[0]) for name in RUBBERS if name in study.fixed}
     if not nominal:
@@ -272,7 +272,7 @@ def _rubber_effect(
     if not inside_box(surface, point)[0]:
         low, high = box(surface.x)
         return None, (
-            f"effect of the rubbers not assessed: {point[0].tolist()} lies outside study "
+            f"effect of the rubbers not assessed: {point[0].tolist()} is outside study "
             f"{rubbers.study.name} ({low.tolist()} to {high.tolist()})"
         )
     return RubberEffect(surface, nominal), ""
@@ -281,7 +281,7 @@ def _rubber_effect(
 def _fit_rubbers(rubbers: StudyResults, response: ResponseName) -> ResponseSurface:
     y = rubbers.values(response)
     has = np.isfinite(y)
-    cases = Cases(rubbers.points[has], y[has], rubbers.factors, rubbers.study.terms)
+    cases = FitCases(rubbers.points[has], y[has], rubbers.factors, rubbers.study.terms)
     return fit_model(PolynomialModel(kind="polynomial"), cases)
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
-from enum import StrEnum
 from typing import Literal, assert_never
 
 import numpy as np
@@ -17,19 +16,10 @@ from nptcs.config.studies.uncertainty import (
     Uncertainty,
 )
 from nptcs.errors import InputError
+from nptcs.tables.analysis.uncertainty import SourceKind
 from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, RubberCard
 
 RUBBERS = ("shear_band_c10_mpa", "spoke_c10_mpa")
-
-
-class SourceKind(StrEnum):
-    """Where an uncertainty comes from."""
-
-    TEST = "test"
-    STATED = "stated"
-    TOLERANCE = "tolerance"
-    SURFACE = "surface"
-    INTERACTION = "interaction"
 
 
 @dataclass(frozen=True)

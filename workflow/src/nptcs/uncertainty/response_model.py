@@ -60,7 +60,7 @@ class ResponseModel(Protocol):
         ...
 
     def inside(self, x: Array) -> Mask:
-        """Tell which points lie in the box of its cases."""
+        """Tell which points are in the box of its cases."""
         ...
 
 
@@ -152,7 +152,7 @@ class SurfaceResponse:
         return np.maximum((high - low) / 2, self.least_sd)
 
     def inside(self, x: Array) -> Mask:
-        """Tell which points lie in the box of the cases."""
+        """Tell which points are in the box of the cases."""
         return inside_box(self.surface, x)
 
     def _ply_effect(self, form: Lamination, x: Array, changes: Changes) -> Array:

@@ -1,4 +1,4 @@
-"""What predictions of a study rest on: its cases, materials, surfaces and settings."""
+"""What predictions of a study are based on: its cases, materials, surfaces and settings."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ class Materials:
 
 @dataclass(frozen=True)
 class Source:
-    """What the predictions of a study and solver rest on.
+    """What the predictions of a study and solver are based on.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ RingKind = Literal["converged", "paper_mesh"]
 AxialFreedom = Literal["free_edges", "plane_strain"]
 
 
-# fields of a section that say what it was calibrated with, and are no dimensions
+# fields of a section that are not dimensions: they say what it was calibrated with
 CALIBRATION = frozenset({"calibrated_with", "calibrated_axial"})
 
 
@@ -187,7 +187,7 @@ class EnergyTableOptions(Strict):
         ge=1e-12,
         le=1e-6,
         description="A state is accepted when the work of the next Newton step is below this part "
-        "of its energy; its tangent is right to the root of this only",
+        "of its energy; its tangent is accurate only to the square root of this",
     )
     degrees: tuple[int, int] = Field(
         (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"

@@ -21,7 +21,7 @@ class Decision(Strict):
 
     name: Name = Field(description="Name in tables and files")
     title: str = Field("", description="Heading in the report; empty: the goals in words")
-    study: str = Field("", description="The study that asks; may be left out")
+    study: str = Field("", description="The study that the decision belongs to; may be left out")
     solver: Name = Field(description="Solver whose cases are used, and which confirms the design")
     surface: str | None = Field(
         None,

@@ -9,6 +9,9 @@ from pydantic import Field
 
 from nptcs.config.base import Strict
 
+SpaceFillingKind = Literal["latin_hypercube", "sobol"]
+AxialCases = Literal["face", "inscribed"]
+
 
 class FullFactorial(Strict):
     """Every combination of the levels."""
@@ -19,7 +22,7 @@ class FullFactorial(Strict):
 class SpaceFilling(Strict):
     """Cases spread over the box between the lowest and highest level of each factor."""
 
-    kind: Literal["latin_hypercube", "sobol"] = Field(
+    kind: SpaceFillingKind = Field(
         description="latin_hypercube: covers each factor's range evenly with points far apart; "
         "sobol: a scrambled Sobol sequence, best with a power of two"
     )
@@ -36,7 +39,7 @@ class CentralComposite(Strict):
     """Corners, axial cases and centre: few cases that determine a second-order polynomial."""
 
     kind: Literal["central_composite"]
-    axial: Literal["face", "inscribed"] = Field(
+    axial: AxialCases = Field(
         "face",
         description="face: axial cases in the middle of the box's faces, corners in its corners; "
         "inscribed: axial cases there too, and corners moved inwards until the design is rotatable",

@@ -7,7 +7,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 from enum import StrEnum
-from math import inf, isfinite
+from math import inf, isfinite, nan
 from typing import assert_never
 
 from nptcs.config.studies.response import RESPONSE_KINDS, Taken
@@ -119,7 +119,7 @@ def read_goal(kind: GoalKind, text: str) -> Goal:
     Parameters
     ----------
     kind : GoalKind
-        Given by the key or the option under which the text stands.
+        Given by the key or the option under which the text is written.
     text : str
         ``NAME[=VALUE[±HALF_WIDTH]][@LOAD[N]|@DISPLACEMENTmm][*WEIGHT]``; ``+-`` and ``+/-`` are
         read as ±, ``K`` as ``secant_stiffness``.
@@ -127,7 +127,7 @@ def read_goal(kind: GoalKind, text: str) -> Goal:
     Raises
     ------
     InputError
-        Naming what is missing or too much, with an example.
+        Naming what is missing or not allowed, with an example.
 
     Examples
     --------
@@ -138,37 +138,46 @@ def read_goal(kind: GoalKind, text: str) -> Goal:
     """
     found = GOAL.match(text)
     if found is None:
-        raise _fault(kind, text, "is not a goal that can be read")
+        raise _fault(kind, text, "cannot be read")
     name = ALIASES.get(found["name"], found["name"])
     _check_response(name, found["at"] is not None, text)
     value, plus_minus, at, weight = (
-        _number(found[name]) for name in ("value", "plus_minus", "at", "weight")
+        _number(found[part]) for part in ("value", "plus_minus", "at", "weight")
     )
-    if value is None and kind in NEEDS_VALUE:
-        raise _fault(kind, text, "has no value")
-    if value is not None and kind not in NEEDS_VALUE:
-        raise _fault(kind, text, "has a value, which nothing is done with")
-    if kind is GoalKind.TARGET and plus_minus is None:
-        raise _fault(kind, text, "has no half width after ±")
-    if kind is not GoalKind.TARGET and plus_minus is not None:
-        raise _fault(kind, text, "has a half width, which only a target has")
-    for what, number in (("half width", plus_minus), ("load or displacement", at)):
-        if number is not None and not number > 0:
-            raise _fault(kind, text, f"has a {what} that is not above zero")
-    if weight is not None and weight < 0:
-        raise _fault(kind, text, "has a negative weight")
+    faults = _faults(kind, value, plus_minus, at, weight)
+    if faults:
+        raise _fault(kind, text, faults[0])
     default_weight = 0.0 if kind in NEEDS_VALUE else 1.0
     return Goal(
         kind=kind,
-        response=ResponseName(
-            name,
-            "" if at is None else f"{at:g} {found['unit'] or 'N'}",
-        ),
-        value=float("nan") if value is None else value,
-        plus_minus=float("nan") if plus_minus is None else plus_minus,
+        response=ResponseName(name, "" if at is None else f"{at:g} {found['unit'] or 'N'}"),
+        value=nan if value is None else value,
+        plus_minus=nan if plus_minus is None else plus_minus,
         weight=default_weight if weight is None else weight,
         text=text.strip(),
     )
+
+
+def _faults(
+    kind: GoalKind,
+    value: float | None,
+    plus_minus: float | None,
+    at: float | None,
+    weight: float | None,
+) -> list[str]:
+    """List what a goal of this kind lacks, and what it must not have."""
+    needs_value, is_target = kind in NEEDS_VALUE, kind is GoalKind.TARGET
+    found = {
+        "has no value": needs_value and value is None,
+        "has a value, which a goal of this kind does not use": not needs_value
+        and value is not None,
+        "has no half width after ±": is_target and plus_minus is None,
+        "has a half width, which only a target has": not is_target and plus_minus is not None,
+        "has a half width that is not above zero": plus_minus is not None and not plus_minus > 0,
+        "has a load or displacement that is not above zero": at is not None and not at > 0,
+        "has a negative weight": weight is not None and weight < 0,
+    }
+    return [fault for fault, is_so in found.items() if is_so]
 
 
 def read_goals(texts: Iterable[tuple[GoalKind, str]]) -> tuple[Goal, ...]:

@@ -68,8 +68,8 @@ class Study(Strict):
     )
     reference: dict[Name, float] = Field(
         default_factory=dict,
-        description="Reference design, a value for each factor: how uncertain its responses are "
-        "is reported; empty: none",
+        description="Reference design, a value for each factor, whose responses are reported with "
+        "their uncertainty; empty: none",
     )
     decisions: tuple[Decision, ...] = Field(
         (), description="Which design meets these goals? Answered from the study's solved cases"

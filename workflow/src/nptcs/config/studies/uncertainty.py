@@ -66,14 +66,14 @@ class Uncertainty(Strict):
     )
     rubber_study: str | None = Field(
         None,
-        description="Study whose surface tells what the rubbers do in studies that hold them "
+        description="Study whose surface gives the effect of the rubbers in studies that hold them "
         "fixed; the relative change of the response is carried over to other plates",
     )
     surface: str | None = Field(
         None,
-        description="Surface through which reference designs are assessed and decisions are "
-        "taken that name no other; empty, or in a study that has no such surface: that of the "
-        "study's surfaces with the smallest rms error at left-out cases of its stiffness",
+        description="Surface used for reference designs, and for decisions that do not name "
+        "another; if empty, or if a study has no such surface: the study's surface with the "
+        "smallest rms error at left-out cases of its stiffness",
     )
     confidence: float = Field(0.95, gt=0, lt=1, description="Confidence level of the intervals")
     samples: int = Field(

@@ -16,7 +16,7 @@ from nptcs.fe.elements.kinematics import deformation_gradient, green_strain
 
 
 @dataclass
-class Response:
+class ElementResponse:
     """What a group returns for one state: energy (N mm), forces (N) and tangents (N/mm)."""
 
     energy: float
@@ -32,7 +32,7 @@ class ElementGroup(Protocol):
         """Node numbers, array (elements, nodes)."""
         ...
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array) -> ElementResponse:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
         ...
 
@@ -49,7 +49,7 @@ class MixedGroup(ElementGroup, Protocol):
     the steps that follow.
     """
 
-    def respond(self, displacement: Array, out: Array | None = None) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """As `ElementGroup.respond`; the tangents are written into `out`, if it is given."""
         ...
 
@@ -139,11 +139,11 @@ class LinearGroup:
     def _of_strain(self, strain: Array) -> Array:
         return np.matmul(self.stiffness, strain[..., None])[..., 0]
 
-    def respond(self, displacement: Array, out: Array | None = None) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
         tangent = room_for_tangents(self.nodes, displacement) if out is None else out
         energy, force = self._response(displacement, tangent)
-        return Response(energy, force, tangent)
+        return ElementResponse(energy, force, tangent)
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the stresses eliminated as in the last `respond`."""
@@ -246,13 +246,13 @@ class RubberGroup:
         self._coupling = np.zeros((shape[0], size, shape[1]))
         self._lift = np.zeros((shape[0], size, shape[1]))
 
-    def respond(self, displacement: Array, out: Array | None = None) -> Response:
+    def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
         tangent = room_for_tangents(self.nodes, displacement) if out is None else out
         # copies of this group keep theirs
         self._eliminated(tangent.shape[1])
         energy, force = self._response(displacement, tangent)
-        return Response(energy, force, tangent)
+        return ElementResponse(energy, force, tangent)
 
     def forces(self, displacement: Array) -> tuple[float, Array]:
         """Energy and forces, the pressures eliminated as in the last `respond`.

@@ -13,7 +13,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.fe.elements.groups import Response
+from nptcs.fe.elements.groups import ElementResponse
 from nptcs.fe.spoke.mesh import ElementSet
 
 # stiffness of the springs along each line of nodes, as a multiple of the ply's transverse modulus:
@@ -54,14 +54,16 @@ class StraightGroup:
         force = np.matmul(self.bow.T, pull).reshape(len(self.nodes), -1)
         return float(np.sum(self.energies(displacement))), force
 
-    def respond(self, displacement: Array) -> Response:
+    def respond(self, displacement: Array) -> ElementResponse:
         """Energy, forces and tangents for nodal displacements (nodes, 3)."""
         stiffness = np.matmul(self.bow.T, self.spring[..., None] * self.bow)
         rows, count = self.nodes.shape
         tangent = np.zeros((rows, count, 3, count, 3))
         for axis in range(3):
             tangent[:, :, axis, :, axis] = stiffness
-        return Response(*self.forces(displacement), tangent.reshape(rows, 3 * count, 3 * count))
+        return ElementResponse(
+            *self.forces(displacement), tangent.reshape(rows, 3 * count, 3 * count)
+        )
 
 
 def straight_group(plate: ElementSet, plate_columns: int, e2_mpa: float) -> StraightGroup:

@@ -25,7 +25,7 @@ NAMES = ("elongation (mm)", "inclination β (rad)", "φ (rad)")
 
 
 class TableRangeError(ValueError):
-    """The tyre asks for a motion that the table does not cover."""
+    """The tyre needs a motion that the table does not cover."""
 
 
 @dataclass(frozen=True)

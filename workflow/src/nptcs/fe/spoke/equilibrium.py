@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.fe.elements.groups import Response
+from nptcs.fe.elements.groups import ElementResponse
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky
 from nptcs.fe.spoke.period import SpokeDesign, SpokePeriod
 
@@ -277,7 +277,7 @@ class SpokeModel(SpokePeriod):
         self,
         motion: Array,
         displacement: Array,
-        responses: list[Response],
+        responses: list[ElementResponse],
         force: Array,
         factor: BlockCholesky,
         energy: float,

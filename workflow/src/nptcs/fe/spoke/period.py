@@ -12,8 +12,8 @@ from nptcs.arrays import Array
 from nptcs.config.solvers.fe import PlateCoupling, SpokeGeometry, SpokeMesh
 from nptcs.fe.elements.groups import (
     ElementGroup,
+    ElementResponse,
     MixedGroup,
-    Response,
     element_dofs,
     room_for_tangents,
 )
@@ -89,7 +89,7 @@ class SpokePeriod:
 
     @property
     def mixed(self) -> list[MixedGroup]:
-        """Element groups with unknown stresses of their own."""
+        """Element groups whose stresses are unknowns."""
         return [*self.rubbers, *self.plates]
 
     @property
@@ -117,14 +117,14 @@ class SpokePeriod:
         curve[:, 2] = -self._arm * np.sin(phi)
         return slope.reshape(-1, 3), curve.ravel()
 
-    def _respond(self, displacement: Array) -> tuple[list[Response], Array]:
+    def _respond(self, displacement: Array) -> tuple[list[ElementResponse], Array]:
         """Responses of all groups, whose tangents last until the next call, and their forces."""
         kept = zip(self.mixed, self._tangents, strict=True)
         responses = [group.respond(displacement, out) for group, out in kept]
         responses += [group.respond(displacement) for group in self.embedding]
         return responses, self._summed([response.force for response in responses])
 
-    def _factorised(self, responses: Sequence[Response]) -> BlockCholesky:
+    def _factorised(self, responses: Sequence[ElementResponse]) -> BlockCholesky:
         """Factorise the matrix of these responses; lasts until the next call."""
         tangents = [response.tangent for response in responses]
         return BlockCholesky(self._pattern.assemble(tangents, self._entries))
@@ -140,7 +140,7 @@ class SpokePeriod:
             force += np.bincount(dofs.ravel(), part.ravel(), minlength=self._count)
         return force
 
-    def _top_product(self, responses: list[Response], slope: Array) -> Array:
+    def _top_product(self, responses: list[ElementResponse], slope: Array) -> Array:
         """Tangent times displacements of the top nodes (top dofs, n): array (all dofs, n)."""
         whole = np.zeros((self._count, slope.shape[1]))
         whole[self._top_dofs] = slope

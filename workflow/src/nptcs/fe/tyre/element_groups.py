@@ -40,7 +40,7 @@ def ring_rubbers(
 
 
 def wire_groups(ring: RingMesh, tyre: TyreGeometry) -> list[LinearGroup]:
-    """Wires in their elements: beams where these are rows of their own, else membranes."""
+    """Wires in their elements: beams where these are separate rows, else membranes."""
     area = np.pi / 4.0 * tyre.wire_diameter_mm**2
     area *= tyre.tread_width_mm / tyre.wire_pitch_mm * tyre.wire_layers / 2.0
     return [

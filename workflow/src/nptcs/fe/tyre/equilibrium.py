@@ -10,7 +10,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.solvers.fe import GroundContact, PaperMesh, TyreMesh
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.fe.elements.groups import MixedGroup, Response, element_dofs
+from nptcs.fe.elements.groups import ElementResponse, MixedGroup, element_dofs
 from nptcs.fe.matrices.cyclic import BandedPattern, folded_order
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable, TableRangeError
 from nptcs.fe.tyre.contact import Ground
@@ -130,11 +130,11 @@ class TyreModel:
         motion: Array = np.einsum("skn,sn->sk", self.foot_operator, local)
         return motion
 
-    def spoke_response(self, displacement: Array) -> Response:
+    def spoke_response(self, displacement: Array) -> ElementResponse:
         """Energy of the spokes, and their forces and tangents on the unknowns of their feet."""
         energy, push, stiff = self.table.evaluate(self.spoke_motion(displacement))
         lift = self.foot_operator.transpose(0, 2, 1)
-        return Response(
+        return ElementResponse(
             float(energy.sum()),
             np.matmul(lift, push[..., None])[..., 0],
             np.matmul(lift, np.matmul(stiff, self.foot_operator)),

@@ -102,7 +102,7 @@ def build_ring(tyre: TyreGeometry, mesh: TyreMesh | PaperMesh, foot_width_mm: fl
 
 
 def _converged_ring(tyre: TyreGeometry, mesh: TyreMesh, foot_width_mm: float) -> RingMesh:
-    """Quadratic elements that end at the feet; wires in the middle of thin rows of their own."""
+    """Quadratic elements that end at the feet; wires in the middle of separate thin rows."""
     inner, outer = band_radii(tyre)
     wires = tyre.inner_wire_diameter_mm / 2.0, tyre.outer_wire_diameter_mm / 2.0
     half, outside = mesh.wire_row_mm / 2.0, tyre.outer_diameter_mm / 2.0

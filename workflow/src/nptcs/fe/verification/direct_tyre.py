@@ -19,7 +19,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.config.solvers.fe import FeModel
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.fe.elements.groups import Response, RubberGroup
+from nptcs.fe.elements.groups import ElementResponse, RubberGroup
 from nptcs.fe.elements.lagrange import line_shape
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, solve_indefinite
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
@@ -253,7 +253,7 @@ class DirectTyre(TyreModel):
         """Displacements of ring and spokes."""
         return self._count + len(self.mesh.feet) * self.spoke.unknowns
 
-    def spoke_response(self, displacement: Array) -> Response:
+    def spoke_response(self, displacement: Array) -> ElementResponse:
         """Linearise all spokes at the ring's displacement, condensed onto their feet."""
         local = displacement[self.mesh.feet].reshape(len(self.mesh.feet), -1)
         coordinates = np.einsum("skn,sn->sk", self.foot.operators, local)
@@ -264,7 +264,7 @@ class DirectTyre(TyreModel):
         lift = self.foot.operators.transpose(0, 2, 1)
         push = np.stack([spoke.force for spoke in self.spokes])
         stiff = np.stack([spoke.tangent for spoke in self.spokes])
-        return Response(
+        return ElementResponse(
             sum(spoke.energy for spoke in self.spokes),
             np.matmul(lift, push[..., None])[..., 0],
             np.matmul(lift, np.matmul(stiff, self.foot.operators)),

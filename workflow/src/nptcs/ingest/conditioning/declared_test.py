@@ -11,37 +11,40 @@ from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.tables.laboratory.specimens import Specimen, TestType
 
-Loading = Literal["tension", "compression", "flexure"]
-WORDS: dict[Loading, re.Pattern[str]] = {
+NamedLoading = Literal["tension", "compression", "flexure"]
+WORDS: dict[NamedLoading, re.Pattern[str]] = {
     "tension": re.compile(
         r"(?i)\btens(ile|ion)|\bzug(versuch|prüf|spann|kraft|dehn)|\btraction|\btracci[oó]n"
-        r"|\btrazione|\btraç[aã]o|rozciąg|\btah(u|em|ov)|растяж|引張|拉伸"
+        r"|\btrazione|\btraç[aã]o|rozciąg|\btah(u|em|ov)|растяж|引張|拉伸|인장"
+        r"|\bçekme|\btrekproef|\bdragprov|\bhúzó|\bvetokoe"
         r"|\bD ?(3039|638|412|3518)\b|\bISO ?(527|37|14129)\b"
     ),
     "compression": re.compile(
         r"(?i)\bcompressi|\bcompress[aã]o|\bcompresi[oó]n|\bdruck(versuch|prüf|spann|kraft|belast)"
-        r"|\bstauch|ściskan|\btlak(u|em|ov)|сжати|圧縮|压缩|\bD ?(695|6641|3410|575)\b"
+        r"|\bstauch|ściskan|\btlak(u|em|ov)|сжати|圧縮|压缩|壓縮|압축"
+        r"|\bbasma|\bdrukproef|\btryckprov|\bnyomó|\bD ?(695|6641|3410|575)\b"
         r"|\bISO ?(604|14126|7743)\b"
     ),
     "flexure": re.compile(
         r"(?i)\bflexur|\bflexion|\bflexi[oó]n|\bflex[aã]o|\bflessione|\bbiege|\bbending\b"
-        r"|\b(3|4|three|four)[- ]?point|\bzginan|\bohyb|изгиб|曲げ|弯曲|\bD ?(790|7264)\b"
+        r"|\b(3|4|three|four)[- ]?point|\bzginan|\bohyb|изгиб|曲げ|弯曲|彎曲|굽힘|굴곡"
+        r"|\beğ(il)?me|\bbuigproef|\bböjprov|\bhajlító|\bD ?(790|7264)\b"
         r"|\bISO ?(178|14125)\b"
     ),
 }
 """Words and standards by which files name the loading, in the languages of the profiles."""
 _ABOUT_THE_TEST = re.compile(
     r"(?i)test|method|type|procedure|norm|standard|prüf|versuch|essai|méthode|ensayo|método|prova"
-    r"|metodo|zkouš|badani|испыт|試験|试验|方法"
+    r"|metodo|prueba|zkouš|badani|испыт|試験|试验|試驗|方法|시험|deney|proef|prov\b|provning|vizsg"
 )
 
 
-def loadings_named(texts: Iterable[str]) -> set[Loading]:
+def loadings_named(texts: Iterable[str]) -> set[NamedLoading]:
     """Collect the loadings that some texts name."""
     return {loading for text in texts for loading, words in WORDS.items() if words.search(text)}
 
 
-_IN_NAMES: dict[Loading, re.Pattern[str]] = {
+_IN_NAMES: dict[NamedLoading, re.Pattern[str]] = {
     "tension": re.compile(r"(?i)\bzug\b|\bzugprobe|\btens\b|\btracc?\b"),
     "compression": re.compile(r"(?i)\bdruck\b|\bdruckprobe|\bcomp\b|\bclc\b"),
     "flexure": re.compile(r"(?i)\bbiegung|\bbend\b|\b[34]pb\b|\bflex\b"),
@@ -49,14 +52,14 @@ _IN_NAMES: dict[Loading, re.Pattern[str]] = {
 """Words that name the loading in a file's name, but may mean another thing in a text."""
 
 
-def loadings_in_name(path: str) -> set[Loading]:
+def loadings_in_name(path: str) -> set[NamedLoading]:
     """Collect the loadings that the names of a file and its folders speak of."""
     words = re.sub(r"[_/.-]", " ", path)
     short = {loading for loading, pattern in _IN_NAMES.items() if pattern.search(words)}
     return loadings_named([path.replace("_", " ")]) | short
 
 
-def loading_of(test: TestType) -> Loading:
+def loading_of(test: TestType) -> NamedLoading:
     """Return the loading of a test of the sheet: ±45° shear is a tension test."""
     match test:
         case TestType.COMPRESSION | TestType.RUBBER_COMPRESSION:

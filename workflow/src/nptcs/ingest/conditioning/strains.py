@@ -150,16 +150,28 @@ def _single(
     """
     values = signals.values
     if "strain" in values:
-        if _follows(values["strain"], values.get("displacement")):
-            source = "crosshead"
-        return "strain", values["strain"], source
+        follows = _follows(values["strain"], values.get("displacement"))
+        return "strain", values["strain"], "crosshead" if follows else source
     for name in ("strain_xx", "strain_yy"):
         if name in values:
             return name, values[name], "dic" if source == "unspecified" else source
     if "stretch" in values:
         return "stretch", values["stretch"] - 1.0, source
+    return _of_length(signals, specimen, columns, source, compliance, path)
+
+
+def _of_length(
+    signals: Signals,
+    specimen: Specimen,
+    columns: Mapping[str, str],
+    source: str,
+    compliance: float | None,
+    path: Path,
+) -> tuple[str, Array, str]:
+    """Strain from a change of length: that of an extensometer, else the crosshead's travel."""
+    values = signals.values
     name = "extension" if "extension" in values else "displacement"
-    # a ±45° test without a camera gives nothing, but is no reason to doubt its row
+    # a ±45° test without a camera gives no strain, but that is not an error of its row
     may_lack = specimen.test.has_strength_without_strain or specimen.test.strains_alike
     if name not in values and name in columns and may_lack:
         return name, np.full(len(signals), np.nan), NO_STRAIN

@@ -14,14 +14,16 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.head_units import add_units_of_head
 from nptcs.ingest.reading.columns.labels import LabelValue, read_labels
 from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
-from nptcs.ingest.reading.columns.quantities import Role, Test, choose_test, unit_of
+from nptcs.ingest.reading.columns.quantities import Test, choose_test, unit_of
 from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
+from nptcs.ingest.reading.table_columns import Column
 from nptcs.ingest.reading.text.cells import CellSource, TextSource
 from nptcs.ingest.reading.text.clock import PlainLines
 from nptcs.ingest.reading.text.dialect import Dialect, find_dialect
 from nptcs.ingest.reading.units import VOLTS
+from nptcs.tables.laboratory.curves import Role
 
 TRUE_STRAINS = ("true strain", "logarithmic strain", "hencky strain", "wahre dehnung")
 
@@ -241,38 +243,10 @@ def _values(
     test: Test, profile: FormatProfile, path: Path, role: Role
 ) -> tuple[dict[str, Array], dict[str, str], list[str]]:
     """Read the mapped columns and bring them to base units, without rows empty in all of them."""
-    quantities = test.quantities
-    line = (
-        test.found_table.names_row
-        if test.found_table.names_row is not None
-        else test.found_table.first
-    ) + 1
-    may_assume = role == "strain" or any(column.unit for column in test.found_table.columns)
-    units, scales, notes = {}, [], []
-    if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
-        quantities = {name: column for name, column in quantities.items() if name != "time"}
-        notes.append("time: no unit, left out; nothing of one file rests on it")
-    for quantity in [name for name in ACROSS if name in quantities]:
-        try:
-            unit_of(quantity, quantities[quantity], profile, may_assume, path, line)
-        except InputError as error:
-            left = quantities[quantity]
-            quantities = {name: column for name, column in quantities.items() if column is not left}
-            notes.append(f"column '{left.name}' left out: {error.message}")
-    for quantity, column in quantities.items():
-        raw = column.unit in VOLTS and "force" not in profile.wrong_units
-        if quantity == "force" and role == "strain" and raw:
-            units[quantity] = str(column.unit)
-            scales.append(1.0)
-            notes.append(f"force: in {column.unit}, its shape pairs the files")
-            continue
-        if quantity == "force" and role == "strain" and not _has_unit("force", test, profile):
-            units[quantity] = ""
-            scales.append(1.0)
-            notes.append("force: no unit, to be told from the force file's peak")
-            continue
-        unit, scale, note = unit_of(quantity, column, profile, may_assume, path, line)
-        units[quantity] = unit
+    quantities, notes = _readable_quantities(test, profile, path, role)
+    units, scales = {}, []
+    for quantity in quantities:
+        units[quantity], scale, note = _unit_and_scale(quantity, test, profile, path, role)
         scales.append(scale)
         notes += [note] if note else []
     positions = [column.position for column in quantities.values()]
@@ -285,6 +259,42 @@ def _values(
         values = {name: readings[::-1] for name, readings in values.items()}
         notes.append("the time runs backwards: the rows were read from the last to the first")
     return values, units, notes
+
+
+def _readable_quantities(
+    test: Test, profile: FormatProfile, path: Path, role: Role
+) -> tuple[dict[str, Column], list[str]]:
+    """Leave out, with a note, a time and strains across the load whose unit is not known."""
+    quantities, notes = dict(test.quantities), []
+    if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
+        del quantities["time"]
+        notes.append("time: no unit, left out; nothing of one file rests on it")
+    for quantity in [name for name in ACROSS if name in quantities]:
+        try:
+            _unit_and_scale(quantity, test, profile, path, role)
+        except InputError as error:
+            left = test.quantities[quantity]
+            quantities = {name: column for name, column in quantities.items() if column is not left}
+            notes.append(f"column '{left.name}' left out: {error.message}")
+    return quantities, notes
+
+
+def _unit_and_scale(
+    quantity: str, test: Test, profile: FormatProfile, path: Path, role: Role
+) -> tuple[str, float, str]:
+    """Give the unit of a quantity, the factor to the base unit, and a note.
+
+    The force of a strain file only pairs it with the force file: it needs no unit of force.
+    """
+    column = test.quantities[quantity]
+    if quantity == "force" and role == "strain":
+        if column.unit in VOLTS and "force" not in profile.wrong_units:
+            return str(column.unit), 1.0, f"force: in {column.unit}, its shape pairs the files"
+        if not _has_unit("force", test, profile):
+            return "", 1.0, "force: no unit, to be told from the force file's peak"
+    found_table = test.found_table
+    may_assume = role == "strain" or any(column.unit for column in found_table.columns)
+    return unit_of(quantity, column, profile, may_assume, path, found_table.end_of_head + 1)
 
 
 def _runs_back(time: Array) -> bool:
@@ -313,11 +323,7 @@ def _has_unit(quantity: str, test: Test, profile: FormatProfile) -> bool:
 
 def head_lines(test: Test) -> tuple[str, ...]:
     """Return the filled lines above the names, at most `HEAD_LINES`, and the name of the sheet."""
-    last = (
-        test.found_table.names_row
-        if test.found_table.names_row is not None
-        else test.found_table.first
-    )
+    last = test.found_table.end_of_head
     rows = (test.source.cells(row) for row in range(max(0, last - HEAD_LINES), last))
     lines = (" ".join(cell for cell in cells if cell) for cells in rows)
     return tuple(line for line in (test.source.part, *lines) if line)
@@ -327,13 +333,5 @@ def header_labels(
     test: Test, profile: FormatProfile, dialect: Dialect | None
 ) -> dict[str, LabelValue]:
     """Header entries; in a text the header may use another delimiter than the table."""
-    last = (
-        test.found_table.names_row
-        if test.found_table.names_row is not None
-        else test.found_table.first
-    )
-    if dialect is None:
-        rows = [test.source.cells(row) for row in range(last)]
-        return read_labels(rows, profile, Dialect("\t", "."))
-    rows = [test.source.cells(row) for row in range(last)]
-    return read_labels(rows, profile, dialect)
+    rows = [test.source.cells(row) for row in range(test.found_table.end_of_head)]
+    return read_labels(rows, profile, dialect or Dialect("\t", "."))

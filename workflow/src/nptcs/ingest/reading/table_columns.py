@@ -50,6 +50,11 @@ class FoundTable:
     unnamed_at_end: int = 0
     broken: list[int] = field(default_factory=list)
 
+    @property
+    def end_of_head(self) -> int:
+        """Row of the names; of the first readings where there are no names."""
+        return self.first if self.names_row is None else self.names_row
+
 
 def describe_columns(
     found_table: FoundTable, above: Sequence[tuple[int, list[str]]], unnamed: str

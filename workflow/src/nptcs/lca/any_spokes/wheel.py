@@ -27,7 +27,7 @@ from nptcs.lca.any_spokes.collocation import (
 from nptcs.lca.section import RingSection
 from nptcs.lca.spokes.law import SpokeLaw
 
-ContactSpokes = Literal["local", "paper"]
+ContactSpokes = Literal["paper", "local"]
 _WIDEST, _MOST = 0.08, 600
 """Widest element (radians) and most elements on half a wheel."""
 _FEW_POINTS = 50
@@ -43,7 +43,7 @@ class Wheel:
     Parameters
     ----------
     section, law : RingSection, SpokeLaw
-        Ring and spokes.
+        ScaledRing and spokes.
     contact : {"local", "paper"}
         How the contact region's spokes act; single spokes act locally.
     spoke_angles : array, optional

@@ -9,7 +9,7 @@ import numpy as np
 
 from nptcs.arrays import Floating
 from nptcs.lca.linear.fields import ground_pressure, radial_displacements
-from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.scaling import ScaledRing
 from nptcs.lca.linear.system import SINKING, Arcs, Joined
 
 _COMPRESSION_POINTS, _TENSION_POINTS = 20, 48
@@ -41,7 +41,7 @@ class Diagnosis:
     lowest_pressure: Floating
 
 
-def diagnose(ring: Ring, arcs: Arcs, joined: Joined) -> Diagnosis:
+def diagnose(ring: ScaledRing, arcs: Arcs, joined: Joined) -> Diagnosis:
     """Check n solved designs by Gauss quadrature of the spoke forces."""
     theta_c, theta_t = joined.contact_angle, joined.transition_angle
     near, near_weights = _gauss(theta_c, theta_t, _COMPRESSION_POINTS)

@@ -7,7 +7,7 @@ from numpy.polynomial import chebyshev
 
 from nptcs.arrays import Floating
 from nptcs.lca.linear.contact import rule
-from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.scaling import ScaledRing
 from nptcs.lca.linear.system import (
     COMPRESSION_UNKNOWNS,
     CONSTANT,
@@ -73,7 +73,7 @@ def ground_pressure(joined: Joined) -> Floating:
     return np.asarray(contact_vertical(joined) @ slope.T / joined.contact_angle[:, None])
 
 
-def contact_states(ring: Ring, joined: Joined, theta: Floating) -> tuple[Floating, Floating]:
+def contact_states(ring: ScaledRing, joined: Joined, theta: Floating) -> tuple[Floating, Floating]:
     """States (points, 6) and pressure b R q/GA in the contact region of a single design."""
     vertical = contact_vertical(joined)[0]
     r = rule(len(vertical))

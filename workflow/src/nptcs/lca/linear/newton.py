@@ -14,7 +14,7 @@ from typing import Literal, assert_never
 import numpy as np
 
 from nptcs.arrays import Floating, Mask
-from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.scaling import ScaledRing
 from nptcs.lca.linear.system import Arcs, Joined, join
 
 Target = Literal["force", "sinking", "contact_angle"]
@@ -39,12 +39,12 @@ class Angles:
     found: Mask
 
 
-def first_guess(ring: Ring, force: Floating) -> Floating:
+def first_guess(ring: ScaledRing, force: Floating) -> Floating:
     """Contact angle at which the ring alone carries most of the force F/GA."""
     return np.asarray(np.arctan(force / 2 * (1 + ring.compression * force) ** -0.25))
 
 
-def _first_transition(ring: Ring, theta_c: Floating) -> Floating:
+def _first_transition(ring: ScaledRing, theta_c: Floating) -> Floating:
     """Transition angle to start from; near the bending length of the foundation."""
     stiffness = (1 + ring.tension) * (1 + ring.compression)
     return np.minimum(theta_c + 1.35 * stiffness**-0.18, 0.5 * (np.pi + theta_c))
@@ -81,12 +81,14 @@ def _step(joined: Joined, misfit: Floating) -> tuple[Floating, Floating]:
     return by_c, np.clip(by_t, -0.5 * (theta_t - theta_c), 0.5 * (np.pi - theta_t))
 
 
-def newton(ring: Ring, arcs: Arcs, target: Target, value: Floating, theta_c: Floating) -> Angles:
+def newton(
+    ring: ScaledRing, arcs: Arcs, target: Target, value: Floating, theta_c: Floating
+) -> Angles:
     """Run Newton's method on all designs; those that have converged leave the set.
 
     Parameters
     ----------
-    ring, arcs : Ring, Arcs
+    ring, arcs : ScaledRing, Arcs
         n designs.
     target : {"force", "sinking", "contact_angle"}
         What is given: F/GA, δ/R or θc (radians).
@@ -138,7 +140,7 @@ def _bracketed(
     return x
 
 
-def transition_for(ring: Ring, arcs: Arcs, theta_c: Floating) -> Floating:
+def transition_for(ring: ScaledRing, arcs: Arcs, theta_c: Floating) -> Floating:
     """θt of given contact angles, by brackets."""
 
     def function(theta_t: Floating) -> tuple[Floating, Floating]:
@@ -150,7 +152,7 @@ def transition_for(ring: Ring, arcs: Arcs, theta_c: Floating) -> Floating:
 
 
 def by_brackets(
-    ring: Ring, arcs: Arcs, target: Target, value: Floating
+    ring: ScaledRing, arcs: Arcs, target: Target, value: Floating
 ) -> tuple[Floating, Floating]:
     """Find θc and θt with nested brackets; slow but safe, for the few that need it."""
     match target:
@@ -170,7 +172,7 @@ def by_brackets(
     return theta_c, transition_for(ring, arcs, theta_c)
 
 
-def start_angle(ring: Ring, target: Target, value: Floating) -> Floating:
+def start_angle(ring: ScaledRing, target: Target, value: Floating) -> Floating:
     """Contact angle to start from for a given target."""
     match target:
         case "contact_angle":

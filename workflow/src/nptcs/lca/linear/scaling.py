@@ -20,7 +20,7 @@ from nptcs.arrays import Floating, Mask, Rows
 
 
 @dataclass(frozen=True)
-class Ring:
+class ScaledRing:
     """Dimensionless designs; each field has shape ``(n,)``.
 
     Parameters
@@ -38,15 +38,15 @@ class Ring:
     compression: Floating
     tension: Floating
 
-    def take(self, rows: Rows | Mask) -> Ring:
+    def take(self, rows: Rows | Mask) -> ScaledRing:
         """Return the designs of some rows."""
-        return Ring(
+        return ScaledRing(
             self.epsilon[rows], self.kappa2[rows], self.compression[rows], self.tension[rows]
         )
 
-    def repeat(self, times: int) -> Ring:
+    def repeat(self, times: int) -> ScaledRing:
         """Return each design `times` times over, in blocks."""
-        return Ring(
+        return ScaledRing(
             np.repeat(self.epsilon, times),
             np.repeat(self.kappa2, times),
             np.repeat(self.compression, times),

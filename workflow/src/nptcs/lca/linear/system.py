@@ -15,7 +15,7 @@ import numpy as np
 from nptcs.arrays import Floating, Rows
 from nptcs.lca.linear.arc import Foundation
 from nptcs.lca.linear.contact import Contact, solve_contact
-from nptcs.lca.linear.scaling import Ring
+from nptcs.lca.linear.scaling import ScaledRing
 
 UNKNOWNS = 11
 COMPRESSION, ROTATION, TENSION, CONSTANT = slice(0, 4), 4, slice(5, 7), 7
@@ -32,7 +32,7 @@ class Arcs:
     tension: Foundation
 
     @classmethod
-    def of(cls, ring: Ring) -> Arcs:
+    def of(cls, ring: ScaledRing) -> Arcs:
         """Solve the characteristic equations of both arcs."""
         return cls(
             Foundation.of(ring.compression, ring.epsilon, ring.kappa2),
@@ -116,7 +116,7 @@ def _dot(columns: Floating, coefficients: Floating) -> Floating:
 
 
 def join(
-    ring: Ring, arcs: Arcs, theta_c: Floating, theta_t: Floating, points: int | None = None
+    ring: ScaledRing, arcs: Arcs, theta_c: Floating, theta_t: Floating, points: int | None = None
 ) -> Joined:
     """Solve n designs for given angles θc < θt (radians), with derivatives by both.
 

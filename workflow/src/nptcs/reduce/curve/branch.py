@@ -121,7 +121,7 @@ def _chosen(
 
 
 def _envelope(stress: Array, strain: Array, found: list[Loading]) -> Rows:
-    """Rows of all loadings that lie beyond the strain reached before: the virgin curve.
+    """Rows of all loadings beyond the strain reached before: the virgin curve.
 
     Without a strain there, the force decides.
     """

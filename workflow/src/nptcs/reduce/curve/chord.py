@@ -26,7 +26,7 @@ class Line:
 
 @dataclass(frozen=True)
 class Chord:
-    """Slope over a range and what it rests on.
+    """Slope over a range and the points it is based on.
 
     Parameters
     ----------
@@ -188,7 +188,7 @@ Ends = Callable[[Array, Array, float, float, float], tuple[Point, Point, int, tu
 
 
 def _ends(method: ChordMethod, tolerance: float) -> tuple[Ends | None, float]:
-    """Return the finder of the two ends (None: regression) and how far they may lie outside."""
+    """Return the finder of the two ends (None: regression) and how far outside they may be."""
     match method:
         case "nearest_points":
             return _nearest_ends, tolerance

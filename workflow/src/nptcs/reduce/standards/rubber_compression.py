@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import assert_never
+
 import numpy as np
 import pandas as pd
 
@@ -9,12 +11,11 @@ from nptcs.arrays import Array
 from nptcs.config.materials.reduction import RubberCompressionRules
 from nptcs.reduce.rows import Property, finite_pair
 from nptcs.reduce.standards.rubber import stress_at
-
-UNIFORM = "lubricated"
+from nptcs.tables.laboratory.specimen import Platens
 
 
 def reduce_rubber_compression(
-    branch: pd.DataFrame, rules: RubberCompressionRules, platens: str
+    branch: pd.DataFrame, rules: RubberCompressionRules, platens: Platens
 ) -> list[Property]:
     """Stress at given compressions and the secant modulus stress over strain there.
 
@@ -29,7 +30,7 @@ def reduce_rubber_compression(
     rules : RubberCompressionRules
         Section of the standard in force.
     platens : str
-        "lubricated", "dry", "bonded", or empty where the sheet does not say.
+        As the sheet has it; empty where it does not say.
     """
     strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
     rows: list[Property] = []
@@ -47,9 +48,23 @@ def _secant(at: Property, percent: float, strain: Array, rules: RubberCompressio
     return Property(name, value, "MPa", rule, points=points, flags=at.flags)
 
 
-def _platen_words(platens: str) -> list[str]:
-    if platens == UNIFORM:
-        return []
-    if not platens:
+def disc_barrels(platens: Platens) -> bool | None:
+    """Tell whether friction makes a disc barrel; None where the sheet does not say."""
+    match platens:
+        case "lubricated":
+            return False
+        case "dry" | "bonded":
+            return True
+        case "":
+            return None
+        case _:
+            assert_never(platens)
+
+
+def _platen_words(platens: Platens) -> list[str]:
+    barrels = disc_barrels(platens)
+    if barrels is None:
         return ["lubrication of the platens not stated: friction stiffens the disc"]
-    return [f"{platens} platens: value of the disc and its shape, not of the material"]
+    if barrels:
+        return [f"{platens} platens: value of the disc and its shape, not of the material"]
+    return []

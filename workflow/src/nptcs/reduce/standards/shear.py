@@ -62,7 +62,7 @@ def shear_curve(branch: pd.DataFrame) -> tuple[Array, Array]:
 
 
 def chord_deviations(chord: Chord, rules: ShearRules) -> list[str]:
-    """Words where the recorded chord lies outside what the standard allows."""
+    """Words where the recorded chord is outside what the standard allows."""
     flags = []
     limits = (
         ("starts at", chord.x_low, rules.chord_start),

@@ -21,7 +21,7 @@ from nptcs.tables.analysis.decisions import (
     DecisionConfirmation,
     DecisionDesigns,
     Decisions,
-    Outcome,
+    DecisionStatus,
 )
 from nptcs.tables.result_table import ReportSection
 
@@ -54,7 +54,7 @@ def _finding(results: Results, row: Row) -> Finding:
     labels = factor_headings([study])
     asked = tr(_decision(results, row).title) or in_words(str(row["goals"]), labels)
     design = in_words(str(row["design"]), labels)
-    outcome: Outcome = row["status"]
+    outcome: DecisionStatus = row["status"]
     match outcome:
         case "feasible":
             answer, sentence = design, _chosen(results, row, asked)

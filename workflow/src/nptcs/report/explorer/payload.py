@@ -45,9 +45,6 @@ LABELS = {
 WANTED = ("contact_length", "plate_largest_mises", "plate_mass")
 """Responses that a reader looks for besides the stiffness: those not fitted are named."""
 
-HALF_BAND = 0.02
-"""Half width of the target band, as a share of the stiffness, where no decision names a target."""
-
 SECANT = "secant_stiffness"
 
 Plain = dict[str, Any]

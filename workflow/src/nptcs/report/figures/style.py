@@ -133,11 +133,6 @@ def line_look(number: int) -> dict[str, Any]:
     return {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
 
 
-def dashed_look(number: int) -> dict[str, Any]:
-    """Colour and dash of a figure's line of that number, from 0, for lines with many points."""
-    return {"color": COLOURS[number % len(COLOURS)], "linestyle": DASHES[number % len(DASHES)]}
-
-
 def mark_synthetic(figure: Figure, synthetic: bool) -> None:
     """Write above the axes that a figure shows synthetic data, where the title leaves room."""
     if not synthetic:

@@ -26,11 +26,11 @@ SENTENCES = (
     translatable("row {row} of {file}"),
     # surfaces
     translatable("solve more cases or fit fewer terms"),
-    translatable("{cases} solved cases cannot carry {terms} terms"),
+    translatable("{cases} solved cases cannot determine {terms} terms"),
     translatable("solved cases have no response to fit"),
     translatable("fit surfaces to solvers that give the vertical stiffness"),
     translatable("the response is the same in all cases"),
-    translatable("check that the solver sees the factors of this study"),
+    translatable("check that the solver uses the factors of this study"),
     translatable("only one level of a factor has results"),
     translatable("solve cases at two levels or more, or leave the factor out"),
     translatable(
@@ -44,12 +44,12 @@ SENTENCES = (
     translatable("use the identity link for this response"),
     translatable("leave this surface out, or change its mean"),
     translatable("no surface from so few cases: {counts}"),
-    translatable("this distribution lies outside the cases ({low} to {high})"),
+    translatable("this distribution is outside the cases ({low} to {high})"),
     translatable("give a distribution inside the range of the levels"),
     # uncertainty and decisions
     translatable("no case of study {study} by {solver} is solved"),
     translatable("see cases.csv for what failed"),
-    translatable("the reference design lies outside the solved cases"),
+    translatable("the reference design is outside the solved cases"),
     translatable("give a design inside the range of the levels"),
     translatable("no whole number of plates lies between the spacings of the cases"),
     translatable("solve cases over a wider range of spacings"),

@@ -33,7 +33,7 @@ from nptcs.report.workbook.cells import (
 )
 from nptcs.report.workbook.layout import fit_heights, page_for_print
 from nptcs.report.workbook.number_formats import format_of_number
-from nptcs.tables.analysis.decisions import DecisionConfirmation, Decisions, Outcome
+from nptcs.tables.analysis.decisions import DecisionConfirmation, Decisions, DecisionStatus
 from nptcs.tables.analysis.uncertainty import ResponseUncertainty
 from nptcs.tables.published.stiffness import StiffnessErrors
 
@@ -215,7 +215,7 @@ def _trust(results: Results) -> Iterator[Answer]:
         )
 
 
-def _outcome(status: Outcome, text: str) -> str:
+def _outcome(status: DecisionStatus, text: str) -> str:
     """Say what a decision came to: its design, the nearest one, or why it was refused."""
     match status:
         case "feasible":

@@ -16,9 +16,18 @@ HAS_NUMBA = find_spec("numba") is not None
 
 def compilable(function: Function) -> Function:
     """Mark a function that compiled code may call; plain Python calls it unchanged."""
+    return _marked(function, forceinline=False)
+
+
+def compiled_inline(function: Function) -> Function:
+    """Mark a function as `compilable` does, and have its code repeated wherever it is called."""
+    return _marked(function, forceinline=True)
+
+
+def _marked(function: Function, forceinline: bool) -> Function:
     if not HAS_NUMBA:
         return function
     from numba.extending import register_jitable
 
-    marked: Function = register_jitable(function)
+    marked: Function = register_jitable(forceinline=forceinline)(function)
     return marked

@@ -59,7 +59,7 @@ class SpokePolynomial:
         return cls(table.height_mm, table.low, table.high, table.narrowing, dense, sides)
 
     def outside(self, coordinates: Array) -> str:
-        """Say which coordinate (spokes, 3) lies outside the range; empty if none does."""
+        """Say which coordinate (spokes, 3) is outside the range; empty if none is."""
         part = 1.0 - (1.0 - self.narrowing) * np.clip(coordinates[:, 0] / self.low[0], 0.0, 1.0)
         shrink = np.stack([np.ones_like(part), part, part], axis=1)
         low, high = self.low * shrink, self.high * shrink

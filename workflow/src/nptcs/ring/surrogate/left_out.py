@@ -61,7 +61,7 @@ def left_out_spokes(
     band_c10_mpa: float = 5.0,
     seed: int = 0,
 ) -> LeftOutSpokes:
-    """Leave out a tenth of the spokes at a time; the kernels are kept, all else is fitted anew."""
+    """Leave out a tenth of the spokes at a time; the kernels are kept, all else is fitted again."""
     count = len(surrogate.tables)
     fold = np.random.default_rng(seed).permutation(np.arange(count) % FOLDS)
     percent = np.full((count, len(LOADS_N)), np.nan)

@@ -49,7 +49,7 @@ class PredictedSpokes:
     def displacement_error_mm(
         self, row: Mapping[str, Any], tyre: RingTyre, states: Sequence[RingState], factor: float
     ) -> float:
-        """Return the standard error of the last displacement, NaN where it was not asked for."""
+        """Return the standard error of the last displacement, NaN where it was not requested."""
         if not self.with_errors:
             return float("nan")
         return displacement_error_mm(tyre, states, self._predicted(row), factor)

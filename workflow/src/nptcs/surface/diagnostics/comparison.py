@@ -93,7 +93,7 @@ class LevelError:
 
 
 def leave_one_out(surface: ResponseSurface) -> LeftOut:
-    """Fit the surface again without each group of cases, all parameters anew, and predict them.
+    """Fit the surface again without each group of cases, with all parameters, and predict them.
 
     A group is a single case, or all cases that the kind of surface says belong together
     (`ResponseSurface.groups`): leaving one of them out would test nothing.

@@ -18,7 +18,7 @@ from nptcs.terms import parse
 MANY_VALUES = 10
 """A factor with more values than this is shown by quarters of its range."""
 
-NO_TERMS = "no surface is asked for"
+NO_TERMS = "no surface is requested"
 
 
 @dataclass(frozen=True)
@@ -78,7 +78,7 @@ def estimable(solved: pd.DataFrame, planned: Planned) -> str:
     if len(solved) < planned.least_cases:
         return (
             f"no surface: {len(solved)} of {len(planned.design)} cases solved, at least "
-            f"{planned.least_cases} are asked for"
+            f"{planned.least_cases} are required"
         )
     x = solved[list(planned.factors)].to_numpy(float)
     lower, upper = box(x)
@@ -95,7 +95,7 @@ def estimable(solved: pd.DataFrame, planned: Planned) -> str:
 
 
 def _levels(values: pd.Series) -> pd.Series:
-    """Name the level of each case, or the quarter of the range that it lies in."""
+    """Name the level of each case, or the quarter of the range that it is in."""
     if values.nunique() <= MANY_VALUES:
         return values.map("{:.6g}".format)
     low, high = values.min(), values.max()

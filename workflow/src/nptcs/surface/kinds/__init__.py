@@ -2,5 +2,5 @@
 
 Cases and the settings of a kind come in (`models.fit_model`); a surface that predicts with an
 interval goes out. The polynomial itself is in `surface.fit`, the choice of its terms in
-`selection`; what is said of a surface is in `diagnostics`.
+`selection`; how far it can be trusted, in `diagnostics`.
 """

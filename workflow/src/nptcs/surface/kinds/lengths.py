@@ -17,7 +17,7 @@ from sklearn.gaussian_process.kernels import Kernel
 from nptcs.arrays import Array
 
 AS_LIKELY = 0.5
-"""Fall of the log likelihood that is no evidence: that of one standard error of a length."""
+"""Fall of the log likelihood that is not evidence: that of one standard error of a length."""
 
 
 def lengths_as_likely(kernel: Kernel, points: Array, residual: Array, nugget: float) -> Array:

@@ -31,7 +31,7 @@ MOST_PROCESS_CASES = 2000
 
 
 @dataclass(frozen=True)
-class Cases:
+class FitCases:
     """What a surface is fitted to.
 
     Parameters
@@ -59,7 +59,7 @@ def models_of(study: Study) -> dict[str, SurfaceModel]:
     return {name_of(model): model for model in [*first, *study.surfaces]}
 
 
-def fit_model(model: SurfaceModel, cases: Cases) -> ResponseSurface:
+def fit_model(model: SurfaceModel, cases: FitCases) -> ResponseSurface:
     """Fit the surface that the configuration describes.
 
     Raises
@@ -80,7 +80,7 @@ def fit_model(model: SurfaceModel, cases: Cases) -> ResponseSurface:
             assert_never(model)
 
 
-def _polynomial(model: PolynomialModel, cases: Cases) -> Surface | LinkedSurface:
+def _polynomial(model: PolynomialModel, cases: FitCases) -> Surface | LinkedSurface:
     terms = model.terms or cases.terms
     polynomial = parse(terms, cases.factors, model.through_origin)
     if model.choose != "as_given":
@@ -90,11 +90,11 @@ def _polynomial(model: PolynomialModel, cases: Cases) -> Surface | LinkedSurface
     return fit_linked(model.link, cases.x, cases.y, polynomial, model.through_origin)
 
 
-def _lamination(model: LaminationModel, cases: Cases) -> Lamination:
+def _lamination(model: LaminationModel, cases: FitCases) -> Lamination:
     return fit_lamination(cases.x, cases.y, cases.factors, cases.ply, model.coefficients)
 
 
-def _process(model: GaussianProcessModel, cases: Cases) -> GaussianProcess:
+def _process(model: GaussianProcessModel, cases: FitCases) -> GaussianProcess:
     if len(cases.y) > MOST_PROCESS_CASES:
         raise InputError(
             f"a Gaussian process is not fitted to {len(cases.y):,} cases: its time grows with the "
@@ -107,7 +107,7 @@ def _process(model: GaussianProcessModel, cases: Cases) -> GaussianProcess:
     return fit_process(cases.x, cases.y, tuple(cases.factors), fit_mean)
 
 
-def _mean(model: PolynomialModel | LaminationModel, cases: Cases) -> Mean:
+def _mean(model: PolynomialModel | LaminationModel, cases: FitCases) -> Mean:
     match model:
         case PolynomialModel():
             return _polynomial(model, cases)

@@ -156,7 +156,7 @@ class SpokeProcess:
         return (np.exp(low), np.exp(high)) if self.logarithmic else (low, high)
 
     def refit(self, x: Array, y: Array) -> SpokeProcess:
-        """Fit to other cases; the hyperparameters are kept, all else is fitted anew."""
+        """Fit to other cases; the hyperparameters are kept, all else is fitted again."""
         other = SpokeProcess(self.factor_names, x, y, self.ply, self.degree, self.theta)
         return other.checked()
 
@@ -198,8 +198,8 @@ class SpokeProcess:
                     f"{name} {value:.6g}" for name, value in zip(SPOKE, design, strict=True)
                 )
                 raise InputError(
-                    f"a spoke has {len(own)} solved cases, which do not carry the {own.shape[1]} "
-                    "terms of its polynomial",
+                    f"a spoke has {len(own)} solved cases, which cannot determine the "
+                    f"{own.shape[1]} terms of its polynomial",
                     column="surfaces",
                     specimen=values,
                     remedy="solve more cases on each spoke, lower the degree, or narrow the range "

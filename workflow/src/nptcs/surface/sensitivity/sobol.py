@@ -23,7 +23,7 @@ RESAMPLES = 200
 
 
 @dataclass(frozen=True)
-class Inputs:
+class FactorDistribution:
     """One factor as it is sampled.
 
     Parameters
@@ -75,7 +75,9 @@ class Indices:
     samples: int
 
 
-def inputs_of(factor: str, low: float, high: float, given: Distribution | None) -> Inputs:
+def inputs_of(
+    factor: str, low: float, high: float, given: Distribution | None
+) -> FactorDistribution:
     """Return how a factor is sampled: uniform over its range, or as given, cut to the range.
 
     Raises
@@ -86,7 +88,9 @@ def inputs_of(factor: str, low: float, high: float, given: Distribution | None) 
     bounds: tuple[float, ...]
     match given:
         case None:
-            return Inputs(low, high, "unif", (low, high), f"uniform {low:.6g} to {high:.6g}")
+            return FactorDistribution(
+                low, high, "unif", (low, high), f"uniform {low:.6g} to {high:.6g}"
+            )
         case UniformFactor():
             bottom, top = max(low, given.low), min(high, given.high)
             inside = max(top - bottom, 0.0) / (given.high - given.low)
@@ -102,17 +106,17 @@ def inputs_of(factor: str, low: float, high: float, given: Distribution | None) 
             assert_never(given)
     if inside < 0.01:
         raise InputError(
-            f"this distribution lies outside the cases ({low:g} to {high:g})",
+            f"this distribution is outside the cases ({low:g} to {high:g})",
             column=f"sensitivity.distributions.{factor}",
             value=words,
             remedy="give a distribution inside the range of the levels",
         )
-    return Inputs(bottom, top, kind, bounds, words, 100 * (1 - inside))
+    return FactorDistribution(bottom, top, kind, bounds, words, 100 * (1 - inside))
 
 
 def sobol_indices(
     predict: Callable[[Array], Array],
-    inputs: Mapping[str, Inputs],
+    inputs: Mapping[str, FactorDistribution],
     settings: Sobol,
     interactions: bool = True,
 ) -> Indices:
@@ -122,7 +126,7 @@ def sobol_indices(
     ----------
     predict : callable
         Points of shape (m, n) → responses of shape (m,).
-    inputs : mapping of str to Inputs
+    inputs : mapping of str to FactorDistribution
         The n factors in the order of the columns of the points.
     settings : Sobol
         Points, confidence and seed.
@@ -168,7 +172,10 @@ def sobol_indices(
 
 
 def main_effect(
-    predict: Callable[[Array], Array], inputs: Sequence[Inputs], axis: int, settings: Sobol
+    predict: Callable[[Array], Array],
+    inputs: Sequence[FactorDistribution],
+    axis: int,
+    settings: Sobol,
 ) -> tuple[Array, Array]:
     """Mean of the response over all other factors at values of one, less its overall mean.
 
@@ -190,7 +197,7 @@ def main_effect(
 
 @lru_cache(maxsize=8)
 def _points(
-    inputs: tuple[tuple[str, Inputs], ...], count: int, seed: int, interactions: bool
+    inputs: tuple[tuple[str, FactorDistribution], ...], count: int, seed: int, interactions: bool
 ) -> Array:
     """Saltelli's sample of these inputs, which the surfaces of a solver share."""  # noqa: D401
     sample: Array = sobol_sample.sample(
@@ -200,7 +207,7 @@ def _points(
     return sample
 
 
-def _problem(inputs: tuple[tuple[str, Inputs], ...]) -> dict[str, Any]:
+def _problem(inputs: tuple[tuple[str, FactorDistribution], ...]) -> dict[str, Any]:
     """Describe the inputs as SALib does."""
     return {
         "num_vars": len(inputs),

@@ -11,7 +11,13 @@ import pandas as pd
 from nptcs.config.studies.sensitivity import Sensitivity
 from nptcs.errors import InputError
 from nptcs.surface.response_surface import ResponseSurface, box
-from nptcs.surface.sensitivity.sobol import Indices, Inputs, inputs_of, main_effect, sobol_indices
+from nptcs.surface.sensitivity.sobol import (
+    FactorDistribution,
+    Indices,
+    inputs_of,
+    main_effect,
+    sobol_indices,
+)
 from nptcs.surface.sensitivity.ties import near_ties
 from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
 from nptcs.tables.problems import problems_table
@@ -89,7 +95,9 @@ def _given(surface: ResponseSurface, settings: Sensitivity) -> bool:
     return any(factor in settings.distributions for factor in surface.factors)
 
 
-def _inputs(surface: ResponseSurface, settings: Sensitivity | None) -> dict[str, Inputs]:
+def _inputs(
+    surface: ResponseSurface, settings: Sensitivity | None
+) -> dict[str, FactorDistribution]:
     """How each factor is sampled; without settings uniform over the box."""  # noqa: D401
     distributions = settings.distributions if settings is not None else {}
     lower, upper = box(surface.x)
@@ -99,7 +107,7 @@ def _inputs(surface: ResponseSurface, settings: Sensitivity | None) -> dict[str,
     }
 
 
-def _rows(found: Indices, inputs: Mapping[str, Inputs]) -> Iterator[dict[str, object]]:
+def _rows(found: Indices, inputs: Mapping[str, FactorDistribution]) -> Iterator[dict[str, object]]:
     """One row per factor, then one per pair."""  # noqa: D401
     ranks = (-found.total).argsort().argsort() + 1
     for axis, (factor, given) in enumerate(inputs.items()):
@@ -129,7 +137,7 @@ def _rows(found: Indices, inputs: Mapping[str, Inputs]) -> Iterator[dict[str, ob
 def _effects(
     about: Mapping[str, str],
     surface: ResponseSurface,
-    inputs: Mapping[str, Inputs],
+    inputs: Mapping[str, FactorDistribution],
     settings: Sensitivity,
 ) -> list[pd.DataFrame]:
     tables = []

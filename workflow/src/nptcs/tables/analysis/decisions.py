@@ -8,12 +8,12 @@ import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
 
-Outcome = Literal["feasible", "infeasible", "refused"]
+DecisionStatus = Literal["feasible", "infeasible", "refused"]
 Confirmation = Literal["not asked", "inside", "outside", "not solved", ""]
 
 
 class Decisions(pa.DataFrameModel):
-    """``decisions.csv``: what was asked and what came out, one row per decision."""
+    """``decisions.csv``: the goals and the outcome, one row per decision."""
 
     decision: Series[str] = pa.Field(unique=True)
     study: Series[str]
@@ -21,7 +21,7 @@ class Decisions(pa.DataFrameModel):
     goals: Series[str]
     with_probability: Series[float] = pa.Field(gt=0, lt=1, description="That was asked for")
     status: Series[str] = pa.Field(
-        isin=list(get_args(Outcome)),
+        isin=list(get_args(DecisionStatus)),
         description="refused: the question cannot be answered from these cases",
     )
     design: Series[str] = pa.Field(description="The chosen design; if infeasible, the nearest")
@@ -38,7 +38,7 @@ class Decisions(pa.DataFrameModel):
     candidates: Series[pd.Int64Dtype] = pa.Field(ge=1, nullable=True)
     confirmation: Series[str] = pa.Field(
         isin=list(get_args(Confirmation)),
-        description="Where the solved response lies, by the prediction interval of the surface",
+        description="Where the solved response is, by the prediction interval of the surface",
     )
     solved_designs: Series[int] = pa.Field(ge=0, description="To confirm the choice")
     search_cpu_s: Series[float] = pa.Field(

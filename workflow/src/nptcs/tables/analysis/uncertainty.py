@@ -2,9 +2,20 @@
 
 from __future__ import annotations
 
+from enum import StrEnum
+
 import pandas as pd
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
+
+
+class SourceKind(StrEnum):
+    """Where an uncertainty comes from."""
+
+    TEST = "test"
+    STATED = "stated"
+    TOLERANCE = "tolerance"
+    SURFACE = "surface"
 
 
 class ResponseUncertainty(pa.DataFrameModel):
@@ -69,7 +80,7 @@ class UncertaintyShares(pa.DataFrameModel):
     at: Series[str]
     unit: Series[str]
     kind: Series[str] = pa.Field(
-        isin=["test", "stated", "tolerance", "surface", "not assessed"],
+        isin=[*SourceKind, "not assessed"],
         description="stated: a number of the configuration in place of a test",
     )
     quantities: Series[str] = pa.Field(description="What varies, with its standard deviation")

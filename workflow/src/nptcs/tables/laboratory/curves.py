@@ -63,12 +63,16 @@ def read_curves(paths: Iterable[str | Path]) -> dict[str, pd.DataFrame]:
     return {Path(path).name.removesuffix(".csv"): read_table(path, Curve) for path in paths}
 
 
+Role = Literal["force", "strain", "force and strain"]
+"""What a file gives to its specimen."""
+
+
 class FileRecord(Strict):
     """One raw file as it was read."""
 
     path: str = Field(description="Relative to the sheet's folder")
     sha256: str
-    role: Literal["force", "strain", "force and strain"]
+    role: Role
     format: str = Field(description="Name of the profile")
     detected: bool = Field(description="False if the sheet named the profile")
     encoding: str = ""

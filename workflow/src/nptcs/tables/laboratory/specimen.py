@@ -14,6 +14,9 @@ from nptcs.bending import BentBar
 from nptcs.config.base import Strict
 from nptcs.mechanical_tests import TestType, is_property, property_names
 
+Platens = Literal["", "lubricated", "dry", "bonded"]
+"""How the faces of a disc meet the platens; empty: not stated."""
+
 NAME = r"^[A-Za-z0-9._-]+$"
 STATIONS = ("width_mm", "thickness_mm", "diameter_mm")
 LISTS = (*STATIONS, "properties")
@@ -84,7 +87,7 @@ class Specimen(Strict):
     )
     failed: bool | None = Field(
         None,
-        description="yes: it broke, though the record does not show it; no: stopped before "
+        description="yes: it broke, although the record does not show it; no: stopped before "
         "failure; empty: judged from the record",
     )
     force_factor: float = Field(1.0, description="Factor of the force as the file gives it")
@@ -114,7 +117,7 @@ class Specimen(Strict):
         gt=0,
         description="Flexure at four points: distance of the loading rollers; empty: three points",
     )
-    platens: Literal["", "lubricated", "dry", "bonded"] = Field(
+    platens: Platens = Field(
         "", description="Compression of discs: lubricated, dry or bonded; empty: not known"
     )
     date: Date | None = Field(None, description="Day of the test, e.g. 2026-03-31")
@@ -146,7 +149,7 @@ class Specimen(Strict):
     def _inside_the_folder(cls, path: str) -> str:
         parts = PurePosixPath(path.replace("\\", "/"))
         if parts.is_absolute() or ".." in parts.parts or re.match(r"^[A-Za-z]:", path):
-            raise ValueError("must lie in the sheet's folder (a relative path without '..')")
+            raise ValueError("must be in the sheet's folder (a relative path without '..')")
         return str(parts) if path else ""
 
     @model_validator(mode="after")

@@ -2,8 +2,12 @@
 
 from __future__ import annotations
 
+from typing import get_args
+
 import pandera.pandas as pa
 from pandera.typing.pandas import Series
+
+from nptcs.config.materials.standards.base import Statistic
 
 
 class StatisticsTable(pa.DataFrameModel):
@@ -33,7 +37,7 @@ class StatisticsTable(pa.DataFrameModel):
     range: Series[str]
     scope: Series[str] = pa.Field(isin=["group", "pooled"])
     median: Series[float] = pa.Field(nullable=True)
-    reported_statistic: Series[str] = pa.Field(isin=["mean", "median"])
+    reported_statistic: Series[str] = pa.Field(isin=get_args(Statistic))
     k_b: Series[float] = pa.Field(nullable=True, description="Normal B-basis factor")
     notes: Series[str]
     group_size: Series[int] = pa.Field(ge=0, description="Specimens that count, assessed or not")

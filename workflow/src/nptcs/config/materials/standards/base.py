@@ -19,6 +19,8 @@ def _in_order(interval: tuple[float, float]) -> tuple[float, float]:
 
 
 Interval = Annotated[tuple[float, float], AfterValidator(_in_order)]
+Statistic = Literal["mean", "median"]
+"""What a standard reports for a group: a column of the table of statistics."""
 
 CHORD_METHODS = (
     "nearest_points: the recorded points nearest to both ends of the range; "
@@ -31,8 +33,10 @@ class Rules(Strict):
     """What the sections of all standards have in common."""
 
     title: ClassVar[str]
-    minimum_specimens: int = Field(5, ge=1, description="Number of specimens asked for")
-    reported_statistic: Literal["mean", "median"] = Field(
+    minimum_specimens: int = Field(
+        5, ge=1, description="Number of specimens that the standard requires"
+    )
+    reported_statistic: Statistic = Field(
         "mean", description="Statistic that the standard reports for a group"
     )
     expected_width_mm: dict[int, Interval] = Field(
@@ -59,5 +63,5 @@ class ChordRules(Rules):
         "as a fraction of the chord's width; beyond it the value is flagged",
     )
     time_to_failure_min: Interval | None = Field(
-        (1.0, 10.0), description="Time to failure that the standard asks for, minutes; null: none"
+        (1.0, 10.0), description="Time to failure that the standard requires, minutes; null: none"
     )

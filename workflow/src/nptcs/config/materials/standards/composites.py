@@ -55,7 +55,7 @@ class Iso527(TensionRules):
     title: ClassVar[str] = "ISO 527-4"
     chord_range: Interval = Field((0.0005, 0.0025), description="Strain range of the chord")
     time_to_failure_min: Interval | None = Field(
-        None, description="Time to failure that the standard asks for, minutes; null: none"
+        None, description="Time to failure that the standard requires, minutes; null: none"
     )
 
 
@@ -113,7 +113,7 @@ class Iso14129(ShearRules):
     title: ClassVar[str] = "ISO 14129"
     chord_range: Interval = Field((0.001, 0.005), description="Shear strain range of the chord")
     time_to_failure_min: Interval | None = Field(
-        None, description="Time to failure that the standard asks for, minutes; null: none"
+        None, description="Time to failure that the standard requires, minutes; null: none"
     )
 
 
@@ -124,7 +124,7 @@ class FlexureRules(ChordRules):
         None, description="Span over thickness that the standard expects; null: any"
     )
     loading_spans: tuple[float, ...] = Field(
-        (0.0,), description="Loading span over span that the standard has; 0: three points"
+        (0.0,), description="Loading span over span that the standard prescribes; 0: three points"
     )
     large_deflection: tuple[float, float] | None = Field(
         None,
@@ -138,7 +138,7 @@ class AstmD7264(FlexureRules):
 
     title: ClassVar[str] = "ASTM D7264"
     span_to_thickness: Interval | None = Field(
-        (28.0, 36.0), description="Span over thickness (32 within some 12 %)"
+        (28.0, 36.0), description="Span over thickness (32 within about 12 %)"
     )
     loading_spans: tuple[float, ...] = Field(
         (0.0, 0.5), description="Procedure A: three points; B: rollers half the span apart"
@@ -163,7 +163,7 @@ class Iso14125(FlexureRules):
     title: ClassVar[str] = "ISO 14125"
     chord_range: Interval = Field((0.0005, 0.0025), description="Strain range of the chord")
     time_to_failure_min: Interval | None = Field(
-        None, description="Time to failure that the standard asks for, minutes; null: none"
+        None, description="Time to failure that the standard requires, minutes; null: none"
     )
     span_to_thickness: Interval | None = Field(
         (16.0, 45.0), description="Span over thickness (16 to 40 by class of material)"

@@ -2,18 +2,20 @@
 
 from __future__ import annotations
 
-from typing import ClassVar, Literal
+from typing import ClassVar
 
 from pydantic import Field
 
-from nptcs.config.materials.standards.base import Interval, Rules
+from nptcs.config.materials.standards.base import Interval, Rules, Statistic
 
 
 class RubberRules(Rules):
     """Rules of a tension test of rubber."""
 
-    minimum_specimens: int = Field(3, ge=1, description="Number of specimens asked for")
-    reported_statistic: Literal["mean", "median"] = Field(
+    minimum_specimens: int = Field(
+        3, ge=1, description="Number of specimens that the standard requires"
+    )
+    reported_statistic: Statistic = Field(
         "median", description="Statistic that the standard reports for a group"
     )
     elongations_percent: tuple[float, ...] = Field(
@@ -51,8 +53,10 @@ class Iso37(RubberRules):
 class RubberCompressionRules(Rules):
     """Rules of the compression of a rubber disc."""
 
-    minimum_specimens: int = Field(3, ge=1, description="Number of specimens asked for")
-    reported_statistic: Literal["mean", "median"] = Field(
+    minimum_specimens: int = Field(
+        3, ge=1, description="Number of specimens that the standard requires"
+    )
+    reported_statistic: Statistic = Field(
         "median", description="Statistic that the standard reports for a group"
     )
     compressions_percent: tuple[float, ...] = Field(

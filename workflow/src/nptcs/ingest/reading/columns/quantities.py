@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.names import LOADS, STRAINS, by_unit, map_columns
@@ -18,9 +17,8 @@ from nptcs.ingest.reading.profiles import (
 from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
 from nptcs.ingest.reading.text.cells import CellSource
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, VOLTS, find_unit, usual_units
+from nptcs.tables.laboratory.curves import Role
 
-Role = Literal["force", "strain", "force and strain"]
-"""What a file gives to its specimen."""
 NEEDS: dict[Role, tuple[tuple[str, ...], ...]] = {
     "force": (LOADS,),
     "strain": (STRAINS,),
