@@ -10,6 +10,7 @@ from matplotlib.transforms import Bbox
 
 from nptcs.language import language
 from nptcs.report.figures.canvas import WideCanvas
+from nptcs.report.figures.decision import goal_intervals
 from nptcs.report.figures.style import data_of, panel, styled
 from nptcs.report.html import render_report
 
@@ -87,6 +88,24 @@ def test_texts_that_cover_each_other_are_found():
         "'far too long to stay inside' leaves the figure",
         "'one text' covers 'another'",
     ]
+
+
+def test_designs_that_differ_in_every_value_leave_room_for_title_and_axis():
+    designs = pd.DataFrame(
+        {
+            "design": [
+                f"{13 + place} plates, spacing_mm {16.54 - place}, thickness_mm 1.2{place}, "
+                f"angle_deg 1{place}"
+                for place in range(3)
+            ],
+            "goal": "secant_stiffness at 5000 N = 280 ± 6",
+            "response": "secant_stiffness",
+            **{"at": "5000 N", "unit": "N/mm", "mean": [280.0, 276.0, 284.0]},
+            **{"low": 275.0, "high": 285.0, "chosen": [True, False, False]},
+            **{"smallest_accepted": 274.0, "largest_accepted": 286.0},
+        }
+    )
+    assert faults(goal_intervals(designs)) == []
 
 
 @pytest.mark.parametrize(

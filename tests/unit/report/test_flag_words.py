@@ -9,7 +9,7 @@ import pytest
 
 import nptcs
 from nptcs.language import language
-from nptcs.report.words import checks
+from nptcs.report.tables import checks
 from nptcs.report.words import messages as stage_messages
 from nptcs.report.words.flags import SENTENCES, flag_text, pattern
 

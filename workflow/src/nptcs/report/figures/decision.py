@@ -32,6 +32,19 @@ def what_differs(designs: Sequence[str]) -> list[str]:
     return [in_words(", ".join(one[place] for place in told), SYMBOLS) for one in parts]
 
 
+def in_lines(name: str) -> str:
+    r"""Write a design with more than two values on several lines, two on each.
+
+    Examples
+    --------
+    >>> in_lines("13 plates, S 16.54 mm, T 1.2 mm")
+    '13 plates, S 16.54 mm,\nT 1.2 mm'
+    """
+    parts = name.split(", ")
+    pairs = [", ".join(parts[place : place + 2]) for place in range(0, len(parts), 2)]
+    return ",\n".join(pairs)
+
+
 @styled
 def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     """Draw one response of the best designs, and the range that a target or bound asks for.
@@ -46,11 +59,13 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     first = designs.iloc[0]
     at = tr(" at {at}", at=first["at"]) if first["at"] else ""
     unit = f" [{first['unit']}]" if first["unit"] not in ("", "1") else ""
+    names = [in_lines(name) for name in what_differs(designs["design"].tolist())]
+    lines = max(name.count("\n") + 1 for name in names)
     figure, axes = panel(
         in_words(str(first["goal"]), {}),
         f"{words(str(first['response']))}{at}{unit}",
         "",
-        (4.3, 2.6),
+        (4.3, 2.6 + 0.13 * (lines - 1) * len(names)),
         BESIDE_LABELS,
     )
     place = np.arange(len(designs))[::-1]
@@ -77,7 +92,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
         start, end = np.where(np.isfinite(limits), limits, [low, high])
         axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label=tr("asked for"))
         axes.set_xlim(low, high)
-    axes.set_yticks(place, what_differs(designs["design"].tolist()))
+    axes.set_yticks(place, names)
     figure.data = designs
     axes.grid(visible=False, axis="y")
     figure.legend(loc="outside lower center", ncols=3)

@@ -18,9 +18,9 @@ from nptcs.report.plots import plot
 from nptcs.report.sections.key_facts import material_facts
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
+from nptcs.report.tables.checks import WARNING, check_text
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
-from nptcs.report.words.checks import WARNING, check_text
 from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.laboratory.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection

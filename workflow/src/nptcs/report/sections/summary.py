@@ -12,9 +12,9 @@ from nptcs.report.blocks import Finding, Findings, Listing, PageBlock, Text
 from nptcs.report.data import Results
 from nptcs.report.sections.refused import all_refused
 from nptcs.report.table_view import sheet_view
+from nptcs.report.tables.checks import WARNING, check_text
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined
-from nptcs.report.words.checks import WARNING, check_text
 from nptcs.report.words.flags import flag_text
 from nptcs.tables.laboratory.files import Files, FileStatus
 from nptcs.tables.laboratory.flags import FlagsTable

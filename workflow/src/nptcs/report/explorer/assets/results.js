@@ -28,11 +28,11 @@ function showFactor(factor, study) {
   const varied = study.factors.includes(factor.name);
   range.disabled = number.disabled = !varied;
   const value = valueOf(factor.name, study);
-  number.value = value === undefined ? "" : tidy(value);
+  number.value = value === undefined ? "" : varied ? tidy(value) : shortNumber(value);
   if (!varied) {
     const held = value !== undefined;
     Object.assign(range, held ? { min: value - 1, max: value + 1, value } : { min: 0, max: 1, value: 0 });
-    note.textContent = held ? say("held", { value: tidy(value), unit: factor.unit }) : say("not_in_study");
+    note.textContent = held ? say("held", { value: shortNumber(value), unit: factor.unit }) : say("not_in_study");
     return;
   }
   const { low, high, least, most, step } = sliderRange(factor.name);
