@@ -98,8 +98,8 @@ SENTENCES = (
         "eigenvalue {lowest}), Poisson's ratios nu12 {nu12}, nu13 {nu13}, nu23 {nu23}"
     ),
     translatable(
-        "check the transverse strains and the assumed Poisson's ratios: |nu12| < sqrt(E1/E2) "
-        "and its like must hold"
+        "check the transverse strains and the assumed Poisson's ratios: |nu12| < sqrt(E1/E2), "
+        "and likewise for nu13 and nu23"
     ),
     translatable(
         "load-bearing model: needs a displacement of {displacement} mm, more than the {room} "
@@ -127,7 +127,8 @@ SENTENCES = (
     translatable("{spokes} spokes are too few for a surface over spokes"),
     translatable("solve {fewest} spokes or more (design split_plot)"),
     translatable(
-        "a spoke has {cases} solved cases, which do not carry the {terms} terms of its polynomial"
+        "a spoke has {cases} solved cases, which cannot determine the {terms} terms of its "
+        "polynomial"
     ),
     translatable(
         "solve more cases on each spoke, lower the degree, or narrow the range of the factors "
