@@ -28,10 +28,10 @@ import numpy as np
 from nptcs.config.materials.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.ingest.reading.columns.quantities import Role
-from nptcs.ingest.reading.profiles import FormatProfile
+from nptcs.ingest.reading.profiles import UNITLESS, FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.reading.units import DIMENSION, FACTORS
+from nptcs.tables.laboratory.curves import Role
 from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -297,7 +297,8 @@ def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int
     """Rows without any reading do not count."""
     expected = np.array([row for row in rows if not all(math.isnan(value) for value in row)])
     for index, name in enumerate(positions):
-        scale = FACTORS[DIMENSION[name]][table.units[name]] if table.units[name] else 1.0
+        counted = name in UNITLESS or not table.units[name]
+        scale = 1.0 if counted else FACTORS[DIMENSION[name]][table.units[name]]
         ours, theirs = table.values[name], expected[:, index] * scale if len(expected) else expected
         if len(ours) != len(theirs):
             return f"{len(ours)} rows read, {len(theirs)} in the file"

@@ -17,7 +17,7 @@ from nptcs.ingest import ingest_specimen
 from nptcs.ingest.account import account_for_files
 from nptcs.ingest.check_files import check_files
 from nptcs.ingest.file_names import proposed_test
-from nptcs.ingest.inspect import inspect_file
+from nptcs.ingest.inspect import describe, inspect_file
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.ingest.reading.raw_file import read_raw
 from nptcs.ingest.repeats import counted_once
@@ -214,6 +214,30 @@ def test_a_missing_unit_is_said(lab, profiles, tmp_path):
     inspection = inspect_file(tmp_path / "a.csv", profiles)
     assert not inspection.usable
     assert "no unit for force" in inspection.obstacle()
+
+
+@pytest.mark.parametrize(
+    ("columns", "word"),
+    [
+        (("Time [s]", "Load [N]", "Zzz [%]"), "'Zzz' in %"),
+        (("Time [s]", "Prüfkraft [kN]", "Quux [mm]"), "'Quux' in mm"),
+        (("Time [s]", "Load (ton)", "Strain [%]"), "'Load (ton)' in no unit"),
+    ],
+)
+def test_inspect_says_which_of_load_and_strain_it_did_not_read(
+    lab, profiles, tmp_path, columns, word
+):
+    lab.write(tmp_path / "a.csv", dict(zip(columns, (TIME, FORCE, 100 * STRAIN), strict=True)))
+    inspection = inspect_file(tmp_path / "a.csv", profiles)
+    assert inspection.usable  # next to another file
+    assert word in inspection.unread()
+    assert word in describe(inspection)
+
+
+@pytest.mark.parametrize("names", [("Time [s]", "Load [N]"), ("Time [s]", "exx [1]", "eyy [1]")])
+def test_a_file_of_load_or_strain_alone_is_whole(lab, profiles, tmp_path, names):
+    lab.write(tmp_path / "a.csv", dict(zip(names, (TIME, FORCE, 0.3 * STRAIN), strict=False)))
+    assert inspect_file(tmp_path / "a.csv", profiles).unread() == ""
 
 
 def test_inspect_names_the_columns_that_it_saw(lab, profiles, tmp_path):

@@ -54,6 +54,38 @@ def test_a_break_that_takes_some_readings_is_failure(bench: Any, run: Make, tmp_
     assert table.loc["strength", "value"] == pytest.approx(1500, rel=1e-3)
 
 
+@pytest.mark.parametrize(("readings", "spring_back"), [(8, 0.1), (15, 0.25), (20, 0.4)])
+def test_a_gauge_that_springs_back_a_little_while_the_force_goes_is_on_a_broken_specimen(
+    bench: Any, run: Make, tmp_path: Path, readings: int, spring_back: float
+) -> None:
+    course = np.linspace(0, 1, readings + 1)[1:]
+    strain = np.concatenate([np.linspace(0, 0.012, 900), 0.012 * (1 - spring_back * course**2)])
+    force = np.concatenate(
+        [bench.laminate(strain[:900]), bench.laminate(0.012) * (1 - 0.9 * course)]
+    )
+    name = bench.export(tmp_path, np.arange(len(strain)) * 0.1, force, strain)
+    table, _, _ = run(tmp_path, force_file=name)
+    assert table.loc["strength", "value"] == pytest.approx(1500, rel=1e-3)
+    assert table.loc["ultimate_strain", "value"] == pytest.approx(0.012, rel=1e-2)
+
+
+@pytest.mark.parametrize("rows_of_return", [4, 8, 20])
+@pytest.mark.parametrize("bend", [1.0, 3.0])
+def test_a_quick_return_of_a_laminate_that_yielded_is_no_failure(
+    bench: Any, run: Make, tmp_path: Path, rows_of_return: int, bend: float
+) -> None:
+    # it unloads as stiffly as it began to load, and keeps a set
+    up = np.linspace(0, 0.012, 900)
+    force = bench.laminate(0.012 / bend * np.tanh(up * bend / 0.012))
+    down = np.linspace(1, 0, rows_of_return + 1)[1:]
+    left = 0.012 - force[-1] / bench.laminate(1.0)
+    strain = np.concatenate([up, left + (0.012 - left) * down])
+    load = np.concatenate([force, force[-1] * down])
+    name = bench.export(tmp_path, np.arange(len(strain)) * 0.1, load, strain)
+    table, _, _ = run(tmp_path, force_file=name)
+    bench.assert_not_assessed(table, bench.need_failure, "no failure seen")
+
+
 def test_relaxation_at_a_held_strain_is_no_failure(bench: Any, run: Make, tmp_path: Path) -> None:
     up = np.linspace(0, 0.0035, 200)
     strain = np.concatenate([up, np.full(300, 0.0035)])

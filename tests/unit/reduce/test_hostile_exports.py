@@ -256,10 +256,20 @@ def changed(readings: Any, rows: Any, value: float) -> Any:
         (changed(FORCE, slice(110, 130), 0.0), STRAIN),
         (changed(FORCE, slice(598, 600), 3 * FORCE.max()), STRAIN),
         (changed(FORCE, slice(300, 304), -200.0), STRAIN),
+        (changed(FORCE, slice(20, 24), 0.0), STRAIN),
+        (FORCE, changed(STRAIN, slice(30, 34), 0.0)),
         (FORCE, changed(STRAIN, slice(150, 153), 0.5)),
         (FORCE, changed(STRAIN, slice(99, 102), 0.0)),
     ],
-    ids=["load cell out", "overshoot at the break", "below zero", "strain up", "strain to zero"],
+    ids=[
+        "load cell out",
+        "overshoot at the break",
+        "below zero",
+        "out early",
+        "strain out early",
+        "strain up",
+        "strain to zero",
+    ],
 )
 def test_a_channel_that_is_away_for_some_readings_is_emptied(tmp_path, profiles, force, strain):
     values, flags, words = reduce(tmp_path, profiles, one(force, strain))

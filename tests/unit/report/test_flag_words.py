@@ -9,6 +9,7 @@ import pytest
 
 import nptcs
 from nptcs.language import language
+from nptcs.report.words import checks
 from nptcs.report.words import messages as stage_messages
 from nptcs.report.words.flags import SENTENCES, flag_text, pattern
 
@@ -33,14 +34,16 @@ def sentences_of_stages():
                     )
                     found.append("".join(map(str, parts)))
                 elif isinstance(node, ast.Constant) and isinstance(node.value, str):
-                    found.append(node.value)
+                    # a list of names follows a colon, outside of the text
+                    found.append(node.value + "1" if node.value.endswith(": ") else node.value)
     return found
 
 
-@pytest.mark.parametrize("sentence", [*SENTENCES, *stage_messages.SENTENCES])
+@pytest.mark.parametrize("sentence", [*SENTENCES, *stage_messages.SENTENCES, *checks.SENTENCES])
 def test_a_stage_writes_each_sentence(sentence):
     reason = sentence.removeprefix("not assessed: ").removeprefix("crosshead strain: ")
-    texts = {text.removeprefix("warning: ").removeprefix("1: ") for text in sentences_of_stages()}
+    whole = sentences_of_stages()
+    texts = {*whole, *(text.removeprefix("warning: ").removeprefix("1: ") for text in whole)}
     assert any(pattern(sentence).fullmatch(t) or pattern(reason).fullmatch(t) for t in texts)
 
 

@@ -39,7 +39,7 @@ BLOCKS = [
     Facts("words of the block", ()),
     Folded("words of the block", ""),
     Interactive("<p>words of the block</p>"),
-    MoreTables("words of the block", (Text("in it"),)),
+    MoreTables("words of the block", "what they say", (Text("in it"),)),
     Findings((Finding("q", "a", "words of the block", "a.csv", ReportSection.CASES),)),
 ]
 

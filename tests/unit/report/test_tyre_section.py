@@ -148,7 +148,7 @@ def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypat
     assert "No tyre is drawn with its spokes" in words
     (listed,) = (block for block in section.blocks if isinstance(block, Listing))
     assert any(
-        "2 tyres, not reached" in line and "secant stiffness at 25 mm" in line
+        "2 tyres, not reached" in line and "vertical stiffness at 25 mm" in line
         for line in listed.items
     )
     assert "88.0 MPa (plate_032, fe_tyre_paper)" in words

@@ -47,6 +47,19 @@ STYLES = {
     "turkish": ("Zaman (s),Kuvvet (N),Uzama (%)", 1, 0.01),
     "dutch": ("Tijd (s),Kracht (N),Rek (%)", 1, 0.01),
     "swedish": ("Tid (s),Kraft (N),Töjning (%)", 1, 0.01),
+    "turkish unit strain": ("Zaman (sn),Yük (kN),Birim Uzama (%)", 1e3, 0.01),
+    "turkish gerinim": ("Zaman [s],Kuvvet [N],Gerinim [mm/mm]", 1, 1),
+    "turkish change of shape": ("Zaman [s],Kuvvet [N],Birim Şekil Değiştirme [%]", 1, 0.01),
+    "hungarian": ("Idő [s],Erő [N],Fajlagos nyúlás [%]", 1, 0.01),
+    "norwegian": ("Tid [s],Kraft [N],Tøyning [%],Forskyvning [mm]", 1, 0.01),
+    "dutch load": ("Tijd (s),Belasting (N),Rek extensometer (%)", 1, 0.01),
+    "finnish": ("Aika [s],Kuormitus [kN],Venymä (anturi) [%]", 1e3, 0.01),
+    "czech extensometer": ("Čas [s],Síla [N],Příčník [mm],Průtahoměr [%]", 1, 0.01),
+    "traditional chinese": ("時間(秒),荷重(公斤),應變(%)", 9.80665, 0.01),
+    "chinese kilogram-force": ("时间(s),力(千克力),应变(%)", 9.80665, 0.01),
+    "units named in the head": ("Time,s\nLoad,kN\nStrain,%\n\nTime,Load,Strain", 1e3, 0.01),
+    "units named with a colon": ("Load: kN\nStrain: µm/m\n\nTime (s),Load,Strain", 1e3, 1e-6),
+    "units in one line": ("Units: s; N; %\n\nTime,Load,Strain", 1, 0.01),
     "axes": ("Time [s],Load [N],Strain Y [%]", 1, 0.01),
 }  # fmt: skip
 
@@ -59,7 +72,13 @@ def rows(force_unit=1.0, strain_unit=1.0, form="{:.7g}", mark=","):
 @pytest.mark.parametrize("style", STYLES)
 def test_header_styles(lab, tmp_path, style):
     header, force_unit, strain_unit = STYLES[style]
-    text = "\n".join([header, *rows(force_unit, strain_unit)])
+    width = header.splitlines()[-1].count(",") + 1
+    readings = rows(force_unit, strain_unit)
+    if width == 4:  # a travel that must not be taken, before the strain or after it
+        last = "Forskyvning" in header
+        cells = [row.split(",") for row in readings]
+        readings = [",".join(c + ["7"] if last else [*c[:2], "7", c[2]]) for c in cells]
+    text = "\n".join([header, *readings])
     (tmp_path / "a.csv").write_text(text, encoding="utf-8")
     done = lab.ingest(tmp_path, "a.csv")
     assert lab.modulus(done) == pytest.approx(E_MPA, rel=1e-4)

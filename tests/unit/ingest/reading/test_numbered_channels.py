@@ -53,3 +53,9 @@ def test_an_lvdt_is_a_travel(read):
 def test_two_lvdts_next_to_a_strain_do_not_matter(read):
     found = read(table("Load (kN)", "Strain (%)", "LVDT1 (mm)", "LVDT2 (mm)"))
     assert set(found.values) == {"force", "strain"}
+
+
+@pytest.mark.parametrize("name", ["0x10", "X2", "Y-1", "Mean 3 frame"])
+def test_a_channel_is_not_a_coordinate_or_counter_by_its_letters_alone(read, name):
+    found = read(table("Time (s)", f"{name} (kN)", "Load (kN)", "Strain (%)"))
+    assert set(found.columns) == {"time", "force", "strain"}

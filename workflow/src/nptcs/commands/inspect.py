@@ -33,7 +33,7 @@ def register(subparsers: Any) -> None:
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Print the inspection; 0 if the file can be used."""
+    """Print the inspection; 0 if the file can be used and no load or strain was left unread."""
     from nptcs.config.materials.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
@@ -50,4 +50,4 @@ def run(arguments: argparse.Namespace) -> int:
             raise InputError("this file exists already", "choose another name", target)
         write_text(target, draft_profile(inspection, target.stem))
         print(f"\nprofile written to {target}: check every line of it")
-    return 0 if inspection.usable else 1
+    return 0 if inspection.usable and not inspection.unread() else 1

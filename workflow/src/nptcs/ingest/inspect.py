@@ -12,6 +12,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.head_units import add_units_of_head
 from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
 from nptcs.ingest.reading.columns.quantities import NEEDS, Test, unit_of
+from nptcs.ingest.reading.columns.words import may_be
 from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
@@ -61,6 +62,24 @@ class Inspection:
             return f"no column is a load or a strain; columns: {names}"
         reasons = [self.no_unit(test) for test in serving]
         return "" if "" in reasons else reasons[0]
+
+    def unread(self) -> str:
+        """Return which load or strain of a usable file was not understood; empty if none.
+
+        A file of the load alone, or of strains alone, is whole next to another one; not so if it
+        holds a column that is probably the other of the two.
+        """
+        tests = [test for test in self.tests if any(test.serves(role) for role in NEEDS)]
+        if not self.usable or any(test.serves("force and strain") for test in tests):
+            return ""
+        for test in tests:
+            kind = "strain" if test.serves("force") else "load"
+            read = [*test.quantities.values()]
+            columns = [c for c in test.found_table.columns if c.name and c not in read]
+            if found := [c for c in columns if may_be(kind, c)]:
+                names = ", ".join(f"'{c.name}' in {c.unit or 'no unit'}" for c in found)
+                return f"no column is read as a {kind}; {names} may be one (a profile can name it)"
+        return ""
 
     def no_unit(self, test: Test) -> str:
         """Name the first column of a table whose unit cannot be told."""
@@ -142,6 +161,8 @@ def describe(inspection: Inspection) -> str:
         lines += ["", "problem    no table of five rows or more"]
     elif not inspection.usable:
         lines += ["", f"problem    {inspection.obstacle()}"]
+    elif words := inspection.unread():
+        lines += ["", f"problem    {words}"]
     return "\n".join(lines)
 
 

@@ -15,10 +15,16 @@ ABRUPT = 10.0
 """A force that falls so many times faster than it rose is not an unloading by the machine, ..."""
 SNAP = 100.0
 """... and so many times even where the strain goes back with it."""
+ELASTIC, TOO_LITTLE = 0.7, 0.5
+"""Shares of the strain that an elastic unloading gives back: from the first on it is one; below the
+second it is none, since nothing unloads twice as stiffly as it ever was."""
 UNLOADING_ROWS = 4
 """Readings over which strain and force go back together when the machine unloads."""
 SLOW_LOGGER_S = 0.4
 """Time between readings within which a machine may return: a fall in one step tells nothing."""
+_FEWEST_UP, _FEWEST_DOWN = 20, 2
+_LATE = 1
+"""Readings by which a strain may lag behind its force."""
 TOO_FEW = "so few readings that a break and a return of the machine look alike"
 """Words for such a fall."""
 
@@ -66,10 +72,15 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     ratio = float(force[near] - force[low]) / (low - near) / rise
     change, rows = _strain_after(force, strain, near, largest)
     back = change < -0.02 and rows >= UNLOADING_ROWS
-    along = unloads_along(force, strain, near, start, time_s)
+    given_back = _given_back(force, strain, start, near)
+    elastic = rows >= _FEWEST_DOWN and min(given_back) >= ELASTIC
+    along = elastic or unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
+    if not along and ratio >= ABRUPT and max(given_back) < TOO_LITTLE:
+        words = f"{fell}, abruptly, and the strain goes back by less than in an unloading"
+        return Failure(seen=True, words=words)
     if change > 0.01:
         return Failure(seen=True, words=f"{fell} while the strain grows")
     if along and rows < UNLOADING_ROWS:
@@ -120,6 +131,35 @@ def unloads_along(
         rows = np.array([end])
     expected = np.interp(force[rows], rising, known)
     return bool((np.abs(strain[rows] - expected) <= 0.15 * abs(known[-1] - known[0])).all())
+
+
+def _given_back(force: Array, strain: Array, start: int, near: int) -> tuple[float, float]:
+    """Shares of the strain of an elastic unloading given back at the middle and end of the fall.
+
+    Elastic is the steepest stretch of the way up, by fifths of the force. NaN where the strain was
+    not read.
+    """
+    nothing = (float("nan"), float("nan"))
+    up = start + np.flatnonzero(np.isfinite(strain[start : near + 1]))
+    if len(up) < _FEWEST_UP:
+        return nothing
+    levels = force[near] * np.linspace(0.1, 0.9, 5)
+    reached = strain[up][np.searchsorted(np.maximum.accumulate(force[up]), levels)]
+    gained = np.diff(reached)
+    if not (gained > 0).any():
+        return nothing
+    steepest = 0.2 * float(force[near]) / float(gained[gained > 0].min())
+    rest = force[near:]
+    end = int(np.argmin(rest))
+    middle = int(np.argmax(rest <= 0.5 * (rest[0] + rest[end])))
+    before = float(strain[up[-1]])
+    shares = []
+    for row in (middle, end):
+        later = strain[near + row : near + row + 1 + _LATE]
+        later = later[np.isfinite(later)]
+        back = before - float(later.min()) if len(later) else float("nan")
+        shares.append(back * steepest / float(force[near] - rest[row]))
+    return (shares[0], shares[1]) if np.isfinite(shares).all() else nothing
 
 
 def _onset(force: Array, start: int, peak: int) -> int:

@@ -46,6 +46,8 @@ class TableView:
         Names of the columns in the file.
     folded : bool
         Whether it opens on demand.
+    notes : tuple of str
+        What holds for all its rows.
     """
 
     entry: Entry
@@ -57,6 +59,7 @@ class TableView:
     all_rows: int = 0
     columns: tuple[str, ...] = ()
     folded: bool = False
+    notes: tuple[str, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -213,9 +216,20 @@ class Interactive:
 
 @dataclass(frozen=True)
 class MoreTables:
-    """Tables that open on demand: they are behind what the section says, not part of it."""
+    """Tables that open on demand: they are behind what the section says, not part of it.
+
+    Parameters
+    ----------
+    title : str
+        How many they are.
+    titles : str
+        What they say.
+    tables : tuple of TableView or Text
+        The tables, or where those are that are too long for a page.
+    """
 
     title: str
+    titles: str
     tables: tuple[TableView | Text, ...]
 
 

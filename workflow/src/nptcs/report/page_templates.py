@@ -30,6 +30,7 @@ from nptcs.errors import InputError
 from nptcs.files import files_below
 from nptcs.language import tr, tr_count
 from nptcs.report.blocks import macro_of
+from nptcs.report.kept_together import kept
 
 KEY = "report.templates"
 PACKAGE = "nptcs"
@@ -55,6 +56,7 @@ def page_environment(folder: str | None = None) -> Environment:
         trim_blocks=True,
         lstrip_blocks=True,
     )
+    environment.filters["kept"] = kept
     environment.globals |= {"tr": tr, "tr_count": tr_count, "macro_of": macro_of}
     return environment
 

@@ -4,15 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
 
 from nptcs.language import tr
-from nptcs.report.blocks import Cell, TableView
+from nptcs.report.blocks import LONG, Cell, TableView
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
-from nptcs.report.tables.names import in_words
+from nptcs.report.tables.names import in_symbols, in_words
 from nptcs.report.tables.row_classes import RowClass, no_row
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.text import DIGITS, number_text, rounded
@@ -43,10 +44,13 @@ PERCENTS = ("difference_percent", "change_percent")
 """Endings of the names of further columns that get three digits."""
 
 
+TERMS = ("dropped", "form", "source", "term")
+"""Columns that hold terms of polynomials: the page writes them with the factors' symbols."""
+
 WORDS = frozenset(
     {"status", "origin", "include", "synthetic", "result", "confirmation", "group", "kind", "test"}
     | {"scope", "reported_statistic", "region", "goal_met", "drucker_stable", "outside_the_box"}
-    | {"failed", "values_used", "model", "beyond_uncertainty", "data"}
+    | {"failed", "values_used", "model", "beyond_uncertainty", "data", "path", "area_rule"}
 )
 """Columns that hold words of closed sets: the page writes them in its own language."""
 
@@ -58,11 +62,14 @@ UNCERTAIN_BY = {
 }
 """Uncertainty, and columns that are written to the second significant digit of it."""
 
-FLAGS = ("flag", "flags", "not_assessed")
+FLAGS = ("flag", "flags", "not_assessed", "notes")
 """Columns that hold flags."""
 
 MESSAGES = ("message", "note", "not_fitted", "reason", "remarks")
 """Columns that hold messages of stages."""
+
+SAID = ("rule", "source")
+"""Columns that hold names, and sentences of stages around them."""
 
 SURFACE = "surface"
 """Column that holds names of surfaces."""
@@ -76,8 +83,11 @@ WITH_NAMES = frozenset(
 """Columns that hold names of factors, properties, responses and rules, alone or in a text."""
 
 
-PAGE_ROWS = 12
+WHOLE_ROWS = 24
 """Rows of the longest table that the page shows whole; the CSV file has them all."""
+
+PAGE_ROWS = 12
+"""Rows of a longer table that the page shows."""
 
 MOST_MARKED = 3000
 """Rows of a long table that are looked at for marks."""
@@ -114,45 +124,72 @@ def table_view(
     whole : bool
         Whether a long table, too, is shown with all its rows.
     """
-    rows_of_table = len(table)
-    shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
-    digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith(PERCENTS)}}
-    digits |= given_digits or {}
-    errors = {name: _error_column(name, table) if name not in digits else "" for name in shown}
-    numeric = tuple(_is_numeric(table[name]) for name in shown)
+    filled = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
+    shared = [name for name in filled if _is_one_text(table[name])]
+    shown = _columns(table, [name for name in filled if name not in shared], given_digits or {})
     rows = []
     for record in (table if whole else on_page(table, mark)).to_dict("records"):
-        cells = tuple(
-            _named(record[name], entry)
-            if name in WITH_NAMES and not is_number
-            else _cell(
-                _word(name, record[name]),
-                digits.get(name, DIGITS),
-                is_number,
-                record.get(errors[name]),
-            )
-            for name, is_number in zip(shown, numeric, strict=True)
-        )
-        rows.append((mark({str(key): value for key, value in record.items()}), cells))
+        named = {str(key): value for key, value in record.items()}
+        rows.append((mark(named), tuple(_written(column, named, entry) for column in shown)))
     return TableView(
         entry,
         caption or tr(entry.title),
-        tuple(heading(name, entry.headings) for name in shown),
-        numeric,
+        tuple(heading(column.name, entry.headings) for column in shown),
+        tuple(column.is_number for column in shown),
         tuple(rows),
         synthetic,
-        rows_of_table,
-        tuple(shown),
+        len(table),
+        tuple(column.name for column in shown),
+        notes=tuple(
+            f"{heading(name, entry.headings).name}: {_word(name, table[name].iloc[0])}"
+            for name in shared
+        ),
     )
+
+
+@dataclass(frozen=True)
+class _Column:
+    """How one column is written; `error` is the column with the uncertainty of its values."""
+
+    name: str
+    is_number: bool
+    digits: int
+    error: str
+
+
+def _columns(
+    table: pd.DataFrame, names: Sequence[str], given_digits: Mapping[str, int]
+) -> list[_Column]:
+    """Decide how each of these columns is written."""
+    percents = {name: 3 for name in names if name.endswith(PERCENTS)}
+    digits = {**FEWER_DIGITS, **percents, **given_digits}
+    return [
+        _Column(
+            name,
+            _is_numeric(table[name]),
+            digits.get(name, DIGITS),
+            "" if name in digits else _error_column(name, table),
+        )
+        for name in names
+    ]
+
+
+def _written(column: _Column, record: Mapping[str, object], entry: Entry) -> Cell:
+    """Write one cell: a name in words, or a value."""
+    value = record[column.name]
+    if column.name in (*WITH_NAMES, *TERMS) and not column.is_number:
+        return _named(column.name, value, entry)
+    error = record.get(column.error)
+    return _cell(_word(column.name, value), column.digits, column.is_number, error)
 
 
 def on_page(table: pd.DataFrame, mark: RowClass) -> pd.DataFrame:
     """Select the rows of a table that the page shows: all, or the first ones and those that failed.
 
-    Of a table with more than `PAGE_ROWS` rows these are the first `PAGE_ROWS`, then those further
+    Of a table with more than `WHOLE_ROWS` rows these are the first `PAGE_ROWS`, then those further
     ones that are marked as bad or flagged, again at most as many.
     """
-    if len(table) <= PAGE_ROWS:
+    if len(table) <= WHOLE_ROWS:
         return table
     first, rest = table.iloc[:PAGE_ROWS], table.iloc[PAGE_ROWS:]
     if "status" in rest:
@@ -208,16 +245,24 @@ def _is_empty(column: pd.Series) -> bool:
     return len(column) > 0 and bool((column.isna() | (column == "")).all())
 
 
+def _is_one_text(column: pd.Series) -> bool:
+    """Tell whether all rows of a column have the same long text, so that it is said once."""
+    if len(column) < 2 or _is_numeric(column) or not isinstance(column.iloc[0], str):
+        return False
+    return len(column.iloc[0]) > LONG and bool(column.eq(column.iloc[0]).all())
+
+
 def _error_column(name: str, table: pd.DataFrame) -> str:
     """Name the column that says how uncertain another one is; empty where none does."""
     found = [error for error, values in UNCERTAIN_BY.items() if name in values and error in table]
     return found[0] if found else ""
 
 
-def _named(value: object, entry: Entry) -> Cell:
+def _named(column: str, value: object, entry: Entry) -> Cell:
     """Write a text with the names that people use; the names in the file come on hover."""
     text = "" if value is None or value is pd.NA else str(value)
-    words_of_it = in_words(text, entry.factors)
+    write = in_symbols if column in TERMS else in_words
+    words_of_it = write(message_text(text) if column in SAID else text, entry.factors)
     return Cell(words_of_it, name_in_file="" if words_of_it == text else text)
 
 

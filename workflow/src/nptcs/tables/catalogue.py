@@ -258,7 +258,7 @@ TABLES: dict[str, ResultTable] = {
         ResponseImpact,
         "What each factor does to each response",
         "sobol",
-        "of each response the surface that predicts left-out cases best; Sobol indices by "
+        "the surface of each response that predicts left-out cases best; Sobol indices by "
         "Saltelli's scheme, slopes over a scrambled Sobol sequence",
         section=ReportSection.SENSITIVITY,
         headings=headings.RESPONSE_IMPACT,
@@ -296,7 +296,7 @@ TABLES: dict[str, ResultTable] = {
         DecisionDesigns,
         "The best designs of each decision, goal by goal",
         "decide",
-        "as decisions.csv; low and high are quantiles of the samples",
+        "the same surfaces as decisions.csv; low and high are quantiles of the samples",
         section=ReportSection.DECISION,
         headings=headings.of(headings.DECISION, DecisionDesigns),
         synthetic=SyntheticBy.STUDIES,
@@ -305,7 +305,7 @@ TABLES: dict[str, ResultTable] = {
         DecisionFront,
         "Pareto front of decisions with two objectives or more",
         "decide",
-        "as decisions.csv; acceptable candidates and designs that none betters",
+        "the same surfaces as decisions.csv; acceptable candidates and designs that none betters",
         section=ReportSection.DECISION,
         headings=headings.of(headings.DECISION, DecisionFront),
         synthetic=SyntheticBy.STUDIES,

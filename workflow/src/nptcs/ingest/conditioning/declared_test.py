@@ -15,24 +15,27 @@ NamedLoading = Literal["tension", "compression", "flexure"]
 WORDS: dict[NamedLoading, re.Pattern[str]] = {
     "tension": re.compile(
         r"(?i)\btens(ile|ion)|\bzug(versuch|prüf|spann|kraft|dehn)|\btraction|\btracci[oó]n"
-        r"|\btrazione|\btraç[aã]o|rozciąg|\btah(u|em|ov)|растяж|引張|拉伸"
+        r"|\btrazione|\btraç[aã]o|rozciąg|\btah(u|em|ov)|растяж|引張|拉伸|인장"
+        r"|\bçekme|\btrekproef|\bdragprov|\bhúzó|\bvetokoe"
         r"|\bD ?(3039|638|412|3518)\b|\bISO ?(527|37|14129)\b"
     ),
     "compression": re.compile(
         r"(?i)\bcompressi|\bcompress[aã]o|\bcompresi[oó]n|\bdruck(versuch|prüf|spann|kraft|belast)"
-        r"|\bstauch|ściskan|\btlak(u|em|ov)|сжати|圧縮|压缩|\bD ?(695|6641|3410|575)\b"
+        r"|\bstauch|ściskan|\btlak(u|em|ov)|сжати|圧縮|压缩|壓縮|압축"
+        r"|\bbasma|\bdrukproef|\btryckprov|\bnyomó|\bD ?(695|6641|3410|575)\b"
         r"|\bISO ?(604|14126|7743)\b"
     ),
     "flexure": re.compile(
         r"(?i)\bflexur|\bflexion|\bflexi[oó]n|\bflex[aã]o|\bflessione|\bbiege|\bbending\b"
-        r"|\b(3|4|three|four)[- ]?point|\bzginan|\bohyb|изгиб|曲げ|弯曲|\bD ?(790|7264)\b"
+        r"|\b(3|4|three|four)[- ]?point|\bzginan|\bohyb|изгиб|曲げ|弯曲|彎曲|굽힘|굴곡"
+        r"|\beğ(il)?me|\bbuigproef|\bböjprov|\bhajlító|\bD ?(790|7264)\b"
         r"|\bISO ?(178|14125)\b"
     ),
 }
 """Words and standards by which files name the loading, in the languages of the profiles."""
 _ABOUT_THE_TEST = re.compile(
     r"(?i)test|method|type|procedure|norm|standard|prüf|versuch|essai|méthode|ensayo|método|prova"
-    r"|metodo|zkouš|badani|испыт|試験|试验|方法"
+    r"|metodo|prueba|zkouš|badani|испыт|試験|试验|試驗|方法|시험|deney|proef|prov\b|provning|vizsg"
 )
 
 

@@ -10,7 +10,9 @@ from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
 from nptcs.ingest.reading.raw_file import RawFile
 
 SMALLEST_SHARE = 0.1
-"""Share of the channel's range: a smaller leap is not looked at."""
+"""Share of the channel's range: a smaller leap is not looked at, ..."""
+HELD_SHARE = 0.02
+"""... unless the channel then stands still to the last digit, as a lost one does at zero."""
 USUAL_STEPS = 20.0
 LONGEST_SHARE = 0.05
 """Share of the readings for which a channel may be away."""
@@ -92,13 +94,13 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
     if not size_of.max() > USUAL_STEPS * usual:
         return gone
     low, high = np.percentile(values, [1, 99])
-    leaps = np.flatnonzero(size_of > max(SMALLEST_SHARE * (high - low), USUAL_STEPS * usual))
+    span = float(high - low)
+    share = HELD_SHARE if usual > 0 else SMALLEST_SHARE
+    leaps = np.flatnonzero(size_of > max(share * span, USUAL_STEPS * usual))
     longest = max(SHORTEST, int(LONGEST_SHARE * len(values)))
     longest = longest if other is not None else SHORTEST
     for first in leaps:
-        if gone[kept[first]] or _along(
-            other, kept[first], kept[first + 1], step[first], high - low
-        ):
+        if gone[kept[first]] or _along(other, kept[first], kept[first + 1], step[first], span):
             continue
         size = abs(float(step[first]))
         for back in leaps[(leaps > first) & (leaps <= first + longest)]:
@@ -106,6 +108,9 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
             returned = apart <= _BACK * size + 3 * usual * (back - first)
             up = step[first] * values[first] > 0 and abs(values[back + 1]) < abs(values[first])
             broke = before_break and up and back - first <= SHORTEST
+            held = back > first + 1 and np.ptp(values[first + 1 : back + 1]) == 0
+            if not held and min(size, abs(float(step[back]))) <= SMALLEST_SHARE * span:
+                continue
             if step[back] * step[first] < 0 and (returned or broke):
                 gone[kept[first + 1 : back + 1]] = True
                 break

@@ -16,6 +16,8 @@ from nptcs.ingest.reading.units import clean_unit
 
 DATA = frozenset(("data", "odd data"))
 _ROWS_ABOVE = 4
+_NOTES_SHARE = 0.2
+"""Share of the rows up to which readings without a name are notes next to the table."""
 _OF_A_SUMMARY = re.compile(
     r"(?i)(max|min|mean|average|avg|median|std|stand|s\.?d\.?$|cv|cov|n$|sum|total|mittel|"
     r"standardabw|moyenne|[ée]cart|media|desv|m[áa]x|m[íi]n|сред|макс|мин|平均|最大|最小|標準|标准)"
@@ -86,8 +88,9 @@ def _settle_unnamed(source: CellSource, found_table: FoundTable, unnamed: str, p
     if not surplus or unnamed == "last":
         return
     first = found_table.width - surplus
-    for row in found_table.rows_of_data:
-        if any(source.cells(row)[first:]):
+    filled = [row for row in found_table.rows_of_data if any(source.cells(row)[first:])]
+    for row in filled:
+        if not _names_are_in_place(source, found_table, len(filled)):
             raise InputError(
                 f"{found_table.width} columns, but {first} names: it is not clear which column "
                 "has no name",
@@ -96,7 +99,21 @@ def _settle_unnamed(source: CellSource, found_table: FoundTable, unnamed: str, p
                 row + 1,
             )
     found_table.columns = found_table.columns[:first]
-    found_table.notes.append(f"{surplus} phantom column(s) without name and values left out")
+    what = "with notes" if filled else "and values"
+    found_table.notes.append(f"{surplus} phantom column(s) without name {what} left out")
+
+
+def _names_are_in_place(source: CellSource, found_table: FoundTable, filled: int) -> bool:
+    """Tell whether the names are surely those of the columns below them.
+
+    In a workbook each is in its cell. In a text they are if the row of names is as wide as the
+    table, and what has no name is a note next to a few of the rows.
+    """
+    if isinstance(source, SheetSource):
+        return True
+    row = found_table.names_row
+    wide = row is not None and source.widths[row] >= found_table.width
+    return wide and filled <= _NOTES_SHARE * len(found_table.rows_of_data)
 
 
 def _settle_clocks(source: CellSource, found_table: FoundTable, path: Path) -> None:

@@ -18,8 +18,10 @@ from nptcs.ingest.reading.native.workbooks import is_workbook, read_workbook
 from nptcs.ingest.reading.profiles import ContentKind, FormatProfile
 from nptcs.ingest.reading.text.cells import CellSource, split_lines
 from nptcs.ingest.reading.text.clock import PlainLines, clocks_to_seconds, join_grouped_digits
+from nptcs.ingest.reading.text.decimal_marks import one_decimal_mark
 from nptcs.ingest.reading.text.decode import decode
 from nptcs.ingest.reading.text.dressed_rows import mark_units, without_borders
+from nptcs.ingest.reading.text.turned_tables import NOTE, upright_lines
 from nptcs.ingest.reading.units import FACTORS
 
 HEAD_LINES = 60
@@ -132,13 +134,17 @@ def _open_text(
     if raw.endswith(b"\x00\x00\x00\x00"):
         raw = raw.rstrip(b"\x00")  # a file whose space was reserved and not filled
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
-    lines, unit_lines = mark_units(without_borders(split_lines(join_grouped_digits(decoded.text))))
+    written = split_lines(join_grouped_digits(decoded.text))
+    upright = upright_lines(written)
+    lines, unit_lines = mark_units(without_borders(upright))
+    lines, mixed = one_decimal_mark(lines)
     plain = clocks_to_seconds(lines)
     lines = plain.lines
     refuse_larger(path, "rows", len(lines), limits.rows, "lines")
     longest = max(map(len, lines))
     refuse_larger(path, "line_length", longest, limits.line_length, "characters in a line")
-    note = f"encoding {decoded.encoding}: {decoded.note}"
+    notes = [f"encoding {decoded.encoding}: {decoded.note}", *([mixed] if mixed else [])]
+    notes += [NOTE] if upright is not written else []
     head = "\n".join(line for line in lines[:HEAD_LINES] if _WORD.search(line))
     return OpenedFile(
         path,
@@ -149,7 +155,7 @@ def _open_text(
         clocks=plain,
         unit_lines=unit_lines,
         largest_width=limits.columns,
-        notes=(note,),
+        notes=tuple(notes),
     )
 
 

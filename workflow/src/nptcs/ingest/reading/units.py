@@ -90,6 +90,11 @@ FACTORS: dict[str, dict[str, float]] = {
         "даН": 10,
         "кгс": 9.80665,
         "тс": 9806.65,
+        "公斤": 9.80665,
+        "公斤力": 9.80665,
+        "千克力": 9.80665,
+        "뉴턴": 1,
+        "ニュートン": 1,
     },
     "length": {
         "mm": 1,
@@ -378,5 +383,6 @@ def split_unit(name: str) -> tuple[str, str | None]:
         if tail and is_unit(tail.group(2)) and tail.group(2).casefold() not in words:
             return tail.group(1), clean_unit(tail.group(2))
     if _WRITTEN_TOGETHER.search(name):
-        return split_unit(_WRITTEN_TOGETHER.sub("_", name))  # ForceKN, StrainPct
+        apart = split_unit(_WRITTEN_TOGETHER.sub("_", name))  # ForceKN, StrainPct
+        return apart if apart[1] else (name.strip(), None)
     return name.strip(), None

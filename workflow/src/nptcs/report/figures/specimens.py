@@ -14,9 +14,16 @@ from matplotlib.figure import Figure
 from nptcs.language import tr, translatable
 from nptcs.report.figures.style import DASHES, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK
+from nptcs.report.text import text_width
 
 DRAWN_POINTS = 200
 """Readings of a curve that are drawn; the curve files hold all of them."""
+
+LEGEND_CHARACTERS = 72
+"""Characters of the names of curves that fit on one line below a panel."""
+
+SIGN_CHARACTERS = 8
+"""Room that the sign of a curve takes there, in characters."""
 
 MOST_NAMED = 8
 """Specimens of a panel beyond which they are not named one by one."""
@@ -130,13 +137,28 @@ def stress_strain(
         parts.append(drawn[[axis.strain, axis.stress]].assign(specimen=specimen, what="curve"))
     if moduli is not None:
         parts += _draw_moduli(axes, moduli, curves, axis, colours)
-    if len(colours) <= MOST_NAMED and axes.get_lines():
-        axes.legend(loc="lower right", fontsize=7)
+    _name_lines(axes, len(colours))
     if parts:
         columns = ["specimen", "what", axis.strain, axis.stress]
         figure.data = pd.concat(parts, ignore_index=True)[columns]
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def _name_lines(axes: Axes, specimens: int) -> None:
+    """Name the curves below the axes, where few enough, and the slopes in their empty corner."""
+    lines, labels = axes.get_legend_handles_labels()
+    if lines[specimens:]:
+        axes.legend(lines[specimens:], labels[specimens:], loc="lower right", fontsize=7)
+    if 0 < specimens <= MOST_NAMED:
+        longest = max(map(text_width, labels[:specimens]))
+        axes.figure.legend(
+            lines[:specimens],
+            labels[:specimens],
+            loc="outside lower center",
+            ncols=max(1, int(LEGEND_CHARACTERS / (longest + SIGN_CHARACTERS))),
+            fontsize=7,
+        )
 
 
 def _draw_curve(

@@ -8,6 +8,7 @@ from itertools import combinations
 import matplotlib as mpl
 import numpy as np
 import pandas as pd
+from matplotlib.axes import Axes
 from matplotlib.colors import BoundaryNorm
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
@@ -37,6 +38,14 @@ SPARSE = 4
 MOST_LINES = 7
 LEVELS = 12
 """Steps of a colour scale, at most."""
+INNER = 0.8
+"""Share of the width and the height of a panel inside which its lines are named."""
+DARK = "#111111"
+"""Lines and text on bright colours: black itself would turn white in dark mode."""
+CLEAR = 0.12
+"""Distance between the name of a line and a mark, as a share of the panel, that is enough."""
+BRIGHT = 0.55
+"""Brightness of a colour above which text on it is dark."""
 
 
 def middle_level(levels: Sequence[float]) -> float:
@@ -177,8 +186,7 @@ def contours(
     steps = list(levels) or common_levels([(surface, cases)])
     norm = BoundaryNorm(steps, mpl.colormaps[MAP].N)
     filled = axes.contourf(x, y, z, levels=steps, cmap=MAP, norm=norm)
-    lines = axes.contour(x, y, z, levels=steps, colors="white", linewidths=0.6)
-    axes.clabel(lines, fmt="%g", fontsize=7)
+    _contour_lines(axes, (x, y, z), steps, norm, shown[list(pair)].to_numpy(float))
     axes.scatter(
         shown[pair[0]],
         shown[pair[1]],
@@ -198,6 +206,51 @@ def contours(
     axes.grid(visible=False)
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def _contour_lines(
+    axes: Axes,
+    grid: tuple[Array, Array, Array],
+    steps: Sequence[float],
+    norm: BoundaryNorm,
+    marks: Array,
+) -> None:
+    """Draw the lines between the steps and name them, dark on bright colours and bright on dark.
+
+    A line is named once, off the marks of the cases (rows of x and y); one that only crosses a
+    corner stays without a name, which would lie over the edge.
+    """
+    colours = [_readable_on(mpl.colormaps[MAP](norm(step))) for step in steps]
+    lines = axes.contour(*grid, levels=steps, colors=colours, linewidths=0.6)
+    places = []
+    for pieces in lines.allsegs:
+        longest = max(pieces, key=len, default=np.empty((0, 2)))
+        inside = longest[np.all(np.abs(_in_axes(axes, longest) - 0.5) < INNER / 2, axis=1)]
+        if len(inside):
+            places.append(tuple(_off_marks(axes, inside, marks)))
+    if places:
+        axes.clabel(lines, fmt="%g", fontsize=7, manual=places)
+
+
+def _off_marks(axes: Axes, points: Array, marks: Array) -> Array:
+    """Choose the point nearest to the middle of a line among those farthest from all marks."""
+    away = _in_axes(axes, points)[:, None] - _in_axes(axes, marks)[None]
+    nearest = np.hypot(*away.transpose(2, 0, 1)).min(axis=1, initial=np.inf)
+    clear = np.minimum(nearest, CLEAR)
+    from_middle = np.abs(np.arange(len(points)) - len(points) // 2)
+    return points[np.lexsort((from_middle, -clear))[0]]
+
+
+def _in_axes(axes: Axes, points: Array) -> Array:
+    """Return points as fractions of the axes' width and height."""
+    low, high = np.array([axes.get_xlim(), axes.get_ylim()]).T
+    return (points - low) / (high - low)
+
+
+def _readable_on(colour: tuple[float, float, float, float]) -> str:
+    """Choose dark or white for lines and text on a colour, by its brightness (ITU-R BT.709)."""
+    brightness = float(np.dot(colour[:3], (0.2126, 0.7152, 0.0722)))
+    return DARK if brightness > BRIGHT else "white"
 
 
 def _numbers(

@@ -49,9 +49,13 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
                 label=tr(kind),
             )
     for bar, share in zip(place, shares["share_percent"], strict=True):
-        text = f"{share:.0f}" if share >= 1 else f"{share:.1g}"
         axes.annotate(
-            text, (share, bar), (3, 0), textcoords="offset points", va="center", fontsize=7.5
+            share_text(share),
+            (share, bar),
+            (3, 0),
+            textcoords="offset points",
+            va="center",
+            fontsize=7.5,
         )
     figure.data = shares
     axes.set_yticks(place, names, fontsize=7.5)
@@ -60,6 +64,19 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     figure.legend(loc="outside lower center", ncols=4)
     mark_synthetic(figure, synthetic)
     return figure
+
+
+def share_text(percent: float) -> str:
+    """Write a share in percent: whole ones, small ones to a digit, none below a hundredth.
+
+    Examples
+    --------
+    >>> share_text(83.4), share_text(0.07), share_text(4e-7)
+    ('83', '0.07', '< 0.01')
+    """
+    if percent >= 1:
+        return f"{percent:.0f}"
+    return f"{percent:.1g}" if percent >= 0.01 else "< 0.01"
 
 
 def in_lines(quantities: str) -> str:

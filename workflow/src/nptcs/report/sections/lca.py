@@ -141,7 +141,7 @@ def _load_plots(results: Results) -> list[Plot]:
         for fe in solved or [nothing]:
             by = "" if fe.empty else tr(" and {solver}", solver=fe["solver"].iloc[0])
             alt = tr(
-                "Displacement against load, LCA with section {section}{by}",
+                "Displacement against load, LCA, {section}{by}",
                 section=tr(SECTION_NAMES[str(rows["section"].iloc[0])]),
                 by=by,
             )

@@ -20,7 +20,7 @@ from nptcs.report.table_view import sheet_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.sheets import Sheets, sheet_of
-from nptcs.report.words.flags import flag_text
+from nptcs.report.words.checks import WARNING, check_text
 from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.laboratory.material_card import PUBLISHED_C10_MPA, RubberCard
 from nptcs.tables.result_table import ReportSection
@@ -33,9 +33,18 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
         sheet_view(sheets[entries.PLY.sheet]),
         sheet_view(sheets[entries.RUBBERS.sheet]),
     ]
-    checks = [f"{card.name}: {flag_text(check)}" for card in results.cards for check in card.checks]
-    if checks:
-        blocks.append(Listing(tr("What the checks of the card found"), tuple(checks), "warn"))
+    checks = [(card.name, check) for card in results.cards for check in card.checks]
+    for lead, warns in (
+        (tr("What the checks of the card warn of"), True),
+        (tr("What the checks of the card found"), False),
+    ):
+        lines = [
+            f"{name}: {check_text(check)}"
+            for name, check in checks
+            if check.startswith(WARNING) == warns
+        ]
+        if lines:
+            blocks.append(Listing(lead, tuple(lines), "warn" if warns else ""))
     blocks += [
         Plots(
             tr(

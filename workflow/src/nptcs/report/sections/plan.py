@@ -130,13 +130,8 @@ def _further_tables(sheets: Sequence[Sheet], *, folded: bool) -> tuple[PageBlock
     if not folded or not tables:
         return tables
     titles = "; ".join(tr(sheet.entry.title) for sheet in sheets)
-    title = tr_count(
-        "{count} more table: {titles}",
-        "{count} more tables: {titles}",
-        len(tables),
-        titles=titles,
-    )
-    return (MoreTables(title, tables),)
+    title = tr_count("{count} more table", "{count} more tables", len(tables))
+    return (MoreTables(title, titles, tables),)
 
 
 def _shown(sheet: Sheet) -> TableView | Text:

@@ -12,6 +12,7 @@ from nptcs.report.table_view import table_view
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import Heading, words
 from nptcs.report.tables.names import factor_headings
+from nptcs.report.text import joined
 from nptcs.tables.analysis.impact import Impact
 
 FILE = "results/tables/impact.csv"
@@ -38,7 +39,11 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
     return [
         Listing(
             tr("Is the ranking that of table 9?"),
-            (*verdicts(results, compared), *near_tie_sentences(results, compared)),
+            (
+                *published_order(results, compared),
+                *verdicts(results, compared),
+                *near_tie_sentences(results, compared),
+            ),
         ),
         table_view(table, entry, synthetic=synthetic),
     ]
@@ -91,41 +96,45 @@ def near_tie_sentences(results: Results, compared: pd.DataFrame) -> list[str]:
     ]
 
 
+def published_order(results: Results, compared: pd.DataFrame) -> list[str]:
+    """Write the factors in the order of table 9, where one solver has all of them."""
+    every = set(zip(compared["study"], compared["factor"], strict=True))
+    for _, rows in compared.groupby(["solver", "rule"], sort=False):
+        if set(zip(rows["study"], rows["factor"], strict=True)) == every and len(every) > 1:
+            return [tr("Table 9: {order}.", order=_order(results, rows, "published_rank"))]
+    return []
+
+
 def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
-    """Say for each solver and rule whether its factors are ranked as in table 9."""
+    """Say for each solver by which rules its factors are ranked as in table 9, and by which not.
+
+    Rules that give the same order are one sentence.
+    """
+    sentences, whole = [], published_order(results, compared)
+    for solver, of_solver in compared.groupby("solver", sort=True):
+        alike: dict[tuple[str, str], list[str]] = {}
+        for rule, rows in of_solver.groupby("rule", sort=False):
+            orders = (_order(results, rows, "rank"), _order(results, rows, "published_rank"))
+            if len(rows) > 1:
+                alike.setdefault(orders, []).append(words(str(rule)))
+        for (computed, published), rules in alike.items():
+            if computed == published:
+                sentence = tr("{solver}, {rules}: {order}: the same as in table 9.")
+            elif tr("Table 9: {order}.", order=published) in whole:
+                sentence = tr("{solver}, {rules}: {order}: NOT that of table 9.")
+            else:
+                sentence = tr("{solver}, {rules}: {order}: NOT that of table 9 ({published}).")
+            told = {"rules": joined(rules), "order": computed, "published": published}
+            sentences.append(sentence.format(solver=solver, **told))
+    return sentences
+
+
+def _order(results: Results, rows: pd.DataFrame, by: str) -> str:
+    """Write the factors of some rows in the order of a rank."""
     labels = {
         (study.name, name): label.label
         for study in results.config.studies
         for name, label in factor_labels(study).items()
     }
-    sentences = []
-    for solver, of_solver in compared.groupby("solver", sort=True):
-        for rule, rows in of_solver.groupby("rule", sort=False):
-            if len(rows) < 2:
-                continue
-            computed, published = (
-                " > ".join(
-                    labels[key]
-                    for key in rows.sort_values(by)[["study", "factor"]].itertuples(
-                        index=False, name=None
-                    )
-                )
-                for by in ("rank", "published_rank")
-            )
-            same = bool((rows["rank"] == rows["published_rank"]).all())
-            verdict = (
-                tr("the same as in table 9")
-                if same
-                else tr("NOT that of table 9 ({published})", published=published)
-            )
-            sentences.append(
-                tr(
-                    "{solver}, {rule}, {count} factors: {computed}: {verdict}.",
-                    solver=solver,
-                    rule=words(str(rule)),
-                    count=len(rows),
-                    computed=computed,
-                    verdict=verdict,
-                )
-            )
-    return sentences
+    ordered = rows.sort_values(by)[["study", "factor"]]
+    return " > ".join(labels[key] for key in ordered.itertuples(index=False, name=None))

@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.config.studies.study import Factor, MeasuredRubber, Study
 from nptcs.language import tr, translatable
-from nptcs.report.blocks import PageBlock, Plot, Plots, Section, TableView, Text
+from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, TableView, Text
 from nptcs.report.data import Results, SolverFacts
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
@@ -23,6 +23,7 @@ from nptcs.report.sections.refused import refused_blocks
 from nptcs.report.table_view import sheet_view, table_view
 from nptcs.report.tables import entries
 from nptcs.report.tables.headings import heading, words
+from nptcs.report.tables.names import factor_headings
 from nptcs.report.tables.row_classes import by_status
 from nptcs.report.tables.sheets import Sheets, sheet_of
 from nptcs.report.text import joined
@@ -72,13 +73,14 @@ def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
     design = results.designs[study.name]
     loaded = any(results.solvers[name].loads_tyre for name in study.solvers)
     shared = (study.load_n if loaded else math.nan, ", ".join(study.solvers))
+    labels, names = factor_labels(study), factor_headings(results.config.studies)
     rows: list[tuple[object, ...]] = [
         (
             study.name,
             tr(study.title),
             len(design),
-            tr(factor.label),
-            factor.unit,
+            labels[factor.name].label,
+            labels[factor.name].unit,
             _levels(factor, design),
         )
         + shared
@@ -89,8 +91,8 @@ def _factor_rows(study: Study, results: Results) -> list[tuple[object, ...]]:
             study.name,
             tr(study.title),
             len(design),
-            tr("{name} (fixed)", name=words(name)),
-            "",
+            tr("{name} (fixed)", name=heading(name, names).name),
+            heading(name, names).unit,
             _fixed(value),
         )
         + shared
@@ -120,12 +122,11 @@ def _levels(factor: Factor, design: pd.DataFrame) -> str:
 
 def cases_section(results: Results, sheets: Sheets) -> Section:
     """Build the section on the cases."""
-    solvers = [
-        tr("{name}: {about}{choices}.", name=name, about=tr(facts.about), choices=_choices(facts))
-        for name, facts in results.solvers.items()
-    ]
+    solvers = tuple(
+        Fact(name, tr(facts.about) + _choices(facts), "") for name, facts in results.solvers.items()
+    )
     blocks: list[PageBlock] = [
-        Text(tr("Solvers. {list}", list=" — ".join(solvers))),
+        Facts(tr("Solvers"), solvers),
         table_view(case_counts(results.table(Cases)), COUNTS, mark=by_status),
         table_view(response_spans(results.table(Cases)), SPANS),
     ]
@@ -200,7 +201,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
-        asked = tr("The study {name} has no terms, so no surface is fitted to it.", name=study.name)
+        asked = tr("This study has no terms, so that no surface is fitted to it.")
         return [Text(tr(study.title), "heading"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = tr(

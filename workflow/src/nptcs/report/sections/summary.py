@@ -14,13 +14,11 @@ from nptcs.report.sections.refused import all_refused
 from nptcs.report.table_view import sheet_view
 from nptcs.report.tables.sheets import Sheets
 from nptcs.report.text import joined
+from nptcs.report.words.checks import WARNING, check_text
 from nptcs.report.words.flags import flag_text
 from nptcs.tables.laboratory.files import Files, FileStatus
 from nptcs.tables.laboratory.flags import FlagsTable
 from nptcs.tables.result_table import ReportSection
-
-WARNING = "warning: "
-"""Prefix of those checks of a material card that every reader must see."""
 
 
 def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
@@ -95,7 +93,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
         )
     remarks += all_refused(results)
     remarks += [
-        f"{card.name}: {flag_text(check.removeprefix(WARNING))}"
+        f"{card.name}: {check_text(check)}"
         for card in results.cards
         for check in card.checks
         if check.startswith(WARNING)

@@ -10,7 +10,6 @@ import pandas as pd
 from nptcs.language import tr
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, Text
 from nptcs.report.data import Results
-from nptcs.report.explorer.words import RESPONSE_TITLES
 from nptcs.report.figures.uncertainty import share_bars
 from nptcs.report.plots import plot
 from nptcs.report.table_view import sheet_view
@@ -24,6 +23,9 @@ from nptcs.tables.result_table import Heading, ReportSection
 KEYS = ["study", "solver", "design", "response", "at"]
 LARGEST = 3
 """Sources that the sentence on a response names."""
+
+SMALLEST_PERCENT = 0.5
+"""Share of the variance below which a source is not named: it would read as 0 %."""
 
 
 def uncertainty_section(results: Results, sheets: Sheets) -> Section:
@@ -63,6 +65,7 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
         largest = "; ".join(
             f"{_short(one, factors)} {one['share_percent']:.0f} %"
             for one in rows.head(LARGEST).to_dict("records")
+            if one["share_percent"] >= SMALLEST_PERCENT
         )
         text = tr(
             "{value} (SD), {percent:.0f} % interval {low} to {high}; {largest}",
@@ -95,7 +98,7 @@ def _facts(results: Results, table: pd.DataFrame, shares: pd.DataFrame) -> list[
 
 def _title(response: str) -> str:
     """Name a response at the beginning of a line."""
-    text = tr(RESPONSE_TITLES[response]) if response in RESPONSE_TITLES else words(response)
+    text = words(response)
     return text[:1].upper() + text[1:]
 
 

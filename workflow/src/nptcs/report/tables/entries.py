@@ -79,7 +79,7 @@ SHEET = Entry(
     "Specimen sheet: what the laboratory states of each specimen",
     "the specimen sheet of the configuration",
     "(input)",
-    "written by the laboratory; the area is mean width × mean thickness",
+    "what the laboratory wrote; the area is mean width × mean thickness",
 )
 CONDITIONING = Entry(
     "conditioning",
@@ -129,5 +129,5 @@ def design_entry(study: str) -> Entry:
         tr("Design table of the study {study}", study=study),
         f"results/4_design/{study}.csv",
         "design",
-        "factors and levels of the configuration, full factorial",
+        "factors, levels and kind of design in the configuration",
     )

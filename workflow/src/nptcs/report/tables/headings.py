@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from nptcs.language import tr
+from nptcs.report.words.responses import RESPONSE_TITLES
 from nptcs.tables.result_table import Heading
 
 UNITS = {
@@ -35,6 +36,13 @@ NAMES = {
     "nu12": "ν12",
     "nu13": "ν13",
     "nu23": "ν23",
+    "nu21": "ν21",
+    "nu31": "ν31",
+    "nu32": "ν32",
+    "r2": "R²",
+    "vif": "VIF",
+    "aicc": "AICc",
+    "drucker": "Drucker",
     "sha256": "SHA-256",
     "lca": "LCA",
     "fem": "FEM",
@@ -78,6 +86,8 @@ def heading(column: str, fixed: Mapping[str, Heading] | None = None) -> Heading:
 
 
 def words(name: str) -> str:
-    """Write ``leave_one_out_r_squared`` as ``leave one out R²``."""
+    """Write ``leave_one_out_r_squared`` as ``leave one out R²``, and a response by its title."""
+    if name in RESPONSE_TITLES:
+        return tr(RESPONSE_TITLES[name])
     parts = [NAMES.get(part, part) for part in name.split("_")]
     return tr(" ".join(parts).replace("R ²", "R²").replace("θ c", "θc").replace("θ t", "θt"))

@@ -19,6 +19,11 @@ NAME = re.compile(
 )
 """A name of a column or a response, and the number that follows it."""
 
+SYMBOL = re.compile(r"[A-Z](?:-?[A-Z])?")
+"""A symbol of a factor, such as S or T-C."""
+
+SUPERSCRIPTS = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+
 PHRASES = {
     re.compile(r"\b(?P<plates>\d+) plates\b"): translatable("{plates} plates"),
     re.compile(r" at (?P<at>\d[\d.]* \w+)"): translatable(" at {at}"),
@@ -38,10 +43,41 @@ def in_words(text: str, labels: Mapping[str, Heading]) -> str:
     '22 plates, spacing S\xa014.33\xa0mm'
     >>> in_words("e1_mpa ± 76.2, nu12", {})
     'E1\xa0± 76.2\xa0MPa, ν12'
+    >>> in_words("e1_mpa ± 2.04e+03", {})
+    'E1\xa0± 2040\xa0MPa'
     """
     for phrase, words in PHRASES.items():
         text = phrase.sub(partial(_phrase, words), text)
     return NAME.sub(lambda found: _in_words(found, labels), text)
+
+
+def in_symbols(text: str, labels: Mapping[str, Heading]) -> str:
+    """Write terms of a polynomial with the symbols that end the factors' labels.
+
+    A factor whose label ends in no symbol of its own is written by its label.
+
+    Examples
+    --------
+    >>> in_symbols("spacing_mm*angle_deg^2", {
+    ...     "spacing_mm": Heading("plate spacing S", "mm"),
+    ...     "angle_deg": Heading("fibre angle A", "°"),
+    ... })
+    'S × A²'
+    """
+    symbols = {name: _symbol(label.name) for name, label in labels.items()}
+    once = {one for one in symbols.values() if one and list(symbols.values()).count(one) == 1}
+    written = {
+        name: symbol if symbol in once else labels[name].name for name, symbol in symbols.items()
+    }
+    pattern = re.compile(r"\b(" + "|".join(map(re.escape, labels)) + r")\b" if labels else r"(?!)")
+    text = pattern.sub(lambda found: written[found[1]], text.replace("*", " × "))
+    return re.sub(r"\^(\d)", lambda found: SUPERSCRIPTS[int(found[1])], text)
+
+
+def _symbol(label: str) -> str:
+    """Return the symbol that a label ends in, in brackets or not; empty for none."""
+    last = label.split()[-1].strip("()（）") if label.split() else ""
+    return last if SYMBOL.fullmatch(last) else ""
 
 
 def _phrase(words: str, found: re.Match[str]) -> str:
@@ -53,7 +89,7 @@ def _in_words(found: re.Match[str], labels: Mapping[str, Heading]) -> str:
     if found["number"] is None:
         return label.name
     gap = "" if label.unit in ("", "°") else "\u00a0"
-    number = found["number"] if found["error"] else number_text(float(found["number"]), 4)
+    number = number_text(float(found["number"]), 3 if found["error"] else 4)
     return f"{label.name}\u00a0{found['error'] or ''}{number}{gap}{label.unit}"
 
 

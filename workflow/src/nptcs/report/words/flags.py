@@ -45,6 +45,36 @@ SENTENCES = (
     translatable("the curve ends at {load} N and {displacement} mm"),
     translatable("orthotropic, not transversely isotropic: {detail}"),
     translatable("transversely isotropic within {tolerance} %: {detail}"),
+    # notes on groups, constants and uncertainties
+    translatable("B-basis provisional: n = {n} < {full}"),
+    translatable("no B-basis: n = {n}, at least {smallest}"),
+    translatable("not normally distributed (Shapiro-Wilk p = {p}): B-basis doubtful"),
+    translatable("n = {n}, {standard} asks for {asked}"),
+    translatable("ranges differ between specimens"),
+    translatable("preload and toe corrected in the others, not in {names}"),
+    translatable("assessed: {count} of {total}"),
+    translatable("flagged: {names}"),
+    translatable("scatter between {n} specimens (jackknife)"),
+    translatable("constants not determined: {names}"),
+    translatable("{name} at the bound {bound} of the search"),
+    translatable("standard error larger than the value: {names}"),
+    translatable("the curve ends at {load} N"),
+    translatable("stated, not tested: {percent} %"),
+    translatable("{rule}: no test states how uncertain it is"),
+    translatable("uncertainty.tolerances of the configuration"),
+    translatable("prediction interval of the surface, at least its error at left-out cases"),
+    translatable("effect of the ply not assessed: the lamination form is made for stiffness"),
+    translatable("effect of the ply not assessed: the lamination form has S, T and A alone"),
+    translatable("effect of the rubbers not assessed: no study of this solver varies them"),
+    translatable("effect of the rubbers not assessed: their study varies other factors too"),
+    translatable("ordinary least squares in coded units, solved cases only"),
+    translatable(
+        "{model}, least squares on nominal stress, strain {low} to {high}, weights: "
+        "{weights}, {points} points of {count} specimens; standard error: {rule}"
+    ),
+    translatable("assumed equal to {other}"),
+    translatable("assumed value"),
+    translatable("not assessed: {names}"),
 )
 """The sentences, as the stages write them; ``{…}`` stands for what differs."""
 
@@ -92,7 +122,7 @@ def pattern(sentence: str) -> re.Pattern[str]:
 
 
 def _value(text: str) -> str:
-    """Write what a sentence holds: a span of numbers, a term, or as it is."""
+    """Write what a sentence holds: a span of numbers, a sentence, a term, or as it is."""
     if span := SPAN.fullmatch(text):
         return tr("{low} to {high}", low=span["low"], high=span["high"]) + span["unit"]
-    return tr(text)
+    return (translated(text, SENTENCES) if " " in text else None) or tr(text)

@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from nptcs.language import tr, translatable
 from nptcs.report.words.flags import flag_text, translated
+from nptcs.report.words.specimen_messages import SENTENCES as SPECIMENS
 
 SENTENCES = (
     # solved cases
@@ -74,6 +75,76 @@ SENTENCES = (
     translatable("apparent modulus {modulus} MPa is outside {low} to {high} MPa"),
     translatable("time does not grow from reading {first} to {second}"),
     translatable("delete the reading, or export one test per file"),
+    *SPECIMENS,
+    # properties, cards and what follows them
+    translatable("no {kind} load"),
+    translatable("check the test type and the sign of the force"),
+    translatable("write the number of one of them, first, last or envelope"),
+    translatable("{model}: {constants} constants, the data determine {rank}"),
+    translatable("widen the strain range, add another mode of deformation, or use a simpler model"),
+    translatable("material {name}: no curve to fit"),
+    translatable("ingest at least one included rubber specimen of this material"),
+    translatable("material {name} has no included specimen of this name"),
+    translatable("correct calibration.rubber.only_specimen or set it to null"),
+    translatable("{points} points in the strain range {low} to {high}"),
+    translatable("widen calibration.rubber.strain_range or leave the specimen out"),
+    translatable("no stress in the direction of the test in the strain range {low} to {high}"),
+    translatable("check the curve's strain origin, or leave the specimen out"),
+    translatable("material {material}: {name} must be positive"),
+    translatable("check the curves and the source of this constant"),
+    translatable("add such specimens, include them, or name another source in the configuration"),
+    translatable(
+        "material {material}: the compliance matrix is not positive definite (lowest scaled "
+        "eigenvalue {lowest}), Poisson's ratios nu12 {nu12}, nu13 {nu13}, nu23 {nu23}"
+    ),
+    translatable(
+        "check the transverse strains and the assumed Poisson's ratios: |nu12| < sqrt(E1/E2) "
+        "and its like must hold"
+    ),
+    translatable(
+        "load-bearing model: needs a displacement of {displacement} mm, more than the {room} "
+        "mm that the wheel allows"
+    ),
+    translatable("give a smaller load, or a stiffer ring or spokes"),
+    translatable("correct the tyre's dimensions or the ring's options"),
+    translatable("solver '{solver}' says ok but gives no {missing}"),
+    translatable(
+        "a Gaussian process is not fitted to {cases} cases: its time grows with the cube of "
+        "their number, its memory with the square (at most {most})"
+    ),
+    translatable("leave it out of this study's surfaces, or take fewer levels"),
+    translatable("the lamination form has the factors {factors}"),
+    translatable("leave the lamination form out of this study"),
+    translatable("a surface over spokes needs the constants of the plates' ply"),
+    translatable("give the specimens of a ply, or leave the surface out"),
+    translatable("a surface over spokes needs positive factors"),
+    translatable(
+        "a surface over spokes has the factors {factors} and at least one of the ring, such "
+        "as shear_band_c10_mpa"
+    ),
+    translatable("leave it out of this study"),
+    translatable("leave this surface out, or solve more spokes"),
+    translatable("{spokes} spokes are too few for a surface over spokes"),
+    translatable("solve {fewest} spokes or more (design split_plot)"),
+    translatable(
+        "a spoke has {cases} solved cases, which do not carry the {terms} terms of its polynomial"
+    ),
+    translatable(
+        "solve more cases on each spoke, lower the degree, or narrow the range of the factors "
+        "until none fails"
+    ),
+    translatable(
+        "the surface is the same everywhere, or not a number somewhere, and has no indices"
+    ),
+    translatable("look at surface_comparison.csv"),
+    translatable("the plates' mass in the cases is not proportional to their number and thickness"),
+    translatable("use a solver whose plates are of one length"),
+    translatable("study {study} is not solved by this solver"),
+    translatable("name one of {choices}"),
+    translatable("no case of study {study} by {solver} has {response}"),
+    translatable("outside the cases that the surface was fitted to ({low} to {high})"),
+    translatable("lies outside the cases ({low} to {high})"),
+    translatable("hold it at a value inside, or solve cases there"),
 )
 """What the stages write, without place, value and remedy."""
 

@@ -1,4 +1,4 @@
-"""Units that a file states in its head only: ``Force unit: kN``."""
+"""Units that a file states in its head only: ``Force unit: kN``, ``Load, kN``, ``Units: s, kN``."""
 
 from __future__ import annotations
 
@@ -36,9 +36,11 @@ def add_units_of_head(test: Test) -> None:
         _take_row(test, row)
         text = ";".join(cell for cell in test.source.cells(row) if cell)
         parts = [part for part in _SPLIT.split(text) if part]
-        key = _KEY.match(normalise(parts[0])) if len(parts) == 2 else None
-        if key and is_unit(parts[1]):
-            stated[key["before"] or key["after"]] = clean_unit(parts[1])
+        if len(parts) != 2 or not is_unit(parts[1]):
+            continue
+        key = _KEY.match(normalise(parts[0]))
+        name = (key["before"] or key["after"]) if key else normalise(parts[0])
+        stated[name] = clean_unit(parts[1])
     for column in (one for one in lacking if not one.unit):
         if unit := stated.get(normalise(column.name)):
             column.unit = unit
@@ -48,9 +50,13 @@ def add_units_of_head(test: Test) -> None:
 def _take_row(test: Test, row: int) -> None:
     """Take the units of a row ``Y_Unit_Label, N, %``.
 
-    Each is at the place of its column, or after the word if there are as many as columns.
+    Each is at the place of its column, or after the word if there are as many as columns; all of
+    them may be in one cell (``Units: s, N, %``).
     """
     key, *cells = [cell.strip() for cell in test.source.cells(row)] or [""]
+    if not any(cells) and ":" in key:
+        key, *cells = [part for part in _SPLIT.split(key) if part]
+        cells = cells if len(cells) == test.found_table.width else []
     if normalise(key) not in _ROW_OF_UNITS:
         return
     while cells and not cells[-1]:

@@ -9,6 +9,7 @@ from pathlib import Path
 from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.words import is_reading, map_by_words
 from nptcs.ingest.reading.profiles import (
+    COUNTERS,
     PLAIN,
     UNITLESS,
     FormatProfile,
@@ -67,6 +68,8 @@ def map_columns(
                     {"strain"} if not set(STRAINS) & set(mapped) and part is _whole else set()
                 )
                 wanted &= lacking
+                # without its digits a channel '0x10' would be a coordinate
+                wanted -= set() if part is _whole else _NEED_WHOLE_NAMES[part is core_name]
             _map_names(mapped, wanted, columns, known, part, path, found_table)
     _prefer_a_sensor(mapped, columns)
     every = plain is not None or profile.name == PLAIN
@@ -75,6 +78,8 @@ def map_columns(
     return dict(sorted(mapped.items(), key=lambda item: order.index(item[0])))
 
 
+_NEED_WHOLE_NAMES = {False: set(UNITLESS) - set(COUNTERS), True: set(UNITLESS)}
+"""Quantities not told by a part of a name: without a channel's marks; by its core (True)."""
 _OF_A_SENSOR = re.compile(r"extensom|video|laser|optical|optisch|dic|ga[u]?ge|dms|fein|aufnehm")
 
 

@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Literal
 
 from nptcs.ingest.reading.profiles import Quantity, normalise
 from nptcs.ingest.reading.table_columns import Column
@@ -18,17 +19,19 @@ NO_READING = re.compile(
 )
 """Words of columns that are no readings of the test as it goes on, or of another quantity."""
 ACROSS = re.compile(
-    r"transv|trans\b|lateral|\blat\b|quer(?!schnitt)|breiten|trasvers|poprzecz|попереч|pricn|横向|横"
+    r"transv|trans\b|lateral|\blat\b|quer(?!schnitt)|breiten|trasvers|poprzecz|попереч|pricn(?!ik)|横向|横"
     r"ひずみ|幅|宽度|\bwidth\b|\b(?:sg|dms|e|eps|ε) ?(?:t|q|lat|90)\b"
 )
 _BACK = re.compile(r"\bback\b|\brear\b|hinten|ruck|\bdos\b|背")
 _STRAIN = (
     r"strain|dehnung|deform|elong|dms|\bga[u]?ge|jauge|galga|extensom|odkszt|деформац|удлин|应变"
-    r"|應變|歪|ひずみ|변형|ekstens|estens|\bsg|\beps|ε|\bdl/l0\b"
+    r"|應變|歪|ひずみ|변형|ekstens|estens|t[øö][jy]ning|venym|nyulas|gerinim|birim (?:uzama|sekil)"
+    r"|şekil deg|sekil deg|\brek\b|\bsg|\beps|ε|\bdl/l0\b"
 )
 _SENSOR = (
     r"extensom|estens(?:im|om|\.|\b)|ekstens|экстенз|тензом|feindehn|ansetz|aufnehmer|\bclip\b|引伸"
-    r"|变形|變形|変形|伸び計|伸び計|virtual|video|laser|primary ext|axial ext"
+    r"|变形|變形|変形|伸び計|伸び計|신율계|신장계|prutahom|extenzom"
+    r"|ekstansom|nyulasmer|töjningsgiv|virtual|video|laser|primary ext|axial ext"
     r"|\bga[u]?ge (?:disp|ext)"
 )
 _OVER_LENGTH = r"\((?:extension|displacement|crosshead|stroke|position)\)"
@@ -51,7 +54,7 @@ _RULES = (
         "force",
         re.compile(
             r"force|load|kraft|charge|effort|carga|fuerza|carico|forza|forca|sila|siła|obciaz"
-            r"|zatiz|усили|нагруз|сила|力|荷|하중|kuvvet|kracht|voima|ero\b|messdose|dynamom"
+            r"|zatiz|усили|нагруз|сила|力|荷|하중|kuvvet|yuk\b|kracht|belasting|voima|kuorm|belastning|ero\b|terheles|messdose|dynamom"
         ),
     ),
     _Rule(
@@ -72,13 +75,16 @@ _RULES = (
         re.compile(
             r"displ|travel|cross ?head|stroke|position|weg\b|hub\b|travers|piston|kolben|actuator"
             r"|\bram\b|lvdt|distance|extension|elong|allung|alarg|deplac|spostam|corsa|course"
-            r"|carrera|desplaz|desloc|curso|posuv|перемещ|ход|位移|変位|ストローク|行程|변위|横梁"
+            r"|carrera|desplaz|desloc|curso|posuv|перемещ|ход|位移|変位|ストローク|行程|변위|스트로크|横梁|uzama|pricnik|verplaats|slag\b|f[øö]rskj|forskyv"
+            r"|siirtym|elmozdul|przemieszcz"
         ),
         re.compile(f"{ACROSS.pattern}|{_SENSOR}"),
     ),
     _Rule(
         "time",
-        re.compile(r"time|zeit|temps|tiempo|tempo|czas|cas\b|время|时间|時間|時刻|시간"),
+        re.compile(
+            r"time|zeit|temps|tiempo|tempo|czas|cas\b|время|时间|時間|時刻|시간|zaman|tijd|\btid\b|aika|\bido\b"
+        ),
     ),
 )
 _IN_PLANE_PAIR = {"strain", "extension", "strain_transverse", "extension_transverse"}
@@ -159,3 +165,17 @@ def _in_unit(column: Column, quantity: Quantity) -> bool:
 def is_reading(column: Column) -> bool:
     """Tell whether a column is not a largest value, a setpoint, a scatter or their like."""
     return not NO_READING.search(_full(column))
+
+
+def may_be(kind: Literal["load", "strain"], column: Column) -> bool:
+    """Tell whether a column that no profile knows is probably a load, or a strain.
+
+    A word in its name says so; of a strain also its unit: one of strain or of length.
+    """
+    if not is_reading(column) or column.clock:
+        return False
+    wanted = ("force", "stress") if kind == "load" else ("strain", "extension", "displacement")
+    rules = [rule for rule in _RULES if rule.quantity in wanted]
+    units = () if kind == "load" else ("strain", "length")
+    in_unit = any(column.unit and find_unit(unit, column.unit) for unit in units)
+    return in_unit or any(rule.words.search(_full(column)) for rule in rules)

@@ -23,6 +23,12 @@ class Clock(float):
     """A time of day or a date of a workbook, in s."""
 
 
+class WithUnit(float):
+    """A number of a text cell such as ``12.5 N``, and its unit."""
+
+    unit: str = ""
+
+
 @dataclass
 class SheetSource:
     """One sheet of a workbook: native numbers and texts."""
@@ -62,8 +68,9 @@ class SheetSource:
         return None
 
     def units_in(self, row: int) -> list[str]:
-        """Leave it to the names: a number of a workbook has no unit behind it."""
-        return []
+        """Units behind the numbers of a row's cells, which only texts have; else empty."""
+        units = [cell.unit if isinstance(cell, WithUnit) else "" for cell in self.rows[row]]
+        return units if any(units) else []
 
     def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
         """Columns of a table as numbers; a cell that is not a number is refused with its place."""

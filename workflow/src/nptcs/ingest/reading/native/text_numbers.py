@@ -1,9 +1,12 @@
-"""Columns of a workbook whose numbers are stored as text."""
+"""Columns of a workbook whose numbers are stored as text, with a unit behind them or none."""
 
 from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+
+from nptcs.ingest.reading.native.sheet_cells import WithUnit
+from nptcs.ingest.reading.text.dressed_rows import unit_behind_number
 
 _NUMBER = re.compile(r"[+-]?(?:\d+([.,])?\d*|([.,])\d+)(?:[eE][+-]?\d+)?", re.ASCII)
 _MAY_BE_THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2},\d{3}")
@@ -27,7 +30,7 @@ def numbers_of_texts(rows: list[Row]) -> tuple[list[Row], str]:
         What was done; empty if nothing.
     """
     columns = [column for column in _text_columns(rows) if len(column) >= FEWEST]
-    cells = [str(rows[row][place]).strip() for column in columns for row, place in column]
+    cells = [_bare(rows[row][place]) for column in columns for row, place in column]
     marks = {mark for cell in cells for mark in ".," if mark in cell}
     unproven = all(_MAY_BE_THOUSANDS.fullmatch(cell) for cell in cells if "," in cell)
     if not cells or len(marks) > 1 or ("," in marks and unproven):
@@ -35,7 +38,7 @@ def numbers_of_texts(rows: list[Row]) -> tuple[list[Row], str]:
     changed = [list(row) for row in rows]
     for column in columns:
         for row, place in column:
-            changed[row][place] = float(str(rows[row][place]).strip().replace(",", "."))
+            changed[row][place] = _number(rows[row][place])
     mark = f", decimal mark '{next(iter(marks))}'" if marks else ""
     note = f"{len(columns)} columns hold numbers stored as text{mark}"
     return [tuple(row) for row in changed], note
@@ -52,7 +55,20 @@ def _text_columns(rows: Sequence[Row]) -> list[list[tuple[int, int]]]:
             [
                 (row, place)
                 for row, cell in cells
-                if isinstance(cell, str) and _NUMBER.fullmatch(cell.strip())
+                if isinstance(cell, str) and _NUMBER.fullmatch(_bare(cell))
             ]
         )
     return found
+
+
+def _bare(cell: object) -> str:
+    """Text of a cell without the unit behind its number."""
+    text = str(cell).strip()
+    unit = unit_behind_number(text)
+    return text[: -len(unit)].strip() if unit else text
+
+
+def _number(cell: object) -> float:
+    number = WithUnit(_bare(cell).replace(",", "."))
+    number.unit = unit_behind_number(str(cell).strip())
+    return number if number.unit else float(number)

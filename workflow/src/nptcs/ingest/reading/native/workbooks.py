@@ -15,6 +15,7 @@ from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.native.sheet_cells import FORMULA, Clock, SheetSource
 from nptcs.ingest.reading.native.text_numbers import numbers_of_texts
+from nptcs.ingest.reading.text.turned_tables import NOTE, upright_rows
 
 ZIP = b"PK\x03\x04"
 OLE = b"\xd0\xcf\x11\xe0\xa1\xb1\x1a\xe1"
@@ -71,8 +72,10 @@ def read_workbook(
     notes = [str(warning.message) for warning in caught]
     sources = []
     for name, rows in sheets:
-        numbers, note = numbers_of_texts(rows)
+        upright = upright_rows(rows, lambda cell: type(cell) in (int, float, Clock))
+        numbers, note = numbers_of_texts(rows if upright is rows else list(map(tuple, upright)))
         notes += [f"sheet '{name}': {note}"] if note else []
+        notes += [f"sheet '{name}': {NOTE}"] if upright is not rows else []
         sources += [SheetSource(path, name, numbers, missing)] if rows else []
     return sources, tuple(dict.fromkeys(notes))
 

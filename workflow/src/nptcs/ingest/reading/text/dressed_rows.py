@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from collections.abc import Sequence
+from functools import cache
 
 from nptcs.ingest.reading.units import FACTORS, OTHER_UNITS
 
@@ -37,6 +38,7 @@ def without_borders(lines: list[str]) -> list[str]:
     ]
 
 
+@cache
 def _units_behind_numbers() -> re.Pattern[str]:
     known = {unit for units in FACTORS.values() for unit in units} | OTHER_UNITS
     words = sorted(known - _NOT_BEHIND_NUMBERS, key=len, reverse=True)
@@ -71,6 +73,12 @@ def mark_units(lines: list[str]) -> tuple[list[str], dict[int, str]]:
     }
     plain = [pattern.sub("", line) if row in marked else line for row, line in enumerate(lines)]
     return plain, marked
+
+
+def unit_behind_number(cell: str) -> str:
+    """Return the unit at the end of a cell such as ``12.5 N``; empty if a number stands alone."""
+    found = _units_behind_numbers().search(cell) if cell and not cell[-1].isdigit() else None
+    return found.group(1) if found and found.end() == len(cell) else ""
 
 
 def _is_row(line: str, pattern: re.Pattern[str]) -> bool:

@@ -143,10 +143,12 @@ function contour(context, grid, x, y, quantity, level, label) {
     }
   }
   if (!label || !place) return;
+  const wide = context.measureText(label).width + 4;
+  const room = middle.map((centre, k) => Math.abs(centre - [x(grid.xRange[0]), y(grid.yRange[0])][k]) - Math.abs(place[k] - centre));
+  if (room[0] < wide / 2 || room[1] < 7) return; // it would lie over the edge of the map
   context.save();
   context.textAlign = "center";
   context.textBaseline = "middle";
-  const wide = context.measureText(label).width + 4;
   context.fillStyle = COLOURS.paper;
   context.globalAlpha = 0.85;
   context.fillRect(place[0] - wide / 2, place[1] - 7, wide, 14);

@@ -1,5 +1,8 @@
 // The same plane in space.
 
+// Pixels between an edge of the foot and its name; the numbers at its ends are nearer.
+const NAME_GAP = 30;
+
 // The grid as a surface in space, turned and tilted; far faces first.
 function drawSpace(canvas, grid, turn, tilt) {
   const { context, width, height } = prepared(canvas);
@@ -85,11 +88,32 @@ function baseLabels(context, project, grid, width, height) {
     context.fillText(text, Math.min(width - half, Math.max(half, px)), Math.min(height - 8, py + 8));
   };
   context.fillStyle = COLOURS.ink;
-  put(grid.xLabel, 0, v, 1.22);
-  put(grid.yLabel, u, 0, 1.22);
+  const centre = project(0, 0, -0.55);
+  alongEdge(context, grid.xLabel, project(-1, v, -0.55), project(1, v, -0.55), centre, [width, height]);
+  alongEdge(context, grid.yLabel, project(u, -1, -0.55), project(u, 1, -0.55), centre, [width, height]);
   context.fillStyle = COLOURS.soft;
   put(shortNumber(grid.xRange[0]), -0.78, v, 1.1);
   put(shortNumber(grid.xRange[1]), 0.78, v, 1.1);
   put(shortNumber(grid.yRange[0]), u, -0.78, 1.1);
   put(shortNumber(grid.yRange[1]), u, 0.78, 1.1);
+}
+
+// A name along an edge of the foot, on the side away from its centre and inside the canvas.
+function alongEdge(context, text, from, to, centre, [width, height]) {
+  const [dx, dy] = [to[0] - from[0], to[1] - from[1]];
+  const length = Math.hypot(dx, dy) || 1;
+  const middle = [(from[0] + to[0]) / 2, (from[1] + to[1]) / 2];
+  const away = (middle[0] - centre[0]) * -dy + (middle[1] - centre[1]) * dx < 0 ? -1 : 1;
+  const tilt = Math.atan2(dx < 0 ? -dy : dy, Math.abs(dx));
+  const half = context.measureText(text).width / 2 + 2;
+  const [across, down] = [half * Math.cos(tilt) + 8, half * Math.abs(Math.sin(tilt)) + 8];
+  const within = (value, room, most) => Math.min(most - room, Math.max(room, value));
+  context.save();
+  context.translate(
+    within(middle[0] + (away * NAME_GAP * -dy) / length, across, width),
+    within(middle[1] + (away * NAME_GAP * dx) / length, down, height),
+  );
+  context.rotate(tilt);
+  context.fillText(text, 0, 0);
+  context.restore();
 }
