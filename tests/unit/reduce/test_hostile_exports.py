@@ -256,7 +256,7 @@ def changed(readings: Any, rows: Any, value: float) -> Any:
         (changed(FORCE, slice(110, 130), 0.0), STRAIN),
         (changed(FORCE, slice(598, 600), 3 * FORCE.max()), STRAIN),
         (changed(FORCE, slice(300, 304), -200.0), STRAIN),
-        (changed(FORCE, slice(20, 24), 0.0), STRAIN),
+        (changed(FORCE, slice(28, 32), 0.0), STRAIN),
         (FORCE, changed(STRAIN, slice(30, 34), 0.0)),
         (FORCE, changed(STRAIN, slice(150, 153), 0.5)),
         (FORCE, changed(STRAIN, slice(99, 102), 0.0)),

@@ -23,6 +23,7 @@ UNLOADING_ROWS = 4
 SLOW_LOGGER_S = 0.4
 """Time between readings within which a machine may return: a fall in one step tells nothing."""
 _FEWEST_UP, _FEWEST_DOWN = 20, 2
+_WAY_BACK = 5
 _LATE = 1
 """Readings by which a strain may lag behind its force."""
 TOO_FEW = "so few readings that a break and a return of the machine look alike"
@@ -72,13 +73,11 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     ratio = float(force[near] - force[low]) / (low - near) / rise
     change, rows = _strain_after(force, strain, near, largest)
     back = change < -0.02 and rows >= UNLOADING_ROWS
-    given_back = _given_back(force, strain, start, near)
-    elastic = rows >= _FEWEST_DOWN and min(given_back) >= ELASTIC
-    along = elastic or unloads_along(force, strain, near, start, time_s)
+    along = unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
-    if not along and ratio >= ABRUPT and max(given_back) < TOO_LITTLE:
+    if not along and ratio >= ABRUPT and max(_given_back(force, strain, near, start)) < TOO_LITTLE:
         words = f"{fell}, abruptly, and the strain goes back by less than in an unloading"
         return Failure(seen=True, words=words)
     if change > 0.01:
@@ -99,7 +98,8 @@ def unloads_along(
 
     Every reading between 85 and 15 % of the force must have a strain within 15 % of the one at
     which the loading had that force: a broken specimen has hardly any, since it breaks
-    within a reading of most loggers. Where no reading lies between, the fall in one step is a
+    within a reading of most loggers. So it is if the strain goes back by what the steepest part of
+    the loading gives for the fall of the force (`ELASTIC`): a laminate that yielded. Where no reading lies between, the fall in one step is a
     break if the strain stays behind, or the readings follow each other so fast that no machine
     returns between two of them; else the two cannot be told apart, and it is not a failure seen.
 
@@ -129,15 +129,18 @@ def unloads_along(
         if time_s is None or end >= len(force) or not time_s[end] - time_s[begin] > SLOW_LOGGER_S:
             return False
         rows = np.array([end])
+    elif len(rows) >= _FEWEST_DOWN and min(_given_back(force, strain, begin, start)) >= ELASTIC:
+        return True
     expected = np.interp(force[rows], rising, known)
     return bool((np.abs(strain[rows] - expected) <= 0.15 * abs(known[-1] - known[0])).all())
 
 
-def _given_back(force: Array, strain: Array, start: int, near: int) -> tuple[float, float]:
+def _given_back(force: Array, strain: Array, near: int, start: int) -> tuple[float, float]:
     """Shares of the strain of an elastic unloading given back at the middle and end of the fall.
 
-    Elastic is the steepest stretch of the way up, by fifths of the force. NaN where the strain was
-    not read.
+    Elastic is the steepest stretch of the way up, by fifths of the force. The fall goes to the
+    lowest force before the next loading, within `_WAY_BACK` times the readings of the fall to
+    15 %. NaN where the strain was not read.
     """
     nothing = (float("nan"), float("nan"))
     up = start + np.flatnonzero(np.isfinite(strain[start : near + 1]))
@@ -150,7 +153,14 @@ def _given_back(force: Array, strain: Array, start: int, near: int) -> tuple[flo
         return nothing
     steepest = 0.2 * float(force[near]) / float(gained[gained > 0].min())
     rest = force[near:]
-    end = int(np.argmin(rest))
+    again = np.flatnonzero(rest[1:] > rest[0])
+    rest = rest[: int(again[0]) + 1] if len(again) else rest
+    below = np.flatnonzero(rest < 0.15 * rest[0])
+    # a softened rubber has lost most of its force long before its strain is back
+    window = _WAY_BACK * (int(below[0]) + 1) if len(below) else len(rest)
+    end = int(np.argmin(rest[:window]))
+    if not end:
+        return nothing
     middle = int(np.argmax(rest <= 0.5 * (rest[0] + rest[end])))
     before = float(strain[up[-1]])
     shares = []

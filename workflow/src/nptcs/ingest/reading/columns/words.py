@@ -26,7 +26,7 @@ _BACK = re.compile(r"\bback\b|\brear\b|hinten|ruck|\bdos\b|背")
 _STRAIN = (
     r"strain|dehnung|deform|elong|dms|\bga[u]?ge|jauge|galga|extensom|odkszt|деформац|удлин|应变"
     r"|應變|歪|ひずみ|변형|ekstens|estens|t[øö][jy]ning|venym|nyulas|gerinim|birim (?:uzama|sekil)"
-    r"|şekil deg|sekil deg|\brek\b|\bsg|\beps|ε|\bdl/l0\b"
+    r"|şekil deg|sekil deg|\brek\b|prutahom|extenzom|ekstansom|신율|신장률|\bsg|\beps|ε|\bdl/l0\b"
 )
 _SENSOR = (
     r"extensom|estens(?:im|om|\.|\b)|ekstens|экстенз|тензом|feindehn|ansetz|aufnehmer|\bclip\b|引伸"
