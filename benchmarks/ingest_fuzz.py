@@ -28,10 +28,10 @@ import numpy as np
 from nptcs.config.materials.ingest import IngestSettings
 from nptcs.errors import InputError
 from nptcs.ingest import ingest_specimen, load_profiles
-from nptcs.ingest.reading.columns.quantities import Role
 from nptcs.ingest.reading.profiles import UNITLESS, FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile, read_raw
 from nptcs.ingest.reading.units import DIMENSION, FACTORS
+from nptcs.tables.laboratory.curves import Role
 from nptcs.tables.laboratory.specimens import Specimen
 
 ROOT = Path(__file__).resolve().parents[1]

@@ -245,7 +245,7 @@ def test_a_table_of_a_solver_that_is_missing_is_named(archive):
 @pytest.mark.parametrize("name", ["records", "bulk", "models", "sobol"])
 def test_a_study_may_not_have_the_name_of_a_folder_of_results(archive, name):
     (fault,) = name_faults([], configuration(archive, {"name": name}))
-    assert "kept for another use" in fault.message
+    assert "this name is reserved" in fault.message
 
 
 @pytest.mark.parametrize("name", ["con", "NUL", "com3", "aux.v2"])

@@ -89,7 +89,7 @@ MISTAKES = {
     "load that the archive does not have": (
         study(solvers=["published"], load_n=4000, solver_options={"published": ARCHIVE}),
         None, "holds results at 5000 N, not at 4000 N"),
-    "name that clashes": (study(name="records"), None, "kept for another use"),
+    "name that clashes": (study(name="records"), None, "this name is reserved"),
     "name that is too long": (study(), in_sheet(material="c" + "0a1b2c" * 30), "too long"),
     "several composites": (study(**FE), another_composite, "the sheet gives 2"),
     "unknown ply": (study(**FE, ply="gfrp"), None, "names a ply that the sheet does not have"),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
@@ -123,42 +124,63 @@ def table_view(
     whole : bool
         Whether a long table, too, is shown with all its rows.
     """
-    rows_of_table = len(table)
-    shown = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
-    shared = [name for name in shown if _is_one_text(table[name])]
-    shown = [name for name in shown if name not in shared]
-    digits = {**FEWER_DIGITS, **{name: 3 for name in shown if name.endswith(PERCENTS)}}
-    digits |= given_digits or {}
-    errors = {name: _error_column(name, table) if name not in digits else "" for name in shown}
-    numeric = tuple(_is_numeric(table[name]) for name in shown)
+    filled = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
+    shared = [name for name in filled if _is_one_text(table[name])]
+    shown = _columns(table, [name for name in filled if name not in shared], given_digits or {})
     rows = []
     for record in (table if whole else on_page(table, mark)).to_dict("records"):
-        cells = tuple(
-            _named(name, record[name], entry)
-            if name in (*WITH_NAMES, *TERMS) and not is_number
-            else _cell(
-                _word(name, record[name]),
-                digits.get(name, DIGITS),
-                is_number,
-                record.get(errors[name]),
-            )
-            for name, is_number in zip(shown, numeric, strict=True)
-        )
-        rows.append((mark({str(key): value for key, value in record.items()}), cells))
+        named = {str(key): value for key, value in record.items()}
+        rows.append((mark(named), tuple(_written(column, named, entry) for column in shown)))
     return TableView(
         entry,
         caption or tr(entry.title),
-        tuple(heading(name, entry.headings) for name in shown),
-        numeric,
+        tuple(heading(column.name, entry.headings) for column in shown),
+        tuple(column.is_number for column in shown),
         tuple(rows),
         synthetic,
-        rows_of_table,
-        tuple(shown),
+        len(table),
+        tuple(column.name for column in shown),
         notes=tuple(
             f"{heading(name, entry.headings).name}: {_word(name, table[name].iloc[0])}"
             for name in shared
         ),
     )
+
+
+@dataclass(frozen=True)
+class _Column:
+    """How one column is written; `error` is the column with the uncertainty of its values."""
+
+    name: str
+    is_number: bool
+    digits: int
+    error: str
+
+
+def _columns(
+    table: pd.DataFrame, names: Sequence[str], given_digits: Mapping[str, int]
+) -> list[_Column]:
+    """Decide how each of these columns is written."""
+    percents = {name: 3 for name in names if name.endswith(PERCENTS)}
+    digits = {**FEWER_DIGITS, **percents, **given_digits}
+    return [
+        _Column(
+            name,
+            _is_numeric(table[name]),
+            digits.get(name, DIGITS),
+            "" if name in digits else _error_column(name, table),
+        )
+        for name in names
+    ]
+
+
+def _written(column: _Column, record: Mapping[str, object], entry: Entry) -> Cell:
+    """Write one cell: a name in words, or a value."""
+    value = record[column.name]
+    if column.name in (*WITH_NAMES, *TERMS) and not column.is_number:
+        return _named(column.name, value, entry)
+    error = record.get(column.error)
+    return _cell(_word(column.name, value), column.digits, column.is_number, error)
 
 
 def on_page(table: pd.DataFrame, mark: RowClass) -> pd.DataFrame:
