@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.arrays import Array
+from nptcs.arrays import Array, Mask
 from nptcs.ingest.conditioning.signals import Signals
 
 FEWEST_READINGS = 5
@@ -82,7 +82,7 @@ def saturated_from(load: Array, elongation: Array) -> int | None:
     return first if last >= FULL_RATE * usual else None
 
 
-def _longest(marked: Array) -> tuple[int, int]:
+def _longest(marked: Mask) -> tuple[int, int]:
     """Start and length of the longest run of marked readings."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], marked.astype(int), [0]])))
     lengths = edges[1::2] - edges[::2]
