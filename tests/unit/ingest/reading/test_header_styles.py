@@ -196,7 +196,7 @@ def test_a_strain_without_unit_that_can_only_be_a_strain_is_flagged(lab, tmp_pat
         ("Axial strain", "Axial strain", None),
         ("Dev1/ai0 Force", "Dev1/ai0 Force", None),
         ("ForcekN", "Force", "kN"),
-        ("LoadKN", "Load", "KN"),
+        ("LoadKN", "Load", "kN"),
         ("SignalkN", "SignalkN", None),
         ("ForcemN", "ForcemN", None),
         ("StressMPa", "Stress", "MPa"),
