@@ -10,32 +10,17 @@ residual, and the agreement of a sample with collocation of the same equations.
 from __future__ import annotations
 
 import argparse
+import sys
+from pathlib import Path
 
 import numpy as np
 
 from nptcs import lca
 from nptcs.lca.batch import STATUSES
 
+sys.path.insert(0, str(Path(__file__).resolve().parents[1] / "tests" / "shared"))
 
-def designs_of(rows: int, seed: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """Draw the designs and their loads."""
-    random = np.random.default_rng(seed)
-
-    def between(low: float, high: float) -> np.ndarray:
-        return np.exp(random.uniform(np.log(low), np.log(high), rows))
-
-    c10, radius, area = between(0.5, 20), between(100, 1000), 215.0 * 14.0
-    designs = {
-        "axial_stiffness_n": 2.7018e7 + 6 * c10 * area,
-        "shear_stiffness_n": 2 * c10 * area,
-        "bending_stiffness_n_mm2": np.full(rows, 1.0554e9),
-        "radius_mm": radius,
-        "width_mm": np.full(rows, 215.0),
-        "tension_n_per_mm": between(1, 1000),
-        "compression_n_per_mm": between(1, 1000),
-        "spoke_count": np.full(rows, 60.0),
-    }
-    return designs, between(100, 20000)
+from lca_designs import sweep_designs  # noqa: E402
 
 
 def by_collocation(designs: dict, row: int, theta_c_deg: float) -> lca.LawState:
@@ -56,7 +41,7 @@ def main() -> None:
     parser.add_argument("--checked", type=int, default=300, help="ok rows for collocation")
     parser.add_argument("--seed", type=int, default=2024)
     chosen = parser.parse_args()
-    designs, load = designs_of(chosen.rows, chosen.seed)
+    designs, load = sweep_designs(chosen.rows, chosen.seed)
     batch = lca.solve_batch(designs, load_n=load)
     for status in STATUSES:
         print(f"{status:15s} {np.sum(batch.status == status):7d}")

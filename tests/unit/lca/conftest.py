@@ -2,9 +2,9 @@ import importlib.util
 import sys
 from pathlib import Path
 
-import numpy as np
 import pandas as pd
 import pytest
+from lca_designs import sweep_designs
 
 from nptcs import lca
 from nptcs.config.solvers.tyre import TyreGeometry
@@ -36,28 +36,6 @@ def published():
         "load_errors": "figure15_load_errors.csv",
     }
     return {name: pd.read_csv(PUBLISHED / file) for name, file in files.items()}
-
-
-def sweep_designs(rows: int, seed: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The range that the model is to hold over, log-uniform, with loads in N."""
-    random = np.random.default_rng(seed)
-
-    def between(low, high):
-        return np.exp(random.uniform(np.log(low), np.log(high), rows))
-
-    c10, radius = between(0.5, 20), between(100, 1000)
-    area = 215.0 * 14.0
-    designs = {
-        "axial_stiffness_n": 2.7018e7 + 6 * c10 * area,
-        "shear_stiffness_n": 2 * c10 * area,
-        "bending_stiffness_n_mm2": np.full(rows, 1.0554e9),
-        "radius_mm": radius,
-        "width_mm": np.full(rows, 215.0),
-        "tension_n_per_mm": between(1, 1000),
-        "compression_n_per_mm": between(1, 1000),
-        "spoke_count": np.full(rows, 60.0),
-    }
-    return designs, between(100, 20000)
 
 
 @pytest.fixture(scope="session")

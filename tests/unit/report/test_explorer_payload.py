@@ -17,8 +17,9 @@ from nptcs.report.explorer.markup import SCRIPTS, asset, explorer_markup, script
 from nptcs.report.explorer.models import WRITERS
 from nptcs.report.explorer.payload import explorer_payload
 from nptcs.report.explorer.shared import share_covariances
-from nptcs.report.explorer.words import RESPONSE_TITLES, page_words
+from nptcs.report.explorer.words import page_words
 from nptcs.report.sections.explorer import explorer_section
+from nptcs.report.words.responses import RESPONSE_TITLES
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.stored import READERS
 from nptcs.tables.published.stiffness import StiffnessAgainstPublished

@@ -3,6 +3,7 @@
 import numpy as np
 import pandas as pd
 import pytest
+from matplotlib.colors import to_hex
 
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
@@ -89,6 +90,34 @@ def test_contours_show_the_cases_at_the_middle_level(plate):
     shown = figure.axes[0].collections[-1].get_array()
     expected = cases[cases["angle_deg"] == 45][STIFFNESS]
     np.testing.assert_allclose(np.sort(shown), np.sort(expected))
+
+
+def test_lines_of_a_contour_map_are_named_readably_off_the_marks(plate):
+    surface, cases, labels = plate
+    figure = contours(surface, cases, ("spacing_mm", "angle_deg"), labels)
+    axes = figure.axes[0]
+    filled, marks = axes.collections[0], axes.collections[-1].get_offsets()
+    (low, high), (bottom, top) = axes.get_xlim(), axes.get_ylim()
+    named = [text for text in axes.texts if text.get_text().isdigit()]
+    assert len(named) > 3
+    for text in named:
+        x, y = text.get_position()
+        assert 0.1 <= (x - low) / (high - low) <= 0.9
+        assert 0.1 <= (y - bottom) / (top - bottom) <= 0.9
+        away = np.hypot((marks[:, 0] - x) / (high - low), (marks[:, 1] - y) / (top - bottom))
+        assert away.min() > 0.06, text.get_text()
+        ground = filled.cmap(filled.norm(float(text.get_text())))
+        brightness = np.dot(ground[:3], (0.2126, 0.7152, 0.0722))
+        assert (to_hex(text.get_color()) == "#111111") == (brightness > 0.55), text.get_text()
+    assert {to_hex(text.get_color()) for text in named} == {"#111111", "#ffffff"}
+
+
+def test_curves_are_named_below_their_panel(results):
+    curves = {name: results.curves["T0-2"] for name in ("T0-1", "T0-2", "a longer name-1")}
+    figure = stress_strain("cfrp", curves, [])
+    (legend,) = figure.legends
+    assert [text.get_text() for text in legend.get_texts()] == list(curves)
+    assert figure.axes[0].get_legend() is None  # no modulus is drawn
 
 
 def test_slices_are_the_surface(plate):

@@ -8,10 +8,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from nptcs.report.table_view import table_view
+from nptcs.report.kept_together import kept
+from nptcs.report.table_view import WHOLE_ROWS, table_view
 from nptcs.report.tables.entries import result_entry
+from nptcs.report.tables.names import in_symbols
 from nptcs.report.text import number_text, with_error
 from nptcs.tables.catalogue import TABLES
+from nptcs.tables.result_table import Heading
 
 FILES = result_entry("files.csv", TABLES["files.csv"])
 
@@ -77,3 +80,66 @@ def test_hashes_are_not_wrapped():
     view = table_view(pd.DataFrame({"sha256": ["0f" * 32]}), FILES)
     assert view.rows[0][1][0].css == "hash"
     assert re.fullmatch("[0-9a-f]{64}", view.rows[0][1][0].text)
+
+
+def test_a_long_text_that_all_rows_have_is_said_once():
+    text = "no chance where the results come from a deterministic solver, which has no noise"
+    other = [text, text.replace("no noise", "noise")]
+    table = pd.DataFrame({"a": [1.0, 2.0], "p_meaning": text, "form": other, "short": "same"})
+    view = table_view(table, FILES)
+    assert [heading.name for heading in view.headings] == ["a", "form", "short"]
+    assert view.notes == (f"p meaning: {text}",)
+    one_row = table_view(table.iloc[:1], FILES)
+    assert one_row.notes == ()
+    assert len(one_row.headings) == 4
+
+
+@pytest.mark.parametrize(
+    ("rows", "shown"), [(WHOLE_ROWS, WHOLE_ROWS), (WHOLE_ROWS + 1, 12), (500, 12)]
+)
+def test_a_table_is_cut_only_where_that_saves_much(rows, shown):
+    view = table_view(pd.DataFrame({"a": range(rows)}), FILES)
+    assert (len(view.rows), view.all_rows) == (shown, rows)
+
+
+FACTORS = {
+    "spacing_mm": Heading("plate spacing S", "mm"),
+    "thickness_mm": Heading("plate thickness T", "mm"),
+    "shear_band_c10_mpa": Heading("shear band C10 (T-C)", "MPa"),
+    "width_mm": Heading("rim width", "mm"),
+    "second_mm": Heading("second", "mm"),
+    "other_mm": Heading("another second S", "mm"),
+}
+
+
+@pytest.mark.parametrize(
+    ("term", "written"),
+    [
+        ("1", "1"),
+        ("thickness_mm*shear_band_c10_mpa^2", "T × T-C²"),
+        ("width_mm^3", "rim width³"),
+        ("linear", "linear"),
+        # two factors with the same symbol keep their labels
+        ("spacing_mm*other_mm", "plate spacing S × another second S"),
+    ],
+)
+def test_terms_have_the_symbols_of_their_factors(term, written):
+    assert in_symbols(term, FACTORS) == written
+
+
+def test_terms_keep_their_names_where_no_factor_is_known():
+    assert in_symbols("a_mm^2", {}) == "a_mm²"
+
+
+@pytest.mark.parametrize(
+    ("text", "html"),
+    [
+        ("R88-2, S45-4", '<span class="nb">R88-2</span>, <span class="nb">S45-4</span>'),
+        ("C10 (T-C) < 5 MPa", 'C10 (<span class="nb">T-C</span>) &lt; 5\u00a0MPa'),
+        ("Box-Behnken, leave-one-out, 2026-11-26", "Box-Behnken, leave-one-out, 2026-11-26"),
+        ("5 minutes, 3 %", "5 minutes, 3\u00a0%"),
+        ("<b>", "&lt;b&gt;"),
+    ],
+)
+def test_no_line_breaks_in_a_short_name_or_before_a_unit(text, html):
+    assert str(kept(text)) == html

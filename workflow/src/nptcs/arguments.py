@@ -83,6 +83,32 @@ def add_card(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--ply", help="name of a ply of the card, if it has several")
 
 
+def add_project(parser: argparse.ArgumentParser) -> None:
+    """Declare in which project folder the command works."""
+    parser.add_argument(
+        "--project",
+        type=existing_folder,
+        default=".",
+        help="the project folder; default: the current one",
+    )
+
+
+def add_reading(parser: argparse.ArgumentParser) -> None:
+    """Declare by which profiles and limits raw files are read."""
+    parser.add_argument(
+        "--formats",
+        type=existing_folder,
+        default="config/formats",
+        help="folder of profiles; default: %(default)s",
+    )
+    parser.add_argument(
+        "--config",
+        type=Path,
+        default=Path("config/config.yaml"),
+        help="configuration whose limits on the size of files count; default: %(default)s",
+    )
+
+
 def _card(text: str) -> str:
     return text if text == "published" else existing_file(text)
 

@@ -157,8 +157,8 @@ def _between(
     for factor in study.factors:
         if any(isinstance(level, MeasuredRubber) for level in factor.levels):
             raise InputError(
-                "this kind of design needs values between the levels, and there is no rubber "
-                "between tested ones",
+                "this kind of design needs values between the levels, which tested rubbers do not "
+                "have",
                 column=f"studies.{study.name}.factors.{factor.name}",
                 value=study.design.kind,
                 remedy="use full_factorial or d_optimal, or give numbers as levels",

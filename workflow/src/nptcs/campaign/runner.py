@@ -36,7 +36,7 @@ OnRecord = Callable[[CaseRecord, bool, int, int], None]
 """Called with the record, whether it was reused, how many are done, how many there are."""
 
 
-Ended = tuple[SolverResult, float, float | None]
+CaseOutcome = tuple[SolverResult, float, float | None]
 """Result, wall time in s, largest memory in MB (None for a process that died)."""
 
 
@@ -62,12 +62,12 @@ def run_cases(
     jobs : sequence of CaseJob
         The cases.
     store : RecordStore
-        Solved cases; new ones are added at once, so that an interrupted campaign goes on where
+        Solved cases; new ones are added at once, so that an interrupted campaign continues where
         it stopped.
     cores : int
         Cases that run at a time.
     progress : callable
-        Told of each record as it comes.
+        Called with each record as it comes.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def run_cases(
 
 def _solve_all(
     jobs: Sequence[CaseJob], waiting: Sequence[int], cores: int
-) -> Iterator[tuple[int, Ended]]:
+) -> Iterator[tuple[int, CaseOutcome]]:
     """Solve the jobs at the positions `waiting`; yield each as it ends."""
     context = multiprocessing.get_context("forkserver")
     modules = {jobs[position].module for position in waiting}
@@ -146,7 +146,7 @@ def _ended(running: dict[int, _Running]) -> list[int]:
     ]
 
 
-def _collect(case: _Running) -> Ended:
+def _collect(case: _Running) -> CaseOutcome:
     """Take the result of a case that has ended, or say how it died."""
     seconds = time.monotonic() - case.started
     try:

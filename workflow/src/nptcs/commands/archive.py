@@ -9,7 +9,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from nptcs.arguments import add_command, existing_folder, output_file
+from nptcs.arguments import add_command, add_project, output_file
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -30,12 +30,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         default="study.zip",
         help="file to write; default: %(default)s",
     )
-    parser.add_argument(
-        "--project",
-        type=existing_folder,
-        default=".",
-        help="the project folder; default: the current one",
-    )
+    add_project(parser)
     parser.set_defaults(run=run)
 
 

@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nptcs.arguments import add_command, existing_file, existing_folder, output_file
+from nptcs.arguments import add_command, add_reading, existing_file, output_file
 
 
 def register(subparsers: Any) -> None:
@@ -23,23 +23,12 @@ def register(subparsers: Any) -> None:
     parser.add_argument("file", type=existing_file, help="raw file of a test machine or camera")
     parser.add_argument("--format", default="", help="name of a profile; default: detect")
     parser.add_argument(
-        "--formats",
-        type=existing_folder,
-        default="config/formats",
-        help="folder of profiles; default: %(default)s",
-    )
-    parser.add_argument(
         "--write-profile",
         type=output_file(".yaml", ".yml"),
         metavar="YAML",
         help="write a profile to start from",
     )
-    parser.add_argument(
-        "--config",
-        type=Path,
-        default=Path("config/config.yaml"),
-        help="configuration whose limits on the size of files count; default: %(default)s",
-    )
+    add_reading(parser)
     parser.set_defaults(run=run)
 
 

@@ -3,10 +3,9 @@
 from __future__ import annotations
 
 import argparse
-from pathlib import Path
 from typing import Any
 
-from nptcs.arguments import add_command, existing_folder
+from nptcs.arguments import add_command, add_reading, existing_folder
 
 
 def register(subparsers: Any) -> None:
@@ -22,18 +21,7 @@ def register(subparsers: Any) -> None:
         "nptcs new-sheet raw_data/mine --fill 'C0: width_mm=15 thickness_mm=1.8'",
     )
     parser.add_argument("folder", type=existing_folder, help="folder with the raw files")
-    parser.add_argument(
-        "--formats",
-        type=existing_folder,
-        default="config/formats",
-        help="folder of profiles; default: %(default)s",
-    )
-    parser.add_argument(
-        "--config",
-        type=Path,
-        default=Path("config/config.yaml"),
-        help="configuration whose limits on the size of files count; default: %(default)s",
-    )
+    add_reading(parser)
     parser.add_argument(
         "--fill",
         action="append",

@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from nptcs.arguments import add_command, existing_file, existing_folder, whole
+from nptcs.arguments import add_command, add_project, existing_file, whole
 
 CONFIG = "config/config.yaml"
 """The configuration that the Snakefile names itself; further files go on top of it."""
@@ -60,12 +60,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "-n", "--dry-run", action="store_true", help="list what would be run, and run nothing"
     )
-    parser.add_argument(
-        "--project",
-        type=existing_folder,
-        default=".",
-        help="the project folder; default: the current one",
-    )
+    add_project(parser)
     parser.set_defaults(run=run)
 
 

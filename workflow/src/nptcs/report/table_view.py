@@ -61,7 +61,7 @@ UNCERTAIN_BY = {
 }
 """Uncertainty, and columns that are written to the second significant digit of it."""
 
-FLAGS = ("flag", "flags", "not_assessed", "notes")
+FLAGS = ("flag", "flags", "not_assessed", "notes", "standard_error_rule")
 """Columns that hold flags."""
 
 MESSAGES = ("message", "note", "not_fitted", "reason", "remarks")

@@ -94,7 +94,7 @@ def in_lines(quantities: str) -> str:
         try:
             number = float(f"{float(spread):.3g}")
         except ValueError:
-            lines.append(part)
+            lines.append(tr(part))
             continue
         written = heading(name)
         gap = "" if written.unit == "°" else " "

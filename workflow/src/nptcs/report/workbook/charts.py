@@ -73,7 +73,7 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
     last = 4 + ROWS_EACH * ((len(charts) + 1) // 2)
     page_for_print(sheet, None, f"A1:{get_column_letter(2 * COLUMNS_EACH)}{last}")
     for row in range(3 + 2 * ROWS_EACH, last, 2 * ROWS_EACH):
-        sheet.row_breaks.append(Break(id=row))
+        sheet.row_breaks.append(Break(id=row - 1))  # the frame of a chart is on its own page
     for place in range(1, column):
         data.column_dimensions[get_column_letter(place)].width = DATA_WIDTH
     data.freeze_panes = data.cell(HEADER_ROW + 2, 1)
