@@ -19,7 +19,7 @@ from nptcs.report.explorer.payload import explorer_payload
 from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import page_words
 from nptcs.report.sections.explorer import explorer_section
-from nptcs.report.words.responses import RESPONSE_TITLES
+from nptcs.report.tables.response_titles import RESPONSE_TITLES
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.stored import READERS
 from nptcs.tables.published.stiffness import StiffnessAgainstPublished

@@ -35,6 +35,13 @@ def test_a_saturated_load_cell_is_cut_and_shows_no_failure(lab, tmp_path, limit,
     assert done.curve["strain_axial"].abs().max() == pytest.approx(limit / 10 / E_MPA, rel=0.01)
 
 
+def test_a_saturated_channel_may_flicker_in_its_last_digit(lab, tmp_path):
+    flicker = np.random.default_rng(3).integers(0, 2, len(FORCE))
+    done = ingested(lab, tmp_path, np.where(FORCE > 5000, 5000 - flicker, FORCE))
+    assert lab.flagged(done, "load cell saturated")
+    assert not done.record.failure_seen
+
+
 def test_a_saturated_load_cell_is_found_by_the_travel_alone(lab, tmp_path):
     columns = {
         "Time [s]": np.arange(len(FORCE)) / 10,

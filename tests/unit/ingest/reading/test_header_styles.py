@@ -195,6 +195,14 @@ def test_a_strain_without_unit_that_can_only_be_a_strain_is_flagged(lab, tmp_pat
         ("mm/mm", "mm/mm", None),
         ("Axial strain", "Axial strain", None),
         ("Dev1/ai0 Force", "Dev1/ai0 Force", None),
+        ("ForcekN", "Force", "kN"),
+        ("LoadKN", "Load", "kN"),
+        ("SignalkN", "SignalkN", None),
+        ("ForcemN", "ForcemN", None),
+        ("StressMPa", "Stress", "MPa"),
+        ("LaufzGit", "LaufzGit", None),
+        ("力(kN", "力", "kN"),
+        ("Kraft [kN", "Kraft", "kN"),
     ],
 )
 def test_where_a_name_ends_and_its_unit_begins(text, name, unit):

@@ -6,6 +6,7 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path
+from typing import Literal
 
 from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
@@ -73,7 +74,7 @@ class Inspection:
         if not self.usable or any(test.serves("force and strain") for test in tests):
             return ""
         for test in tests:
-            kind = "strain" if test.serves("force") else "load"
+            kind: Literal["load", "strain"] = "strain" if test.serves("force") else "load"
             read = [*test.quantities.values()]
             columns = [c for c in test.found_table.columns if c.name and c not in read]
             if found := [c for c in columns if may_be(kind, c)]:

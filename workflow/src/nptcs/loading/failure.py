@@ -97,12 +97,12 @@ def unloads_along(
     """Whether force and strain go back along the way they came: an unloading, however fast.
 
     Every reading between 85 and 15 % of the force must have a strain within 15 % of the one at
-    which the loading had that force: a broken specimen has hardly any, since it breaks
-    within a reading of most loggers. It is also an unloading if the strain goes back by what the
-    steepest part of the loading gives for the fall of the force (`ELASTIC`): a laminate that
-    yielded. Where no reading is between, the fall in one step is a break if the strain stays
-    behind, or the readings follow each other so fast that no machine returns between two of them;
-    otherwise the two cannot be distinguished, and it does not count as a failure.
+    which the loading had that force: a broken specimen has hardly any, since it breaks within a
+    reading of most loggers. So it is if the strain goes back by what the steepest part of the
+    loading gives for the fall of the force (`ELASTIC`): a laminate that yielded. Where no
+    reading lies between, the fall in one step is a break if the strain stays behind, or the
+    readings follow each other so fast that no machine returns between two of them; else the two
+    cannot be told apart, and it is not a failure seen.
 
     Parameters
     ----------

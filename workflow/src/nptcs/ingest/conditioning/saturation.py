@@ -4,11 +4,13 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.arrays import Array
+from nptcs.arrays import Array, Mask
 from nptcs.ingest.conditioning.signals import Signals
 
 FEWEST_READINGS = 5
-"""Readings that equal the largest force to the last digit: fewer happen by rounding."""
+"""Readings that equal the largest force: fewer happen by rounding."""
+LAST_DIGIT = 2e-4
+"""Share of the largest force by which such readings may differ: the last digit of a converter."""
 LONGER = 4
 """So many times longer than any other standstill of the force on its way up."""
 STRETCHED = 0.05
@@ -58,9 +60,14 @@ def saturated_from(load: Array, elongation: Array) -> int | None:
         Strain or travel in any unit and sign; may hold NaN.
     """
     highest = float(load.max())
-    at_limit = load >= highest * (1 - 1e-9)
+    at_limit = load >= highest * (1 - LAST_DIGIT)
     first, length = _longest(at_limit)
-    if length < max(FEWEST_READINGS, LONGER * _longest_below(load[: first + 1], highest)):
+    start = int(np.argmax(load >= 0.2 * highest))
+    usual = (highest - load[start]) / max(first - start, 1)
+    by_chance = max(
+        _longest_below(load[: first + 1], highest), LAST_DIGIT * highest / max(usual, 1e-300)
+    )
+    if length < max(FEWEST_READINGS, LONGER * by_chance):
         return None
     known = np.flatnonzero(np.isfinite(elongation))
     if not len(known):
@@ -68,16 +75,14 @@ def saturated_from(load: Array, elongation: Array) -> int | None:
     ends = np.interp([first, first + length - 1], known, elongation[known])
     if abs(ends[1] - ends[0]) < STRETCHED * float(np.ptp(elongation[known])):
         return None
-    start = int(np.argmax(load >= 0.2 * highest))
     before = max(first - length, (start + first) // 2)
     if first - before < 1:
         return None
-    usual = (highest - load[start]) / max(first - start, 1)
     last = (highest - load[before]) / (first - before)
     return first if last >= FULL_RATE * usual else None
 
 
-def _longest(marked: Array) -> tuple[int, int]:
+def _longest(marked: Mask) -> tuple[int, int]:
     """Start and length of the longest run of marked readings."""
     edges = np.flatnonzero(np.diff(np.concatenate([[0], marked.astype(int), [0]])))
     lengths = edges[1::2] - edges[::2]

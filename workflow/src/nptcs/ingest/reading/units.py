@@ -286,11 +286,14 @@ _WORD_BEHIND = re.compile(r"^(.*[^\s,])\s+(\S+)$")
 _UNIT_IN_WORDS = (
     (re.compile(r"(?i)^(?:%|percent(?:age)?|pct\.?)[ _]+(?P<name>\D.*)$"), "%"),
     (re.compile(r"(?i)^(?P<name>.*)\bmicro-?(?:strains?\b)$"), "microstrain"),
+    (re.compile(r"(?i)^(?P<name>.*(?:force|load|kraft|last))kn$"), "kN"),
 )
 """Names that say their unit in words: ``% strain``, ``Percentage Strain``, ``Microstrain``."""
 
 
-_WRITTEN_TOGETHER = re.compile(r"(?<=[a-z])(?=(?:[A-Z][a-z]*|KN)$)")
+_UNCLOSED = re.compile(r"^([^\[(（]+)[\[(（]([^\])）]+)$")
+"""A name whose end was cut off: ``Kraft [kN``."""
+_WRITTEN_TOGETHER = re.compile(r"(?<=[a-z])(?=(?:[A-Z][a-z]*|KN|MPa|GPa)$)")
 _POWER_OF_TEN = re.compile(
     r"(?i)(?:[x×*·]? ?10 ?(?:\^|e|\*\*)? ?|1?e)[-\u2212] ?0?(?P<power>[36])"
     r"(?: (?:m/m|strain|mm/mm|ε))?"
@@ -375,6 +378,8 @@ def split_unit(name: str) -> tuple[str, str | None]:
             return found["name"].strip() or "strain", unit
     if is_unit(name) and not name.strip().isalpha():
         return name.strip(), None
+    if (unclosed := _UNCLOSED.match(name.strip())) and is_unit(unclosed.group(2)):
+        return unclosed.group(1).strip(), clean_unit(unclosed.group(2))
     ways = [(_TAIL, _NO_UNIT), (_WORD_BEHIND, _NO_UNIT | _WORDS)]
     if "/" in name.strip().rpartition(" ")[2]:
         ways.reverse()  # 'Strain 1 mm/mm' ends with one unit, not with two
@@ -384,5 +389,7 @@ def split_unit(name: str) -> tuple[str, str | None]:
             return tail.group(1), clean_unit(tail.group(2))
     if _WRITTEN_TOGETHER.search(name):
         apart = split_unit(_WRITTEN_TOGETHER.sub("_", name))  # ForceKN, StrainPct
-        return apart if apart[1] else (name.strip(), None)
+        # 'LoadkN' may be in kN: the letter before a unit must not make it another one
+        longer = apart[1] and is_unit(f"{apart[0][-1:]}{apart[1]}")
+        return apart if apart[1] and not longer else (name.strip(), None)
     return name.strip(), None

@@ -16,7 +16,7 @@ from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
 from nptcs.report.explorer.shared import share_covariances
 from nptcs.report.explorer.words import page_words
-from nptcs.report.words.responses import RESPONSE_TITLES
+from nptcs.report.tables.response_titles import RESPONSE_TITLES
 from nptcs.report.words.surfaces import surface_words
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.published.stiffness import DIFFERENCE, StiffnessAgainstPublished

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from nptcs.language import tr
-from nptcs.report.words.responses import RESPONSE_TITLES
+from nptcs.report.tables.response_titles import RESPONSE_TITLES
 from nptcs.tables.result_table import Heading
 
 UNITS = {

@@ -25,6 +25,7 @@ from nptcs.ingest.reading.text.regular_rows import chunk_edges, regular_width
 NOTHING = "nan"
 _COMMENT = re.compile(
     r"^\s*(?:#+|//+|!+|>+|%+(?=\s+(?!\S*(?:strain|dehnung|elongation))[^\W\d_]))\s*"
+    r"(?:(?i:columns?|fields?|channels?|header)\s*:\s*)?"
 )
 Kind = Literal["data", "odd data", "empty", "remark", "names", "other"]
 """``odd data``: a row of numbers that holds something else too."""

@@ -58,7 +58,7 @@ def _is_row(cells: Sequence[str]) -> bool:
 
 def _is_mixed(rows: Sequence[Sequence[str]], width: int, proven: bool = False) -> bool:
     """Tell whether each column has one decimal mark and not all have the same."""
-    marks = []
+    marks: list[str] = []
     for place in range(width):
         cells = [row[place].strip() for row in rows if place < len(row)]
         found = {mark for cell in cells for mark in ".," if mark in cell}
