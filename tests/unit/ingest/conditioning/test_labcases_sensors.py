@@ -285,6 +285,11 @@ def test_a_reversed_load_cell_is_turned_only_if_a_gauge_lengthens(lab, tmp_path,
         (("Test type: Compression of cubes",), "compression"),
         (("Prüfverfahren: Druckversuch",), "compression"),
         (("Method,Three-point bending ISO 14125",), "flexure"),
+        (("Prueba: Compresión",), "compression"),
+        (("Deney tipi: Basma deneyi",), "compression"),
+        (("Proef: drukproef",), "compression"),
+        (("시험 방법: 굽힘",), "flexure"),
+        (("Provning: böjprov",), "flexure"),
     ],
 )
 def test_a_file_that_calls_itself_another_test_is_refused(lab, tmp_path, head, own):

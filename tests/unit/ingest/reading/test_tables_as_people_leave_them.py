@@ -157,3 +157,10 @@ def test_a_full_column_without_a_name_stays_refused_in_a_text(lab, tmp_path):
     (tmp_path / "a.csv").write_text("\n".join(["Time [s];Load [N];Strain [%];", *body]))
     with pytest.raises(InputError, match="not clear which column has no name"):
         lab.ingest(tmp_path, "a.csv")
+
+
+@pytest.mark.parametrize("before", ["# ", "# columns: ", "#columns: "])
+def test_names_behind_a_comment_mark_are_the_names(lab, tmp_path, before):
+    text = [f"{before}Time [s];Load [N];Strain [%]", *lines()]
+    (tmp_path / "a.csv").write_text("\n".join(text), encoding="utf-8")
+    check(lab, tmp_path, "a.csv")
