@@ -70,7 +70,7 @@ def test_a_changed_module_changes_only_what_imports_it(copy):
 
 def test_comments_docstrings_and_layout_change_nothing(copy):
     before = code_hash("nptcs.design")
-    edit(copy / "design.py", '"""Build the design table that a study asks for.', '"""Other words.')
+    edit(copy / "design.py", '"""Build the design table of a study.', '"""Other words.')
     edit(copy / "design.py", "    digits = ", "    # a remark\n\n    digits  =  ")
     assert code_hash("nptcs.design") == before
 

@@ -93,7 +93,7 @@ def explained(error: OSError) -> InputError | None:
     --------
     >>> print(explained(OSError(errno.ENOSPC, "No space left on device", "results/a.csv")))
     results/a.csv: the disk is full. Remedy: make room on it, then type the same command again; no \
-half written file is left
+half-written file is left
     """
     if error.errno is None or error.errno not in REMEDIES:
         return None
