@@ -138,7 +138,7 @@ def test_what_a_design_refuses():
         {"name": "c", "label": "c", "unit": "MPa", "levels": [{"rubber": "r"}, {"rubber": "q"}]}
     ]
     for design, factors, match in (
-        ({"kind": "latin_hypercube", "cases": 5}, rubber, "no rubber between"),
+        ({"kind": "latin_hypercube", "cases": 5}, rubber, "tested rubbers do not have"),
         ({"kind": "sobol", "cases": 4, "whole_plates": True}, FACTORS[1:], "not a factor"),
         ({"kind": "d_optimal", "cases": 4, "terms": TERMS}, FACTORS, "needs at least 5"),
         (

@@ -48,7 +48,7 @@ SHEET_COLUMNS = (
     "origin",
     "remarks",
 )
-README = """SYNTHETIC data: made by a program, not measured.
+README = """SYNTHETIC data: made by a program, measured by nobody.
 
 `nptcs example --seed {seed} FOLDER` writes this folder again, to the byte.
 
