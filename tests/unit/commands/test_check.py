@@ -91,7 +91,7 @@ MISTAKES = {
         None, "holds results at 5000 N, not at 4000 N"),
     "name that clashes": (study(name="records"), None, "this name is reserved"),
     "name that is too long": (study(), in_sheet(material="c" + "0a1b2c" * 30), "too long"),
-    "several composites": (study(**FE), another_composite, "the sheet gives 2"),
+    "several composites": (study(**FE), another_composite, "the sheet has 2"),
     "unknown ply": (study(**FE, ply="gfrp"), None, "names a ply that the sheet does not have"),
     "unknown rubber": (
         study(fixed={}, factors=[RUBBERS[0], factor("spoke_c10_mpa", {"rubber": "rubber_7"}, 3.0)]),
