@@ -16,7 +16,7 @@ from nptcs.report.plots import csv_of, packed
 from nptcs.report.svg import VARIABLES
 from nptcs.tables.published.lca_validation import LcaValidation
 
-PICKED = "displacement-against-load-lca-with-section-sandwich-section"
+PICKED = "displacement-against-load-lca-sandwich-section"
 SAVED = """async () => {
   const made = {}, saved = {};
   URL.createObjectURL = ((before) => (blob) => {
