@@ -27,7 +27,6 @@ def copy(tmp_path, monkeypatch):
 def forget():
     provenance._imports_of_file.cache_clear()
     provenance._digest_of_file.cache_clear()
-    provenance._code_hash.cache_clear()
 
 
 def edit(file, old, new):

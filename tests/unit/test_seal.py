@@ -56,7 +56,7 @@ def test_lines_that_were_cut_off_do_not(rows, data):
 
 
 def test_one_format_is_not_taken_for_another():
-    with pytest.raises(BrokenSealError, match="of format PlyCard 1, not RubberCard 1"):
+    with pytest.raises(BrokenSealError, match="has format PlyCard 1, not RubberCard 1"):
         open_object(sealed_object({"a": 1}, "PlyCard"), "RubberCard")
 
 

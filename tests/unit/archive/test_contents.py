@@ -63,5 +63,5 @@ def test_an_input_outside_the_project_is_refused(project, tmp_path_factory):
     outside.write_text("x", encoding="utf-8")
     validation = CONFIG.lca_validation.model_copy(update={"published": str(outside)})
     config = CONFIG.model_copy(update={"lca_validation": validation})
-    with pytest.raises(InputError, match="lies outside the project folder"):
+    with pytest.raises(InputError, match="is outside the project folder"):
         contents_of(project, config)

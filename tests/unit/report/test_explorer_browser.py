@@ -137,9 +137,11 @@ def spoke_surface():
 
 
 def difference(tab, surface):
-    """Largest difference of value and interval bounds, relative to the bound or the response.
+    """Largest difference of values, and of the squares of what the bounds are off them, relative.
 
-    A bound near zero is compared with the standard deviation of the response over the cases.
+    What is near zero is compared with the standard deviation of the response over the cases. A
+    variance is what both compute: at a case it is zero up to rounding, whose root would be compared
+    if the bounds were.
     """
     low, high = surface.x.min(axis=0), surface.x.max(axis=0)
     x = low + (high - low) * np.random.default_rng(12).random((POINTS, len(low)))
@@ -156,8 +158,17 @@ def difference(tab, surface):
     expected = np.stack([surface.predict(x), *surface.interval(x)], axis=1)
     expected[np.isinf(expected)] = np.nan
     assert (np.isnan(computed) == np.isnan(expected)).all()
-    scale = np.maximum(np.abs(expected), surface.y.std())
-    return np.nanmax(np.abs(computed - expected) / scale)
+    sd = surface.y.std()
+    values = np.abs(computed[:, 0] - expected[:, 0]) / np.maximum(np.abs(expected[:, 0]), sd)
+    ours, theirs = squares_of_offsets(expected), squares_of_offsets(computed)
+    spreads = np.abs(theirs - ours) / np.maximum(np.abs(ours), sd**2)
+    return np.nanmax(np.column_stack([values, spreads]))
+
+
+def squares_of_offsets(found):
+    """Of the bounds from the value, with their signs."""
+    offset = found[:, 1:] - found[:, :1]
+    return np.sign(offset) * offset**2
 
 
 def test_every_kind_of_surface_agrees_with_python(explored, tab, functions):

@@ -45,11 +45,6 @@ def code_hash(*modules: str, words: bool = False) -> str:
     str
         16 hexadecimal digits.
     """
-    return _code_hash(modules, words)
-
-
-@cache
-def _code_hash(modules: tuple[str, ...], words: bool) -> str:
     digest = hashlib.sha256()
     for file in sorted(_closure(modules)):
         digest.update(_digest_of_file(file, words).encode())

@@ -14,6 +14,7 @@ import zlib
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
+from functools import cache
 from pathlib import Path
 from typing import ParamSpec
 
@@ -121,10 +122,16 @@ def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> 
         content = pickle.dumps((args, sorted(kwargs.items())), protocol=5)
     except (pickle.PicklingError, TypeError, AttributeError):
         return None
-    code = code_hash(draw.__module__, __name__, words=True)
+    code = _code_of(draw.__module__)
     words = f"{current_language()} {catalogue_digest(current_language())}"
     name = f"{draw.__module__}.{draw.__qualname__} {code} {mpl.__version__} {words} ".encode()
     return hashlib.sha256(name + content).hexdigest()
+
+
+@cache
+def _code_of(module: str) -> str:
+    """Hash the code that draws a figure, with its words."""
+    return code_hash(module, __name__, words=True)
 
 
 def csv_of(data: pd.DataFrame) -> str:
