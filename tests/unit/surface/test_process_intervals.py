@@ -11,6 +11,7 @@ from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_level_out, leave_one_out
 from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process, kernel_of
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
+from nptcs.surface.kinds.matern import MaternLikelihood
 from nptcs.surface.kinds.models import FitCases, fit_model
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -45,7 +46,8 @@ def test_one_value_of_a_length_where_the_cases_tell_it_two_where_they_do_not():
     kernel = kernel_of(LEVELS, np.arange(len(LEVELS)))
     kernel = kernel.clone_with_theta(np.log([1.0, 0.05, 0.7]))
     y = drawn(0.05, 3, LEVELS)
-    found = lengths_as_likely(kernel, LEVELS, y, 1e-8)
+    likelihood = MaternLikelihood(LEVELS, y, 1e-8, noisy=False)
+    found = lengths_as_likely(likelihood, kernel.theta, kernel.bounds)
     assert found.shape == (2, 3)
     np.testing.assert_allclose(found[:, [0, 2]], kernel.theta[[0, 2]][None].repeat(2, 0))
     assert np.exp(found[0, 1]) == pytest.approx(0.05)

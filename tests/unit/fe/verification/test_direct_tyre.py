@@ -1,7 +1,8 @@
 import numpy as np
 import pytest
+from small_tyres import COARSE_SPOKE
 
-from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeMesh, TyreMesh
+from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, TyreMesh
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
 from nptcs.fe.spoke.energy_table import fit
@@ -17,7 +18,7 @@ from nptcs.fe.verification.direct_tyre import (
 )
 
 FE = FeModel(
-    spoke_mesh=SpokeMesh(rows=(1, 1, 1, 1, 1, 1)),
+    spoke_mesh=COARSE_SPOKE,
     table=EnergyTableOptions(
         elongation_mm=(-1.5, 1.5),
         inclination_rad=0.022,

@@ -75,7 +75,7 @@ def element_dofs(nodes: Index, dim: int) -> Index:
     return (nodes[:, :, None] * dim + np.arange(dim)).reshape(len(nodes), -1)
 
 
-def room_for_tangents(nodes: Index, field: Array) -> Array:
+def empty_tangents(nodes: Index, field: Array) -> Array:
     """Return an array for the tangents of elements whose nodes move as in a field (nodes, dim)."""
     elements, count = nodes.shape
     size = count * field.shape[1]
@@ -141,7 +141,7 @@ class LinearGroup:
 
     def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """Energy, forces and tangents for nodal displacements (nodes, dim)."""
-        tangent = room_for_tangents(self.nodes, displacement) if out is None else out
+        tangent = empty_tangents(self.nodes, displacement) if out is None else out
         energy, force = self._response(displacement, tangent)
         return ElementResponse(energy, force, tangent)
 
@@ -248,7 +248,7 @@ class RubberGroup:
 
     def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
         """Energy, condensed forces and tangents for nodal displacements (nodes, dim)."""
-        tangent = room_for_tangents(self.nodes, displacement) if out is None else out
+        tangent = empty_tangents(self.nodes, displacement) if out is None else out
         # copies of this group keep theirs
         self._eliminated(tangent.shape[1])
         energy, force = self._response(displacement, tangent)

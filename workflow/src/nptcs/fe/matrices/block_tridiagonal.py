@@ -77,7 +77,7 @@ class BlockPattern:
         target: Index = np.where(beside == 0, inside, self._blocks * self._wide**2 + outside)
         return target
 
-    def room(self) -> Array:
+    def empty_entries(self) -> Array:
         """Return an array that takes the entries of one matrix."""
         wide, blocks = self._wide, self._blocks
         return np.empty(blocks * wide**2 + (blocks - 1) * self.row * wide)
@@ -85,14 +85,14 @@ class BlockPattern:
     def assemble(self, tangents: Sequence[Array], out: Array | None = None) -> BlockMatrix:
         """Sum element tangents (elements, dofs, dofs).
 
-        The matrix takes its place in `out`, an array of `room`, if it is given: whatever was there,
-        an older matrix or its factorisation, ends with that.
+        With `out`, an array of `empty_entries`, the matrix is written there: an older matrix or its
+        factorisation in it is lost.
         """
         from nptcs.fe.matrices.compiled import add_at
 
         wide, blocks = self._wide, self._blocks
         start = blocks * wide**2
-        whole = self.room() if out is None else out
+        whole = self.empty_entries() if out is None else out
         whole[:] = 0.0
         for part, keep, targets in zip(tangents, self._keep, self._targets, strict=True):
             add_at(targets, keep, part.ravel(), whole)

@@ -15,7 +15,7 @@ from nptcs.fe.elements.groups import (
     ElementResponse,
     MixedGroup,
     element_dofs,
-    room_for_tangents,
+    empty_tangents,
 )
 from nptcs.fe.matrices.block_tridiagonal import BlockCholesky, BlockPattern
 from nptcs.fe.spoke.element_groups import plate_groups, rubber_group
@@ -83,9 +83,9 @@ class SpokePeriod:
         self._arm = self.mesh.positions[self.mesh.top, 0]
         self._edge = [np.flatnonzero((d >= self._count - row).any(axis=1)) for d in self._dofs]
         self.scale = float(design.plates)
-        # the system asks for fresh pages for arrays of megabytes, so they are kept
-        self._tangents = [room_for_tangents(g.nodes, self.mesh.positions) for g in self.mixed]
-        self._entries = self._pattern.room()
+        # allocated once: new arrays of megabytes cost fresh pages of memory each time
+        self._tangents = [empty_tangents(g.nodes, self.mesh.positions) for g in self.mixed]
+        self._entries = self._pattern.empty_entries()
 
     @property
     def mixed(self) -> list[MixedGroup]:

@@ -330,8 +330,7 @@ def _fitted(
         ) from None
     best = min(found, key=lambda one: one[1])[0]
     if spread is None or not given:
-        likeliest = kernel.clone_with_theta(best)
-        spread = lengths_as_likely(likeliest, points, residual, NUGGET) - best
+        spread = lengths_as_likely(likelihood, best, kernel.bounds) - best
     return GaussianProcess(factors, x, y, mean, best, spread)
 
 

@@ -45,9 +45,9 @@ BENDING = np.eye(6)[3]
 
 LARGEST_LOGARITHM = 50.0
 
-UNTOLD = 1e-9
-"""Singular value of the slopes, each column of unit length, in parts of the largest, from which on
-the cases do not tell a combination of parameters."""
+UNDETERMINED = 1e-9
+"""Smallest over largest singular value of the slopes (columns of unit length) up to which the cases
+do not determine a combination of the parameters."""
 
 STARTS = {"n": (0.2,), "log_p": (5.0, 8.0), "log_r": (8.0, 11.0), "log_a": (3.0, 6.0), "m": (1.0,)}
 """Shapes from which a first fit starts, all combined; moduli in N/mm and N mm."""
@@ -218,31 +218,30 @@ def _best(
     jacobian = _jacobian(parameters, shape, x, stiffness)
     scale = np.linalg.norm(jacobian, axis=0)
     scale[scale == 0] = 1.0
-    _refuse_untold(jacobian / scale, x)
-    inverse = np.linalg.pinv(jacobian / scale) / scale[:, None]
+    values, right = np.linalg.svd(jacobian / scale, full_matrices=False)[1:]
+    if values[-1] <= UNDETERMINED * values[0]:
+        raise _undetermined(len(parameters), x)
+    inverse = (right.T / values**2) @ right
     return Lamination(
         x=x,
         y=y,
         ply={name: ply[name] for name in ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")},
         shape=shape,
         parameters=parameters,
-        covariance=variance * inverse @ inverse.T,
+        covariance=variance * inverse / np.outer(scale, scale),
         residual_sd=float(np.sqrt(variance)),
     )
 
 
-def _refuse_untold(slopes: Array, x: Array) -> None:
-    """Refuse cases that leave a combination of parameters free: K does not change along it.
+def _undetermined(coefficients: int, x: Array) -> InputError:
+    """Say that K stays the same along a combination of the parameters, and which values there are.
 
-    So do two spacings, which tell no exponent. The parameters are then those of the start, and what
-    the form says between and beyond the cases comes from nowhere.
+    Two spacings, for example, do not determine an exponent of the spacing: the parameters would be
+    those of the start.
     """
-    values = np.linalg.svd(slopes, compute_uv=False)
-    if values[-1] > UNTOLD * values[0]:
-        return
     levels = [f"{len(np.unique(c))} of {name}" for name, c in zip(FACTORS, x.T, strict=True)]
-    raise InputError(
-        f"these cases do not determine the {slopes.shape[1]} coefficients of the lamination form",
+    return InputError(
+        f"these cases do not determine the {coefficients} coefficients of the lamination form",
         column="surfaces",
         value=f"different values: {', '.join(levels)}",
         remedy="solve cases at more levels, or ask for fewer coefficients",
@@ -268,8 +267,8 @@ def _starts(shape: tuple[str, ...], x: Array, y: Array, stiffness: Array) -> lis
     """Combine the starting shapes, each with its best c0, c1, c2 (linear least squares on 1/K)."""
     starts = []
     for values in product(*(STARTS[name] for name in shape)):
-        spacing, plates = _compliance_terms(np.array(values), shape, x, stiffness)
-        matrix = np.column_stack([np.ones(len(y)), spacing, plates])
+        terms = _terms(np.array(values), shape, x, stiffness)
+        matrix = np.column_stack([np.ones(len(y)), terms.spacing, terms.plates])
         weights = y**2  # dK = -K² d(1/K)
         linear = np.linalg.lstsq(matrix * weights[:, None], weights / y)[0]
         starts.append(np.concatenate([linear, values]))
@@ -278,19 +277,11 @@ def _starts(shape: tuple[str, ...], x: Array, y: Array, stiffness: Array) -> lis
 
 @dataclass(frozen=True)
 class _Terms:
-    """Factors of c1 and c2 at each case, and c2's by the rubber's moduli, arrays of shape (m,)."""
+    """Factors of c1 and c2 at each case, and slopes of c2's by the rubber's log moduli, (m,)."""
 
     spacing: Array
     plates: Array
     plates_by: Mapping[str, Array]
-
-
-def _compliance_terms(
-    values: Array, shape: tuple[str, ...], x: Array, stiffness: Array
-) -> tuple[Array, Array]:
-    """Return the factors of c1 and c2 at each case, for the values of the shape parameters."""
-    terms = _terms(values, shape, x, stiffness)
-    return terms.spacing, terms.plates
 
 
 def _terms(values: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> _Terms:
@@ -323,8 +314,8 @@ def _modulus_slope(logarithm: float) -> float:
 
 
 def _stiffness(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:
-    spacing, plates = _compliance_terms(parameters[3:], shape, x, stiffness)
-    return 1 / (parameters[0] + parameters[1] * spacing + parameters[2] * plates)
+    terms = _terms(parameters[3:], shape, x, stiffness)
+    return 1 / (parameters[0] + parameters[1] * terms.spacing + parameters[2] * terms.plates)
 
 
 def _jacobian(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:

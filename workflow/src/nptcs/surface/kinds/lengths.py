@@ -10,17 +10,17 @@ from __future__ import annotations
 from itertools import product
 
 import numpy as np
-from scipy.linalg import cholesky, solve_triangular
+from scipy.linalg import solve_triangular
 from scipy.optimize import brentq
-from sklearn.gaussian_process.kernels import Kernel
 
 from nptcs.arrays import Array
+from nptcs.surface.kinds.matern import MaternLikelihood
 
 AS_LIKELY = 0.5
 """Fall of the log likelihood that is not evidence: that of one standard error of a length."""
 
 
-def lengths_as_likely(kernel: Kernel, points: Array, residual: Array, nugget: float) -> Array:
+def lengths_as_likely(likelihood: MaternLikelihood, best: Array, bounds: Array) -> Array:
     """Return the hyperparameters that a prediction is averaged over, (c, h); one row mostly.
 
     A length is not told where its lower bound, with which the process reaches no other level, is
@@ -29,24 +29,21 @@ def lengths_as_likely(kernel: Kernel, points: Array, residual: Array, nugget: fl
 
     Parameters
     ----------
-    kernel : Kernel
-        With the most likely hyperparameters: variance, n lengths, and what follows them.
-    points, residual : ndarray of shape (m, n) and (m,)
-        Cases in coded units, and what the process follows, scaled.
-    nugget : float
-        Added to the diagonal of the covariance.
+    likelihood : MaternLikelihood
+        Of the cases in coded units, and of what the process follows, scaled.
+    best : ndarray of shape (h,)
+        The most likely hyperparameters: variance, n lengths, and what follows them.
+    bounds : ndarray of shape (h, 2)
     """
-    best, bounds = kernel.theta, kernel.bounds
-    highest = log_likelihood(kernel, points, residual, nugget)
+    highest = likelihood.at_best_variance(best)
 
     def lack(value: float, axis: int) -> float:
         theta = best.copy()
         theta[axis] = value
-        there = log_likelihood(kernel.clone_with_theta(theta), points, residual, nugget)
-        return highest - there - AS_LIKELY
+        return highest - likelihood.at_best_variance(theta) - AS_LIKELY
 
     choices: list[tuple[float, ...]] = [(value,) for value in best]
-    for axis in range(1, 1 + points.shape[1]):
+    for axis in range(1, 1 + likelihood.factors):
         low, high = bounds[axis]
         if lack(low, axis) > 0.0:
             continue
@@ -54,16 +51,6 @@ def lengths_as_likely(kernel: Kernel, points: Array, residual: Array, nugget: fl
             high = brentq(lack, max(best[axis], low), high, args=(axis,), xtol=1e-3)
         choices[axis] = (low, high)
     return np.array(list(product(*choices)))
-
-
-def log_likelihood(kernel: Kernel, points: Array, residual: Array, nugget: float) -> float:
-    """Log likelihood of a kernel's lengths at the best variance for them, up to a constant."""
-    covariance = kernel(points)
-    covariance[np.diag_indices_from(covariance)] += nugget
-    lower = cholesky(covariance, lower=True)
-    white = solve_triangular(lower, residual, lower=True)
-    m = len(residual)
-    return float(-0.5 * m * np.log(white @ white / m) - np.log(np.diag(lower)).sum())
 
 
 def restricted_variance(lower: Array, basis: Array, residual: Array) -> float:

@@ -9,7 +9,7 @@ process's own.
 from __future__ import annotations
 
 import numpy as np
-from scipy.linalg import cho_factor, cho_solve
+from scipy.linalg import cho_factor, cho_solve, cholesky, solve_triangular
 from scipy.linalg.lapack import dpotri
 
 from nptcs.arrays import Array
@@ -36,6 +36,11 @@ class MaternLikelihood:
         self._squares = (columns[:, :, None] - columns[:, None, :]) ** 2
         self._values, self._nugget, self._noisy = values, nugget, noisy
 
+    @property
+    def factors(self) -> int:
+        """Number of factors n, each with a length."""
+        return len(self._squares)
+
     def __call__(self, theta: Array) -> tuple[float, Array]:
         """Evaluate at the logarithms of variance, n lengths and, if there is one, noise.
 
@@ -45,17 +50,10 @@ class MaternLikelihood:
             The value and its slope. Where the covariance is not positive definite, no likelihood:
             infinity, without a slope.
         """
-        count, factors = len(self._values), len(self._squares)
-        variance, lengths = np.exp(theta[0]), np.exp(theta[1 : 1 + factors])
-        noise = float(np.exp(theta[-1])) if self._noisy else 0.0
-        scaled = self._squares / lengths[:, None, None] ** 2
-        reach = np.sqrt(5.0 * scaled.sum(axis=0))
-        decay = variance * np.exp(-reach)
-        smooth = decay * (1.0 + reach + reach**2 / 3.0)
-        covariance = smooth.copy()
-        covariance[np.diag_indices(count)] += self._nugget + noise
+        count = len(self._values)
+        scaled, reach, smooth, noise = self._parts(theta)
         try:
-            factor = cho_factor(covariance, lower=True)
+            factor = cho_factor(self._covariance(smooth, noise), lower=True)
         except np.linalg.LinAlgError:
             return np.inf, np.zeros_like(theta)
         weights = cho_solve(factor, self._values)
@@ -67,8 +65,29 @@ class MaternLikelihood:
             + 0.5 * count * np.log(2.0 * np.pi)
         )
         pull = 0.5 * (inverse - np.outer(weights, weights))
-        by_length = pull * decay * (5.0 / 3.0) * (1.0 + reach)
+        by_length = pull * np.exp(theta[0] - reach) * (5.0 / 3.0) * (1.0 + reach)
         slope = [np.vdot(pull, smooth), *np.einsum("kij,ij->k", scaled, by_length)]
         if self._noisy:
             slope.append(noise * np.trace(pull))
         return float(value), np.array(slope)
+
+    def at_best_variance(self, theta: Array) -> float:
+        """Log likelihood of the lengths at the best factor of the covariance, up to a constant."""
+        _, _, smooth, noise = self._parts(theta)
+        lower = cholesky(self._covariance(smooth, noise), lower=True)
+        white = solve_triangular(lower, self._values, lower=True)
+        count = len(white)
+        return float(-0.5 * count * np.log(white @ white / count) - np.log(np.diag(lower)).sum())
+
+    def _parts(self, theta: Array) -> tuple[Array, Array, Array, float]:
+        """Squares of scaled distances by factor, √5 times the distances, covariance, noise."""
+        lengths = np.exp(theta[1 : 1 + self.factors])
+        scaled = self._squares / lengths[:, None, None] ** 2
+        reach = np.sqrt(5.0 * scaled.sum(axis=0))
+        smooth = np.exp(theta[0] - reach) * (1.0 + reach + reach**2 / 3.0)
+        return scaled, reach, smooth, float(np.exp(theta[-1])) if self._noisy else 0.0
+
+    def _covariance(self, smooth: Array, noise: float) -> Array:
+        covariance = smooth.copy()
+        covariance[np.diag_indices_from(covariance)] += self._nugget + noise
+        return covariance
