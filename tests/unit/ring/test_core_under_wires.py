@@ -110,7 +110,7 @@ def test_energy_and_its_derivatives():
         return -0.5 * give * pull**2
 
     def least(v):
-        """Energy of wires and core over the faces' motion δ, less that of wires whose core is hard."""
+        """Least energy of wires and core over the faces' motion δ, less that of a hard core."""
         pull = section.core[:3] @ v
         soft, held, turn = section.core[3:]
         delta = np.linspace(-0.05, 0.05, 200001)

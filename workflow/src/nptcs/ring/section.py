@@ -257,8 +257,8 @@ def _core_under_wires(
 ) -> Array:
     """Give the wires' pull on the core by (e, κs, κf), its compliance, their stiffness and 1/R.
 
-    The core is 2 `inside` deep and moves nowhere along the ring as it is squeezed; the faces move by
-    δ each: ½ δ²/a with a = inside/(2 b (κ + 4G/3)).
+    The core is 2 `inside` deep and moves nowhere along the ring as it is squeezed; each face moves
+    by δ: ½ δ²/a with a = inside/(2 b (κ + 4G/3)).
     """
     area = _wire_area_mm2(tyre)
     z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm

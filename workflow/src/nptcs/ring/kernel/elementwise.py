@@ -70,10 +70,10 @@ def core_give(core: Value, e: Value, d: Value) -> Value:
     """Pull of the wires on the core's thickness, and what the core gives to it.
 
     Where the ring is bent, the outer wires are in tension and the inner ones in compression by the
-    same force, or the reverse: on a circle of curvature χ = 1/R - κf they press on the core, or pull,
-    by χ times their force. With D = N_outer - N_inner, k the wires' stiffness and a the core's
-    compliance its faces move by δ = -a χ D/(1 + a k χ²), which lowers the energy by ½ g D²,
-    g = a χ²/(1 + a k χ²).
+    same force, or the reverse: on a circle of curvature χ = 1/R - κf they press on the core, or
+    pull it apart, by χ times their force. With D = N_outer - N_inner, k the wires' stiffness and a
+    the core's compliance its faces move by δ = -a χ D/(1 + a k χ²), which lowers the energy by
+    ½ g D², g = a χ²/(1 + a k χ²).
 
     Returns
     -------
