@@ -80,7 +80,7 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     back = change < -0.02 and rows >= UNLOADING_ROWS
     along = unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
-    if not along and ratio >= ABRUPT and _returns(force, strain, near, start):
+    if not along and ratio >= ABRUPT and returns_at_one_speed(force, strain, near, start):
         return Failure(seen=False, words=f"{fell} and the strain returns at one speed: {LIKE_BOTH}")
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
@@ -180,11 +180,18 @@ def _given_back(force: Array, strain: Array, near: int, start: int) -> tuple[flo
     return (shares[0], shares[1]) if np.isfinite(shares).all() else nothing
 
 
-def _returns(force: Array, strain: Array, near: int, start: int) -> bool:
-    """Tell whether the strain goes back at one speed, from the fall of the force to near its start.
+def returns_at_one_speed(force: Array, strain: Array, near: int, start: int) -> bool:
+    """Whether the strain goes back at one speed, from the fall of the force to near its start.
 
     Between a reading above and one below 15 % of the force at least one must lie: a break takes
     hardly longer, and its strain stands still until the machine returns, or springs back at once.
+
+    Parameters
+    ----------
+    force, strain : ndarray, shape (n,)
+        Positive in the direction of the test; the strain may hold NaN, which tell nothing.
+    near, start : int
+        Last reading before the fall; first reading of the loading.
     """
     up = strain[start : near + 1]
     rest = force[near:]
