@@ -69,6 +69,7 @@ def rescaled_from(load: Array, strain: Array) -> tuple[int, str] | None:
     force, course = load[known], np.abs(strain[known])
     leap = np.abs(np.diff(force)) > SMALLEST * np.maximum(force[:-1], force[1:])
     leap &= np.maximum(force[:-1], force[1:]) > SMALLEST * force.max()
+    leap &= np.diff(known) == 1
     for last in np.flatnonzero(leap):
         if words := _goes_on(force, course, int(last)):
             return int(known[last + 1]), words
