@@ -137,3 +137,12 @@ def test_a_specimen_that_broke_in_part_is_not_a_load_cell_set_to_zero(tmp_path, 
     table, record = reduced(tmp_path, profiles, written(force))
     assert not any("leaps" in flag for flag in record.flags)
     assert table.loc["modulus", "value"] == pytest.approx(E_MPA, rel=0.02)
+
+
+@pytest.mark.parametrize("readings", [25, 40, 80])
+def test_a_slow_logger_is_not_a_load_cell_set_to_zero(tmp_path, profiles, readings):
+    # between two readings the force grows by more than a tenth of what it was
+    strain = np.linspace(0, 0.012, readings)
+    force = np.append(E_MPA * 10 * strain, [15.0, 14.0, 15.0])
+    _, record = reduced(tmp_path, profiles, written(force, np.append(strain, [0.004] * 3)))
+    assert not any("leaps" in flag for flag in record.flags)

@@ -15,7 +15,7 @@ SMALLEST = 0.1
 ALIKE = 0.1
 """Difference of slopes that are the same; a specimen that broke in part is softer by its share."""
 STEADY = 5.0
-"""The strain goes on over the leap: its step is at most so many usual ones."""
+"""Of a leap the step of the force is at least so many usual ones, that of the strain at most."""
 CERTAIN = 0.03
 """Largest standard error of a slope, as a share of it."""
 RANGES = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
@@ -78,12 +78,15 @@ def rescaled_from(load: Array, strain: Array) -> tuple[int, str] | None:
 
 def _goes_on(force: Array, strain: Array, last: int) -> str:
     """In words how the force goes on after reading `last`; empty if it is another thing."""
+    near = slice(max(0, last + 1 - WINDOW), last + 1 + WINDOW)
+    if abs(force[last + 1] - force[last]) < STEADY * np.median(np.abs(np.diff(force[near]))):
+        return ""
     before = slice(max(0, last + 1 - WINDOW), last + 1)
     after = slice(last + 1, last + 1 + WINDOW)
     if min(len(force[before]), len(force[after])) < FEWEST:
         return ""
     step = abs(strain[last + 1] - strain[last])
-    usual = np.median(np.abs(np.diff(strain[max(0, last + 1 - WINDOW) : last + 1 + WINDOW])))
+    usual = np.median(np.abs(np.diff(strain[near])))
     slopes = [_slope(strain[part], force[part]) for part in (before, after)]
     if step > STEADY * usual or None in slopes:
         return ""
