@@ -209,7 +209,7 @@ def returns_at_one_speed(force: Array, strain: Array, near: int, start: int) -> 
         return False
     # the reading after which the force falls may be half a step before the machine turns
     speeds = back[fall] / (fall - 0.5), (back[end] - back[fall]) / max(end - fall, 1)
-    return end <= fall or 1 / STEADY <= speeds[1] / speeds[0] <= STEADY
+    return bool(end <= fall or 1 / STEADY <= speeds[1] / speeds[0] <= STEADY)
 
 
 def _onset(force: Array, start: int, peak: int) -> int:
