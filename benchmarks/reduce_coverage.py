@@ -34,7 +34,7 @@ from nptcs.mechanical_tests import TestType
 from nptcs.reduce import reduce_record
 from nptcs.reduce.origin import origin_of, origins_of
 from nptcs.tables.laboratory.curves import CURVE_COLUMNS, IngestRecord
-from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.material_card import CardConstant
 from nptcs.tables.laboratory.specimens import Specimen, read_sheet
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -46,7 +46,7 @@ PLY = {
 }
 
 
-def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[Quantity, float]]:
+def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[CardConstant, float]]:
     """Constants of one example folder, each with its true value."""
     specimens, _ = read_sheet(folder / "specimens.csv")
     profiles = load_profiles(ROOT / "config" / "formats")

@@ -9,7 +9,7 @@ import pandas as pd
 import pandera.pandas as pa
 
 from nptcs.calibrate.drucker import instabilities
-from nptcs.calibrate.fit import Model, fit_model
+from nptcs.calibrate.fit import HyperelasticModel, fit_model
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.models import model_named
 from nptcs.calibrate.observations import (
@@ -19,7 +19,7 @@ from nptcs.calibrate.observations import (
     observe,
     specimens_in_fit,
 )
-from nptcs.calibrate.rubber import unit_of
+from nptcs.calibrate.rubber import constant_unit
 from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
 from nptcs.reduce.origin import Origin
@@ -72,7 +72,7 @@ def compare_models(
 
 
 def _model_rows(
-    model: Model,
+    model: HyperelasticModel,
     data: Sequence[Observation],
     high: float,
     settings: RubberSettings,
@@ -95,7 +95,7 @@ def _model_rows(
         {
             "constant": constant,
             "value": value,
-            "unit": unit_of(constant),
+            "unit": constant_unit(constant),
             "standard_error": error,
             "points": fit.points,
             "rmse_mpa": fit.rmse_mpa,
@@ -110,12 +110,12 @@ def _model_rows(
     ]
 
 
-def _not_determined(model: Model, constant: str, reason: str) -> dict[str, object]:
+def _not_determined(model: HyperelasticModel, constant: str, reason: str) -> dict[str, object]:
     empty = ("value", "standard_error", "rmse_mpa", "largest_error_percent", "r_squared")
     return {
         **dict.fromkeys((*empty, "initial_shear_modulus_mpa"), NAN),
         "constant": constant,
-        "unit": unit_of(constant),
+        "unit": constant_unit(constant),
         "points": 0,
         "drucker_stable": pd.NA,
         "standard_error_rule": "",

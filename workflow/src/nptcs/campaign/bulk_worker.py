@@ -14,7 +14,7 @@ import pandas as pd
 
 from nptcs.campaign.worker import begin_in, message_of, of_the_machine
 from nptcs.solvers.contract import TYRE_RESPONSES, Solver, Status, TableInputs
-from nptcs.solvers.registry import load, read_options
+from nptcs.solvers.registry import load_solver, read_options
 from nptcs.tables.status import has_result
 from nptcs.tables.tyres.cases import realised_column
 
@@ -32,7 +32,7 @@ def run(
     """
     begin_in(folder)
     start = time.perf_counter()
-    solver = load(module)
+    solver = load_solver(module)
     results = solve_part(solver, replace(inputs, options=read_options(solver, options)))
     channel.send((results, time.perf_counter() - start))
     channel.close()

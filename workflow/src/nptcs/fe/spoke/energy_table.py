@@ -153,7 +153,9 @@ def side_part(s: Array, lowest: float, narrowing: float) -> Array:
     return part
 
 
-def fit(samples: SpokeSamples, options: EnergyTableOptions, height_mm: float) -> SpokeEnergyTable:
+def fit_energy(
+    samples: SpokeSamples, options: EnergyTableOptions, height_mm: float
+) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
     All data enter in units of energy: forces times the half range, tangents times its square;
