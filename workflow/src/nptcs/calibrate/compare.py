@@ -22,7 +22,7 @@ from nptcs.calibrate.observations import (
 from nptcs.calibrate.rubber import constant_unit
 from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
-from nptcs.reduce.origin import Origin
+from nptcs.reduce.strain_origin import StrainOrigin
 from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.laboratory.specimens import Specimen
 
@@ -36,7 +36,7 @@ def compare_models(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> pd.DataFrame:
     """Fit each model of the settings to the same points of a rubber.
 
@@ -128,7 +128,7 @@ def c10_against_range(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> pd.DataFrame:
     """Neo-Hookean C10 for a sequence of strain ranges, of each specimen and of all together.
 
@@ -166,7 +166,7 @@ def _range_rows(
     specimens: Sequence[Specimen],
     settings: RubberSettings,
     strain_range: tuple[float, float],
-    origins: Mapping[str, Origin],
+    origins: Mapping[str, StrainOrigin],
 ) -> list[dict[str, object]]:
     """Rows of one range: one row per specimen, and one for those that reach its end."""
     rows, together = [], []
@@ -178,7 +178,7 @@ def _range_rows(
         except InputError as error:
             rows.append(_empty_range_row(specimen.specimen, error.message))
             continue
-        observation = replace(observation, origin=origins.get(specimen.specimen, Origin()))
+        observation = replace(observation, origin=origins.get(specimen.specimen, StrainOrigin()))
         if any(STRAIN_ENDS in text for text in remarks):
             rows.append(_empty_range_row(specimen.specimen, "; ".join(remarks)))
             continue

@@ -14,7 +14,7 @@ from nptcs.calibrate.observations import Observation, observations
 from nptcs.calibrate.toe import toe_bias
 from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.reduce.deviations import CROSSHEAD
-from nptcs.reduce.origin import Origin
+from nptcs.reduce.strain_origin import StrainOrigin
 from nptcs.tables.laboratory.material_card import CardConstant, Covariance, RubberCard
 from nptcs.tables.laboratory.specimens import Specimen
 
@@ -25,7 +25,7 @@ def calibrate_rubber(
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
     strain_sources: Mapping[str, str] | None = None,
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> RubberCard:
     """Fit the card's model to the included specimens of a rubber.
 
@@ -42,7 +42,7 @@ def calibrate_rubber(
     strain_sources : mapping of str to str, optional
         Where each specimen's strain came from, as the ingest records say; the card says which
         specimens have crosshead strain.
-    origins : mapping of str to Origin, optional
+    origins : mapping of str to StrainOrigin, optional
         Strain origins as the ingest found them: their errors enter those of the constants, and
         the card says what their correction did.
 

@@ -76,7 +76,7 @@ def failed_row(status: Status, message: str, died: bool = False) -> pd.DataFrame
 
 
 def _checked(solver: Solver, inputs: TableInputs, results: pd.DataFrame) -> pd.DataFrame:
-    """Hold a table against the contract: a case that says ok has its finite responses."""
+    """Check a table against the contract: a case with status ok has finite responses."""
     if len(results) != len(inputs.cases):
         raise ValueError(
             f"solver '{solver.name}' gives {len(results)} rows for {len(inputs.cases)} cases"

@@ -53,7 +53,7 @@ def _solve_cases(
 
 
 def _percent(computed: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
-    """Difference of ours from the published value, in percent of the latter."""
+    """Difference of the computed from the published value, in percent of the published one."""
     return 100 * (computed / published - 1)
 
 

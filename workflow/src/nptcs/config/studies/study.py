@@ -118,7 +118,8 @@ class Study(Strict):
     )
     published_coefficients: str | None = Field(
         None,
-        description="CSV with the paper's coefficients (term, coefficient), shown next to ours",
+        description="CSV with the paper's coefficients (term, coefficient), shown next to the "
+        "fitted ones",
     )
     published_spoke_stiffness: str | None = Field(
         None,

@@ -194,7 +194,7 @@ def fit_energy(
     coefficients, _, rank, _ = np.linalg.lstsq(*weighted, rcond=1e-12)
     if rank < len(exponents):
         raise ValueError(
-            f"{len(exponents)} terms cannot be found from {len(samples.coordinates)} states "
+            f"{len(exponents)} terms cannot be determined from {len(samples.coordinates)} states "
             f"(rank {rank}): lower degrees or take more samples"
         )
     force = _term(lines, _order(0)) @ coefficients / half[0]
