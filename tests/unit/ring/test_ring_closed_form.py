@@ -19,7 +19,8 @@ def test_pinched_ring(table):
     # axial force, bending moment and shear as a Timoshenko ring; the faces and the tread carry
     # nothing and turn with the line
     stiffness = np.diag([AXIAL, BENDING, 1e2, 1e2, 1e9, SHEAR, 1e2])
-    ring = replace(ring, stiffness=stiffness, hardening=np.zeros((4, 4, 4)), feet=ring.feet[:0])
+    ring = replace(ring, stiffness=stiffness, hardening=np.zeros((4, 4, 4)))
+    ring = replace(ring, core=np.zeros(6), feet=ring.feet[:0])
     count = len(ring.theta)
     rest = np.zeros((count, 5))
     system = numpy_kernel.assemble(ring, rest, -50.0, np.zeros(count))

@@ -105,7 +105,9 @@ def test_the_core_shears_with_the_wires_axes_not_their_sections(tyre):
     own = tyre.ring.stiffness
     length, slope, zero = 5.0, 1e-3, np.zeros(5)
     turned = np.array([0.0, slope, 0.0, 0.0, 0.0])
-    energy = elementwise.band_energy(own, tyre.ring.hardening, 0.0, length, zero, turned)
+    energy = elementwise.band_energy(
+        own, tyre.ring.hardening, tyre.ring.core, 0.0, length, zero, turned
+    )
     assert energy == pytest.approx(0.5 * length * (own[4, 4] + own[5, 5]) * slope**2, rel=1e-6)
 
 

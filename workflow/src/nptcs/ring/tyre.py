@@ -93,6 +93,7 @@ class RingTyre:
         band = elementwise.band_energy(
             self.ring.stiffness,
             self.ring.hardening,
+            self.ring.core,
             self.nodes.middle,
             self.nodes.length_mm,
             mean,
@@ -193,6 +194,7 @@ def _arrays(
     return Ring(
         stiffness=section.stiffness,
         hardening=section.hardening,
+        core=section.core,
         dimensions=w,
         theta=nodes.theta,
         middle=nodes.middle,

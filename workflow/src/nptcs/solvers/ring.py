@@ -32,7 +32,13 @@ from nptcs.solvers.contract import (
     Status,
     neutral_line_columns,
 )
-from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.fe_inputs import (
+    SPOKE_FACTORS,
+    TYRE_FACTORS,
+    checked_values,
+    ply_constants,
+    realised_spacing,
+)
 from nptcs.solvers.tables import one_by_one
 
 
@@ -136,7 +142,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="3",
+    version="4",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,
@@ -146,4 +152,6 @@ SOLVER = Solver(
     about="the tyre as a sandwich ring on the energies of finite element spokes",
     solve_table=one_by_one(solve),
     table_cases=10,
+    shares=SPOKE_FACTORS,
+    shared_case_s=0.1,
 )
