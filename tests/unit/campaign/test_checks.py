@@ -4,7 +4,7 @@ import pytest
 
 from nptcs.campaign.answers import solvers_of
 from nptcs.campaign.batch import solve_batch
-from nptcs.campaign.checks import name_faults, refuse_faults, repeats, study_faults
+from nptcs.campaign.checks import name_faults, refuse_faults, repeats_a_piece, study_faults
 from nptcs.campaign.plan import Costs, different_parts, plan_lines
 from nptcs.campaign.record import RecordStore
 from nptcs.config.root import read_config
@@ -142,8 +142,8 @@ def test_names_that_cannot_be_files_are_refused(archive, specimens, words):
 def test_ordinary_names_are_not_refused(archive):
     specimens = [specimen(f"T0-{n:012d}", f"cfrp_{n}") for n in range(3)]
     assert name_faults(specimens, configuration(archive)) == []
-    assert not repeats("T" * 15)
-    assert repeats("T" * 16)
+    assert not repeats_a_piece("T" * 15)
+    assert repeats_a_piece("T" * 16)
 
 
 def test_the_plan_counts_what_is_known_and_what_it_took(archive, tmp_path):

@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.tyre import ring_tyre
@@ -14,7 +14,7 @@ AXIAL, BENDING, SHEAR = 3.0e6, 4.0e8, 2.0e5
 
 
 def test_pinched_ring(table):
-    options = RingOptions(mesh=RingMesh(elements_per_pitch=4, refinement=1))
+    options = RingOptions(mesh=RingElements(elements_per_pitch=4, refinement=1))
     ring = ring_tyre(TyreGeometry(), table, 5.0, options, kernel="numpy").ring
     # axial force, bending moment and shear as a Timoshenko ring; the faces and the tread carry
     # nothing and turn with the line

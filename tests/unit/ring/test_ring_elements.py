@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nptcs.config.solvers.fe import GroundContact
-from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.kernel import elementwise, numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
@@ -12,7 +12,7 @@ from nptcs.ring.kernel.cyclic_elimination import eliminate
 from nptcs.ring.tyre import ring_tyre
 
 COARSE = RingOptions(
-    mesh=RingMesh(elements_per_pitch=1, refined_deg=7, refinement=2),
+    mesh=RingElements(elements_per_pitch=1, refined_deg=7, refinement=2),
     contact=GroundContact(penalty_mpa_per_mm=50.0, smoothing_mm=0.1),
 )
 RISE = 4.0

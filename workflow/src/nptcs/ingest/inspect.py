@@ -144,7 +144,7 @@ def _inspect(
     return result
 
 
-def describe(inspection: Inspection) -> str:
+def inspection_text(inspection: Inspection) -> str:
     """Return the inspection as text for a terminal."""
     opened = inspection.opened
     lines = [

@@ -32,7 +32,7 @@ from nptcs.ingest.conditioning.steps import (
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.ingest.conditioning.strains import NO_STRAIN, flag_unread_strains, resolve_strains
 from nptcs.ingest.conditioning.tare import flag_tare
-from nptcs.ingest.read_tables import read_tables
+from nptcs.ingest.read_tables import read_specimen_tables
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import RawFile
 from nptcs.ingest.repeats import data_digest
@@ -105,7 +105,7 @@ def ingest_specimen(
     InputError
         If a file cannot be read with certainty, or physics contradicts it.
     """
-    tables = read_tables(specimen, Path(folder), profiles, settings.limits)
+    tables = read_specimen_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
     refuse_scaled_names(tables, specimen)
     digest, sketch = data_digest(tables), data_sketch(tables)

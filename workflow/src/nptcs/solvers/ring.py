@@ -20,7 +20,7 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.responses import spoke_forces
 from nptcs.ring.responses import responses
-from nptcs.ring.solution import RingError, RingState, load
+from nptcs.ring.solution import RingError, RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.solvers.contract import (
     CASE_MEMORY,
@@ -91,7 +91,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
         ) from error
     loads = np.linspace(0.0, inputs.load_n, options.load_steps + 1)[1:]
     try:
-        states = load(tyre, loads.tolist())
+        states = press_through_loads(tyre, loads.tolist())
     except RingError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
