@@ -136,7 +136,7 @@ def test_a_gauge_that_was_not_read_next_to_a_travel_is_named(tmp_path, profiles,
 
 def test_two_gauges_of_one_kind_are_refused_by_name(tmp_path, profiles):
     content = export(NEWTON | {"E0 (mm)": EXTENSION, "E1 (mm)": 10 * ACROSS})
-    with pytest.raises(InputError, match="'E0' in mm, 'E1' in mm: several may be it"):
+    with pytest.raises(InputError, match="several may be it: 'E0' in mm, 'E1' in mm"):
         reduced(tmp_path, profiles, content, **LENGTH)
 
 

@@ -30,7 +30,6 @@ STEADY, RETURNED, LEFT = 4.0, 0.6, 0.05
 """A machine returns at one speed, within this factor; the strain goes back by the second share in
 all, and by at least the third until the force is gone: a softened rubber has lost its force long
 before its strain is back."""
-LIKE_BOTH = "a break, or a machine that returns with a softened specimen"
 TOO_FEW = "so few readings that a break and a return of the machine look alike"
 """Words for such a fall."""
 
@@ -81,7 +80,11 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     along = unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
     if not along and ratio >= ABRUPT and returns_at_one_speed(force, strain, near, start):
-        return Failure(seen=False, words=f"{fell} and the strain returns at one speed: {LIKE_BOTH}")
+        return Failure(
+            seen=False,
+            words=f"{fell} and the strain returns at one speed: a break, or a machine that returns "
+            "with a softened specimen",
+        )
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
     if not along and ratio >= ABRUPT and max(_given_back(force, strain, near, start)) < TOO_LITTLE:

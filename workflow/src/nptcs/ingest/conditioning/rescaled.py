@@ -41,20 +41,25 @@ def cut_rescaled(signals: Signals, source: str) -> None:
     found = rescaled_from(load, strain)
     if found is None:
         return
-    row, words = found
+    row, factor = found
     rows = len(load) - row
     before, after = float(load[row - 1]), float(load[row])
     signals.take(np.arange(row))
     signals.failure_seen = False
-    signals.note("load cell", f"{words} at {before:.5g} N: {rows} rows cut", rows=rows)
+    signals.note("load cell", f"leaps from {before:.5g} N: {rows} rows cut", rows=rows)
     signals.flags.append(
         f"the force leaps from {before:.5g} to {after:.5g} N while the strain goes on, and then "
-        f"goes on {words}; cut from there, so that neither strength nor failure is known"
+        "grows as stiffly as before: the load cell was probably set to zero again; cut from there, "
+        "so that neither strength nor failure is known"
+        if factor == 1
+        else f"the force leaps from {before:.5g} to {after:.5g} N while the strain goes on, and "
+        f"then grows at {factor:g} times that scale: its range was probably switched; cut from "
+        "there, so that neither strength nor failure is known"
     )
 
 
-def rescaled_from(load: Array, strain: Array) -> tuple[int, str] | None:
-    """First reading after a change of the force's zero or range, and in words how it goes on.
+def rescaled_from(load: Array, strain: Array) -> tuple[int, float] | None:
+    """First reading after a change of the force's zero or range, and the factor of its scale.
 
     Parameters
     ----------
@@ -71,34 +76,37 @@ def rescaled_from(load: Array, strain: Array) -> tuple[int, str] | None:
     leap &= np.maximum(force[:-1], force[1:]) > SMALLEST * force.max()
     leap &= np.diff(known) == 1
     for last in np.flatnonzero(leap):
-        if words := _goes_on(force, course, int(last)):
-            return int(known[last + 1]), words
+        if factor := _goes_on(force, course, int(last)):
+            return int(known[last + 1]), factor
     return None
 
 
-def _goes_on(force: Array, strain: Array, last: int) -> str:
-    """In words how the force goes on after reading `last`; empty if it is another thing."""
+def _goes_on(force: Array, strain: Array, last: int) -> float | None:
+    """Factor of the scale with which the force goes on after reading `last`; None if it does not.
+
+    It is 1 where the zero was set again.
+    """
     near = slice(max(0, last + 1 - WINDOW), last + 1 + WINDOW)
     if abs(force[last + 1] - force[last]) < STEADY * np.median(np.abs(np.diff(force[near]))):
-        return ""
+        return None
     before = slice(max(0, last + 1 - WINDOW), last + 1)
     after = slice(last + 1, last + 1 + WINDOW)
     if min(len(force[before]), len(force[after])) < FEWEST:
-        return ""
+        return None
     step = abs(strain[last + 1] - strain[last])
     usual = np.median(np.abs(np.diff(strain[near])))
     slopes = [_slope(strain[part], force[part]) for part in (before, after)]
     if step > STEADY * usual or None in slopes:
-        return ""
+        return None
     (first, second), ratio = slopes, force[last + 1] / force[last]
     if first is None or second is None:
-        return ""
+        return None
     if abs(second / first - 1) <= ALIKE:
-        return "as stiffly as before, as if the load cell had been set to zero again"
+        return 1.0
     for factor in RANGES:
         if abs(second / first / factor - 1) <= ALIKE and abs(ratio / factor - 1) <= ALIKE:
-            return f"at {factor:g} times that scale, as if its range had been switched"
-    return ""
+            return factor
+    return None
 
 
 def _slope(strain: Array, force: Array) -> float | None:
