@@ -192,12 +192,12 @@ def _nothing(tests: Sequence[Test], role: Role, path: Path, profile: FormatProfi
     row = largest.found_table.names_row
     message = f"no column for {wanted} by profile '{profile.name}'; columns: {found}"
     if may := _candidates(largest, missing):
-        names = ", ".join(map(_with_unit, may))
+        likely = ", ".join(map(_with_unit, may))
         message = (
             f"no column for {wanted} by profile '{profile.name}'; columns: {found}; several may be "
-            f"it: {names}"
+            f"it: {likely}"
             if len(may) > 1 and all(column.unit for column in may)
-            else f"no column for {wanted} by profile '{profile.name}'; columns: {found}; {names} "
+            else f"no column for {wanted} by profile '{profile.name}'; columns: {found}; {likely} "
             "may be it, but its unit is not known"
         )
     return InputError(
