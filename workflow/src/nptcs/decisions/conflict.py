@@ -27,9 +27,7 @@ def conflict_words(problem: DesignProblem, found: SearchResult, probability: flo
     each = np.vstack([found.candidates.probabilities, found.designs.probabilities])
     goals = problem.must_hold
     together = float(at_least_all(each).max())
-    parts = [
-        f"no design meets all goals with probability {probability:g}: at best {together:.2g}"
-    ]
+    parts = [f"no design meets all goals with probability {probability:g}: at best {together:.2g}"]
     best = each.max(axis=0)
     alone = [f"'{goal}' with {p:.2g}" for goal, p in zip(goals, best, strict=True)]
     parts.append(f"alone, at best: {', '.join(alone)}")
