@@ -112,7 +112,7 @@ def assemble(name: str, number: str, build: str, channel: Path, tree: Path) -> N
 def make_channel(folder: Path) -> Path:
     """Return the local channel, made anew."""
     channel, work = folder / "channel", folder / "work"
-    for place in (channel, work):
+    for place in (channel, work, folder / "wheels"):
         shutil.rmtree(place, ignore_errors=True)
     for place in (channel / "noarch", channel / PLATFORM, work):
         place.mkdir(parents=True)
