@@ -99,6 +99,11 @@ def _drawn_in(words: Language, draw: Callable[..., Figure], args: Any, kwargs: A
 
 def _end_with_parent() -> None:
     """End this process when the one that it draws for is gone, however that ended."""
+    threading.Thread(target=_wait_for_parent, daemon=True).start()
+
+
+def _wait_for_parent() -> None:
     parent = multiprocessing.parent_process()
     if parent is not None:
-        threading.Thread(target=lambda: (parent.join(), os._exit(1)), daemon=True).start()
+        parent.join()
+        os._exit(1)
