@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.material_card import CardConstant
 
 # a normal variable lies further out once in 370 times
 LARGEST_DISTANCE = 3.0
@@ -89,12 +89,12 @@ def check_ply(values: Mapping[str, float], material: str, tolerance_percent: flo
     ]
 
 
-def check_reciprocity(measured: Mapping[str, Quantity], nu21: pd.Series) -> str:
+def check_reciprocity(measured: Mapping[str, CardConstant], nu21: pd.Series) -> str:
     """Compare ν12/E1 = ν21/E2 with ν21 as measured on 90° specimens, in words.
 
     Parameters
     ----------
-    measured : mapping of str to Quantity
+    measured : mapping of str to CardConstant
         e1_mpa, e2_mpa and nu12 with their standard errors.
     nu21 : Series
         Poisson's ratios of the 90° specimens; may be empty.
@@ -104,15 +104,15 @@ def check_reciprocity(measured: Mapping[str, Quantity], nu21: pd.Series) -> str:
     words = f"reciprocity nu12/E1 = nu21/E2 sets nu21 = {expected:.4g}"
     if nu21.empty:
         return f"{words}; nu21 was not measured"
-    words += f"; measured {nu21.mean():.4g} on {len(nu21)} specimens"
+    found = f"measured {nu21.mean():.4g} on {len(nu21)} specimens"
     errors = [q.standard_error for q in (e1, e2, nu12)]
     if len(nu21) < 2 or None in errors:
-        return f"{words} (no standard error to judge the difference by)"
+        return f"{words}; {found} (no standard error to judge the difference by)"
     relative = [(q.standard_error or 0.0) / q.value for q in (e1, e2, nu12)]
     own = float(nu21.std(ddof=1)) / np.sqrt(len(nu21))
     distance = (nu21.mean() - expected) / np.hypot(own, expected * np.linalg.norm(relative))
     verdict = "agrees" if abs(distance) <= LARGEST_DISTANCE else "warning: does not agree"
-    return f"{words}: {verdict} ({distance:+.1f} standard errors)"
+    return f"{words}; {found}: {verdict} ({distance:+.1f} standard errors)"
 
 
 def _require_positive_definite(values: Mapping[str, float], material: str) -> None:

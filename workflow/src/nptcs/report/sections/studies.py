@@ -10,7 +10,7 @@ import pandas as pd
 from nptcs.config.studies.study import Factor, MeasuredRubber, Study
 from nptcs.language import tr, translatable
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, TableView, Text
-from nptcs.report.data import Results, SolverFacts
+from nptcs.report.data import Results, SolverDescription
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
@@ -135,7 +135,7 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
     return Section(ReportSection.CASES, tr("Cases"), tuple(blocks))
 
 
-def _choices(facts: SolverFacts) -> str:
+def _choices(facts: SolverDescription) -> str:
     """Name the models that the solver's options choose."""
     sets = [
         ", ".join(f"{words(name)}: {tr(choice)}" for name, choice in chosen.items())
@@ -235,7 +235,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots), shown=first))
     if residuals := _residual_plots(results, study):
         words_of_residuals = tr(
-            "{title}: what the polynomial leaves of its cases, over its value (marks "
+            "{title}: residuals of the polynomial at its cases, over its value (marks "
             "grow with the leverage) and against a normal distribution. The results "
             "of a solver have no noise: a pattern is what the polynomial cannot "
             "follow.",
