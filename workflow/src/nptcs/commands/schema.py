@@ -84,7 +84,9 @@ KINDS = {
     "string[python]": "text",
     "float64": "number",
     "int64": "whole number",
+    "Int64": "whole number",
     "bool": "True or False",
+    "boolean": "True or False",
 }
 """What a column holds, in words, by pandera's name of its type."""
 
