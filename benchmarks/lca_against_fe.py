@@ -39,7 +39,7 @@ def compare(spoke_c10_mpa: float, loads_n: list[float]) -> None:
     straight = lca.LinearSpokes(lines.tension_fit.slope, lines.compression_fit.slope)
     pulled, pressed = pull(spoke, REACH_MM[0], 32), pull(spoke, -REACH_MM[1], 64)
     curved = lca.SpokeLaw.from_curves(*pulled, *pressed)
-    section = lca.RingSection.from_tyre(tyre, BAND_C10_MPA)
+    section = lca.ShearBandSection.from_tyre(tyre, BAND_C10_MPA)
     loaded = tyre_model(model, tyre, energy_table(model, design), BAND_C10_MPA)
     try:
         path = loaded.load(loads_n).path

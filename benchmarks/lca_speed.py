@@ -82,7 +82,7 @@ def with_solve_bvp(designs: dict, load: np.ndarray, count: int) -> tuple[np.ndar
 
 def single_ms() -> float:
     """Median processor time of one solution from Python, in milliseconds."""
-    section = lca.RingSection.from_tyre(TyreGeometry(), 5.0)
+    section = lca.ShearBandSection.from_tyre(TyreGeometry(), 5.0)
     times = []
     for load in np.linspace(3000, 6000, 101):
         start = time.process_time()

@@ -26,7 +26,7 @@ from lca_designs import sweep_designs  # noqa: E402
 def by_collocation(designs: dict, row: int, theta_c_deg: float) -> lca.LawState:
     """Solve one row by collocation, for the contact angle that the exact model found."""
     names = list(designs)[:5]
-    section = lca.RingSection(*(float(designs[name][row]) for name in names))
+    section = lca.ShearBandSection(*(float(designs[name][row]) for name in names))
     spokes = lca.LinearSpokes(
         float(designs["tension_n_per_mm"][row]), float(designs["compression_n_per_mm"][row])
     )

@@ -47,7 +47,7 @@ def print_published(tyre: TyreGeometry) -> None:
 
 def print_spokes(tyre: TyreGeometry) -> None:
     """Print the linear limit, the contact spokes' form and the ripple."""
-    section, spokes = lca.RingSection.from_tyre(tyre, 5.0), lca.LinearSpokes(30.2, 13.26)
+    section, spokes = lca.ShearBandSection.from_tyre(tyre, 5.0), lca.LinearSpokes(30.2, 13.26)
     law = lca.SpokeLaw.linear(spokes, 60.0)
     for load in (500.0, 3000.0, 5000.0, 8000.0):
         exact = lca.solve(section, spokes, load_n=load).displacement_mm

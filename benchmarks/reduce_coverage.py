@@ -32,9 +32,9 @@ from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.conditioning.strain_origin import correct_origin
 from nptcs.mechanical_tests import TestType
 from nptcs.reduce import reduce_record
-from nptcs.reduce.origin import origin_of, origins_of
+from nptcs.reduce.strain_origin import strain_origin_of, strain_origins_of
 from nptcs.tables.laboratory.curves import CURVE_COLUMNS, IngestRecord
-from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.material_card import CardConstant
 from nptcs.tables.laboratory.specimens import Specimen, read_sheet
 
 ROOT = Path(__file__).resolve().parents[1]
@@ -46,7 +46,7 @@ PLY = {
 }
 
 
-def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[Quantity, float]]:
+def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[CardConstant, float]]:
     """Constants of one example folder, each with its true value."""
     specimens, _ = read_sheet(folder / "specimens.csv")
     profiles = load_profiles(ROOT / "config" / "formats")
@@ -56,7 +56,7 @@ def constants(folder: Path, settings: ReductionSettings) -> dict[str, tuple[Quan
         curves[specimen.specimen] = done.curve
         records.append(done.record)
         tables.append(reduce_record(done.curve, specimen, done.record, settings))
-    calibration, origins = CalibrationSettings(), origins_of(records)
+    calibration, origins = CalibrationSettings(), strain_origins_of(records)
     ply = calibrate_ply(pd.concat(tables), specimens, calibration)
     found = {name: (ply.constants[name], value) for name, value in PLY.items()}
     for rubber, value in truth.C10_MPA.items():
@@ -144,7 +144,7 @@ def of_one_curve(kind: str, rubber: bool, random: np.random.Generator) -> dict[s
     if rubber:
         specimen = Specimen(test=TestType.RUBBER_TENSION, **fields)
         card = calibrate_rubber(
-            "m", {"X": curve}, [specimen], CalibrationSettings(), None, origins_of([record])
+            "m", {"X": curve}, [specimen], CalibrationSettings(), None, strain_origins_of([record])
         )
         value, error = card.constants["c10_mpa"].value, card.constants["c10_mpa"].standard_error
         truth_value = C10_MPA
@@ -153,7 +153,7 @@ def of_one_curve(kind: str, rubber: bool, random: np.random.Generator) -> dict[s
         settings = ReductionSettings(astm_d3039=AstmD3039(chord_method="least_squares"))
         row = reduce_record(curve, specimen, record, settings).set_index("property").loc["modulus"]
         value, error, truth_value = row["value"], row["standard_error"], E_MPA
-    origin = origin_of(record)
+    origin = strain_origin_of(record)
     return {
         "kind": f"{kind}, {'C10' if rubber else 'modulus'}",
         "deviation_percent": 100 * (value / truth_value - 1),

@@ -34,7 +34,7 @@ from nptcs.fe.tyre.equilibrium import TyreError, TyreModel, TyreState
 from nptcs.fe.tyre.responses import contact_responses
 from nptcs.files import read_model
 from nptcs.ring.responses import responses
-from nptcs.ring.solution import RingState, load
+from nptcs.ring.solution import RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY, MaterialCard
 
@@ -116,9 +116,9 @@ def against(
     reached = [force for force in loads_n if force in rise]
     options = RingOptions(axial=model.axial, contact=model.contact)
     ring = ring_tyre(TYRE, table, band_c10_mpa, options)
-    load(ring, reached[:1])
+    press_through_loads(ring, reached[:1])
     start = time.process_time()
-    states = load(ring, reached)
+    states = press_through_loads(ring, reached)
     ring_s = time.process_time() - start
     percent = np.array(
         [100 * (own.rise_mm / rise[own.force_n] - 1) for own in states if own.force_n in rise]

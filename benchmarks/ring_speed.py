@@ -25,7 +25,7 @@ from nptcs.fe.case import energy_table, spoke_design
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring.batch import NamedTables, solve_table
 from nptcs.ring.kernel.compiled import HAS_NUMBA
-from nptcs.ring.solution import load
+from nptcs.ring.solution import press_through_loads
 from nptcs.ring.tyre import ring_tyre
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -54,11 +54,11 @@ def time_curves(table: SpokeEnergyTable) -> None:
     loads = np.linspace(0.0, LOAD_N, POINTS + 1)[1:].tolist()
     for kernel in ("numpy", "numba") if HAS_NUMBA else ("numpy",):
         tyre = ring_tyre(TYRE, table, 5.0, RingOptions(), kernel=kernel)
-        load(tyre, loads)
+        press_through_loads(tyre, loads)
         times = []
         for _ in range(10):
             start = time.process_time()
-            states = load(tyre, loads)
+            states = press_through_loads(tyre, loads)
             times.append(time.process_time() - start)
         count = sum(state.iterations for state in states)
         print(

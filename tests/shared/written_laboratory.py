@@ -6,7 +6,7 @@ import pandas as pd
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.io import check
 from nptcs.tables.laboratory.curves import Curve
-from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import CardConstant, MaterialCard, PlyCard, RubberCard
 from nptcs.tables.laboratory.specimens import Specimen
 
 C10_MPA = 1.25
@@ -35,7 +35,7 @@ def neo_hookean(strain):
 
 
 def card(synthetic=True):
-    measured = Quantity(
+    measured = CardConstant(
         value=127742.123,
         unit="MPa",
         standard_error=2042.8,
@@ -43,8 +43,8 @@ def card(synthetic=True):
         rule="chord",
         specimens=("T0-1",),
     )
-    assumed = Quantity(value=2300.0, unit="MPa", origin="assumed", rule="assumed value")
-    c10 = Quantity(
+    assumed = CardConstant(value=2300.0, unit="MPa", origin="assumed", rule="assumed value")
+    c10 = CardConstant(
         value=C10_MPA,
         unit="MPa",
         standard_error=0.0123,

@@ -2,6 +2,7 @@
 
 import ast
 from collections.abc import Iterable, Iterator
+from itertools import product
 from pathlib import Path
 from typing import get_args
 
@@ -17,7 +18,9 @@ from nptcs.config.materials.reduction import ChordMethod, ReductionSettings
 from nptcs.config.materials.standards.base import Statistic
 from nptcs.config.solvers.fe import PlateCoupling
 from nptcs.config.studies.sensitivity import AveragingRule
-from nptcs.config.studies.surface import Choice
+from nptcs.config.studies.surface import Choice, LaminationCoefficients
+from nptcs.ingest.reading.profiles import FormatProfile, Quantity
+from nptcs.ingest.reading.text.dialect import number_pattern
 from nptcs.lca.batch import TARGETS
 from nptcs.lca.linear.newton import Target
 from nptcs.lca.section import SectionKind
@@ -27,6 +30,7 @@ from nptcs.report.figures import lca as lca_figures
 from nptcs.report.figures import uncertainty as uncertainty_figures
 from nptcs.report.sketches import Tone
 from nptcs.solvers.contract import Status
+from nptcs.surface.kinds.lamination import FIXED_SHAPE, OPTIONAL_SHAPE
 from nptcs.surface.response_surface import Outside
 from nptcs.tables.analysis.diagnostics import SurfaceSelection
 from nptcs.tables.analysis.response_surfaces import ResponseSurfaces
@@ -170,3 +174,24 @@ def test_each_tone_of_a_sketch_has_its_colours() -> None:
 
 def test_each_target_of_the_load_bearing_model_is_named_once() -> None:
     assert sorted(TARGETS.values()) == sorted(get_args(Target))
+
+
+def test_each_number_of_lamination_coefficients_leaves_shape_parameters_to_choose() -> None:
+    own = 3 + len(FIXED_SHAPE)  # c0, c1, c2 and the shape parameters that every form has
+    assert set(get_args(LaminationCoefficients)) == {
+        own + chosen for chosen in range(1, len(OPTIONAL_SHAPE) + 1)
+    }
+
+
+def test_each_axis_of_a_window_is_a_quantity_that_a_profile_can_name() -> None:
+    axes = get_args(get_args(FormatProfile.model_fields["window"].annotation)[0])
+    assert axes
+    assert set(axes) <= set(get_args(Quantity))
+
+
+def test_each_mark_of_a_profile_is_read_in_numbers() -> None:
+    decimals = get_args(FormatProfile.model_fields["decimal"].annotation)
+    thousands = get_args(FormatProfile.model_fields["thousands"].annotation)
+    for decimal, mark in product(decimals, thousands):
+        if decimal and decimal != mark:
+            assert number_pattern(decimal, mark).fullmatch(f"1{mark}234{decimal}5")

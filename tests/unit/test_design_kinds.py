@@ -19,7 +19,7 @@ from nptcs.doe.d_optimal import d_optimal, log_determinant
 from nptcs.doe.points import box_behnken, central_composite, space_filling
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
-from nptcs.surface.kinds.models import FitCases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.stored import dump_registry
 from nptcs.surface.study import RESPONSE
@@ -159,7 +159,7 @@ def test_named_cases_must_exist_in_the_design():
 def test_further_cases_go_where_the_surface_is_least_sure():
     x = np.array([[0.0], [0.1], [0.2], [0.3], [1.0]])
     cases = FitCases(x, np.sin(3 * x[:, 0]), ("x",), [])
-    surface = fit_model(GaussianProcessModel(kind="gaussian_process"), cases)
+    surface = fit_surface(GaussianProcessModel(kind="gaussian_process"), cases)
     candidates = np.linspace(0, 1, 101)[:, None]
 
     points, half_widths = augment(surface, candidates, 3)
@@ -195,7 +195,7 @@ def test_augment_prints_cases_for_the_study(tmp_path, capsys):
     table = build_design(study({"kind": "central_composite"}), {}, TyreGeometry())
     x = table[["spacing_mm", "thickness_mm", "angle_deg"]].to_numpy()
     cases = FitCases(x, x[:, 0] * 2 + x[:, 1] ** 2, tuple(table)[2:5], TERMS[:4])
-    surface = fit_model(PolynomialModel(kind="polynomial"), cases)
+    surface = fit_surface(PolynomialModel(kind="polynomial"), cases)
     fitted = FittedSurface("s", "lca", "polynomial", RESPONSE, surface)
     (tmp_path / "s.json").write_text(dump_registry(SurfaceRegistry("s", (fitted,))))
     command = ["augment", "s", "--models", str(tmp_path), "--cases", "2", "--solver"]

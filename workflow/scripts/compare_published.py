@@ -7,12 +7,12 @@ from nptcs.compare.stiffness_exponents import stiffness_exponents
 from nptcs.console import clear_errors
 from nptcs.tables.io import check, read_table, write_table
 from nptcs.tables.published import stiffness as contracts
-from nptcs.tables.tyres.cases import Cases, Design
+from nptcs.tables.tyres.cases import Cases, DesignTable
 
 
 def compare_published(job: dict[str, Any], cases: str, designs: list[str], **output: str) -> None:
     studies = {
-        name: compare.Comparison(read_table(file, Design), **facts)
+        name: compare.Comparison(read_table(file, DesignTable), **facts)
         for (name, facts), file in zip(job["studies"].items(), designs, strict=True)
     }
     table = compare.compare_published(read_table(cases, Cases), studies)

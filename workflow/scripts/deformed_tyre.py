@@ -9,14 +9,14 @@ from nptcs.files import read_model
 from nptcs.responses.deformed_tyre import outlines_of_study
 from nptcs.tables.io import empty_table, read_table, write_table
 from nptcs.tables.laboratory.material_card import PlyCard
-from nptcs.tables.tyres.cases import Design
+from nptcs.tables.tyres.cases import DesignTable
 from nptcs.tables.tyres.deformed_tyre import DeformedTyre
 
 
 def draw(job: dict[str, Any], config: dict[str, Any], outlines: str, **files: Any) -> None:
     rows = empty_table(DeformedTyre)
     if job["study"]:
-        design = read_table(files["design"][0], Design)
+        design = read_table(files["design"][0], DesignTable)
         ply = read_model(files["ply"][0], PlyCard).values()
         records = read_records(files["records"])
         rows = outlines_of_study(

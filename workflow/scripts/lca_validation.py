@@ -13,10 +13,10 @@ from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine,
 def validate(job: dict[str, Any], validation: str, fem: str, neutral_line: str, **tables) -> None:
     tyre = TyreGeometry.model_validate(job["tyre"])
     band = {"shear_band_c10_mpa": job["shear_band_c10_mpa"]}
-    table_7 = read_table(tables["table_7"], paper.RubberCases)
+    table_7 = read_table(tables["table_7"], paper.PublishedRubberCases)
     table_10 = read_table(tables["table_10"], paper.PublishedSpokeStiffness)
-    table_11 = read_table(tables["table_11"], paper.LcaAgainstFemPrinted)
-    figure_15 = read_table(tables["figure_15"], paper.LoadErrors)
+    table_11 = read_table(tables["table_11"], paper.PublishedLcaAgainstFem)
+    figure_15 = read_table(tables["figure_15"], paper.PublishedLcaErrors)
     rows = lca_validation(table_10, table_11, figure_15, tyre, **band)
     lines = ring_neutral_lines(table_10, table_11, tyre, **band)
     write_table(validation, rows, LcaValidation)

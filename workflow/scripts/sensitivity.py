@@ -11,12 +11,12 @@ from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.analysis.surface import JOINED, SurfaceQuality
 from nptcs.tables.io import read_table, read_tables, write_table
 from nptcs.tables.published.inputs import PublishedImpact
-from nptcs.tables.tyres.cases import Design
+from nptcs.tables.tyres.cases import DesignTable
 
 
 def assess(job: dict[str, Any], impact: str, **files: Any) -> None:
     surfaces = {Path(file).stem: read_surfaces(file) for file in files["surfaces"]}
-    designs = {Path(file).stem: read_table(file, Design) for file in files["designs"]}
+    designs = {Path(file).stem: read_table(file, DesignTable) for file in files["designs"]}
     qualities = read_tables(files["quality_parts"], SurfaceQuality)
     computed = impact_table(surfaces, designs, qualities, job["rules"], job["near_tie_ratio"])
     published = read_tables(files["published"], PublishedImpact)

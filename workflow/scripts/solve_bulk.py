@@ -10,13 +10,17 @@ from nptcs.console import clear_errors
 from nptcs.files import read_model
 from nptcs.tables.io import read_table
 from nptcs.tables.laboratory.material_card import PlyCard
-from nptcs.tables.tyres.cases import Design
+from nptcs.tables.tyres.cases import DesignTable
 
 
 def solve(job: dict[str, Any], store: str, results: str, design: str, **more) -> None:
     constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
-    given = {**job, "options": options}, read_table(design, Design), next(iter(constants), None)
+    given = (
+        {**job, "options": options},
+        read_table(design, DesignTable),
+        next(iter(constants), None),
+    )
     table, again = solve_bulk(*given, store, more["cores"], more["tokens"], more["log"])
     if again:
         try_again(results)

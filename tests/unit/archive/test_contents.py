@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from nptcs.archive.contents import RESULTS, ArchivedAs, contents_of, inputs_of
+from nptcs.archive.contents import RESULTS, ArchivedAs, contents_of, study_inputs
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
 from nptcs.tables.catalogue import result_files
@@ -27,7 +27,7 @@ def test_every_file_that_the_configuration_names_is_an_input():
     """Whatever key names it: a key that is added later is noticed here."""
     named = {text for text in texts(CONFIG.model_dump(mode="json")) if (ROOT / text).is_file()}
     assert len(named) > 5
-    assert {ROOT / text for text in named} <= set(inputs_of(ROOT, CONFIG))
+    assert {ROOT / text for text in named} <= set(study_inputs(ROOT, CONFIG))
 
 
 @pytest.fixture

@@ -16,7 +16,7 @@ from nptcs.example import truth
 from nptcs.ingest import Ingested, ingest_specimen, load_profiles
 from nptcs.reduce import reduce_record
 from nptcs.reduce.groups.statistics import group_statistics
-from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.material_card import CardConstant
 from nptcs.tables.laboratory.specimens import Specimen, read_sheet
 
 ROOT = Path(__file__).resolve().parents[3]
@@ -49,7 +49,7 @@ def example() -> Example:
     )
 
 
-def distance(quantity: Quantity, true_value: float) -> float:
+def distance(quantity: CardConstant, true_value: float) -> float:
     """Distance from the truth as a fraction of the 95 % interval's half width."""
     assert quantity.standard_error is not None
     half = stats.t.ppf(0.975, len(quantity.specimens) - 1) * quantity.standard_error

@@ -4,7 +4,7 @@ import pytest
 
 from nptcs.calibrate.covariance import covariance_of_means
 from nptcs.calibrate.sampling import sample_constants
-from nptcs.tables.laboratory.material_card import PUBLISHED_PLY, Covariance, PlyCard, Quantity
+from nptcs.tables.laboratory.material_card import PUBLISHED_PLY, CardConstant, Covariance, PlyCard
 
 MATRIX = np.array([[4e6, 0.0, 12.0, 0.0], [0.0, 5e3, 0.0, 0.0], [12.0, 0.0, 1e-4, 0.0]])
 MATRIX = np.vstack([MATRIX, [0.0, 0.0, 0.0, 2.5e3]])
@@ -14,7 +14,9 @@ TIES = {"e3_mpa": "e2_mpa", "nu13": "nu12", "g13_mpa": "g12_mpa"}
 @pytest.fixture
 def card() -> PlyCard:
     constants = {
-        name: Quantity(value=value, unit="MPa", origin="measured", rule="", equal_to=TIES.get(name))
+        name: CardConstant(
+            value=value, unit="MPa", origin="measured", rule="", equal_to=TIES.get(name)
+        )
         for name, value in PUBLISHED_PLY.items()
     }
     covariance = Covariance(

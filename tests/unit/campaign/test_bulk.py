@@ -21,7 +21,7 @@ from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.responses.strength import PlyStrengths
 from nptcs.responses.table import tyre_responses
-from nptcs.solvers.registry import MODULES, load
+from nptcs.solvers.registry import MODULES, load_solver
 from nptcs.solvers.tables import CURVE
 from nptcs.tables.io import check
 from nptcs.tables.tyres.cases import Cases
@@ -157,9 +157,9 @@ def test_batches_divide_the_cases(tmp_path):
 
 
 def test_who_solves_tables():
-    able = {name for name in MODULES if in_bulk(load(MODULES[name]), 1000, 1000)}
+    able = {name for name in MODULES if in_bulk(load_solver(MODULES[name]), 1000, 1000)}
     assert able == {"lca", "published", "ring"}
-    assert not in_bulk(load(MODULES["lca"]), 999, 1000)
+    assert not in_bulk(load_solver(MODULES["lca"]), 999, 1000)
 
 
 TABLES = frames.data_frames(

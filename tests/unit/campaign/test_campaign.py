@@ -12,7 +12,13 @@ import pytest
 
 from nptcs.campaign.cases import cases_table
 from nptcs.campaign.jobs import make_jobs
-from nptcs.campaign.record import CaseJob, RecordStore, read_records, read_tables, write_records
+from nptcs.campaign.record import (
+    CaseJob,
+    RecordStore,
+    read_records,
+    read_solver_tables,
+    write_records,
+)
 from nptcs.campaign.runner import run_cases
 from nptcs.campaign.tries import ended_from_outside, note_ends, read_tries, tries_file
 from nptcs.cli import main
@@ -159,7 +165,7 @@ def test_tables_of_a_solver_are_rows_of_plain_values(tmp_path):
     path = tmp_path / "archive.csv"
     path.write_bytes(b"# of a paper\ncase,name\r\n1,a\r\n2,b\r\n")
     rows = [{"case": 1, "name": "a"}, {"case": 2, "name": "b"}]
-    assert read_tables({"archive": str(path)}) == {"archive": rows}
+    assert read_solver_tables({"archive": str(path)}) == {"archive": rows}
 
 
 @pytest.mark.parametrize(
@@ -178,7 +184,7 @@ def test_a_faulty_table_of_a_solver_is_named_with_its_file(tmp_path, content, me
     if content is not None:
         path.write_bytes(content)
     with pytest.raises(InputError, match=message) as refusal:
-        read_tables({"archive": str(path)})
+        read_solver_tables({"archive": str(path)})
     assert (refusal.value.file, refusal.value.column) == (str(path), "archive")
     assert refusal.value.remedy
 

@@ -2,9 +2,10 @@
 
 import pytest
 
+from nptcs.campaign.answers import solvers_of
 from nptcs.campaign.batch import solve_batch
-from nptcs.campaign.checks import name_faults, refuse_faults, repeats, study_faults
-from nptcs.campaign.plan import plan_lines
+from nptcs.campaign.checks import name_faults, refuse_faults, repeats_a_piece, study_faults
+from nptcs.campaign.plan import Costs, different_parts, plan_lines
 from nptcs.campaign.record import RecordStore
 from nptcs.config.root import read_config
 from nptcs.design import full_factorial
@@ -141,8 +142,8 @@ def test_names_that_cannot_be_files_are_refused(archive, specimens, words):
 def test_ordinary_names_are_not_refused(archive):
     specimens = [specimen(f"T0-{n:012d}", f"cfrp_{n}") for n in range(3)]
     assert name_faults(specimens, configuration(archive)) == []
-    assert not repeats("T" * 15)
-    assert repeats("T" * 16)
+    assert not repeats_a_piece("T" * 15)
+    assert repeats_a_piece("T" * 16)
 
 
 def test_the_plan_counts_what_is_known_and_what_it_took(archive, tmp_path):
@@ -171,6 +172,22 @@ def test_the_plan_counts_what_is_known_and_what_it_took(archive, tmp_path):
     assert line.startswith("  published: 3 known, 6 to solve; about ")
     assert "MB of memory" in line
     assert "MB are free" in disk
+
+
+def test_the_plan_counts_a_spoke_that_several_cases_share_once(archive):
+    def factor(name, *levels):
+        return {"name": name, "label": name, "unit": "mm", "levels": levels}
+
+    both = [factor("spacing_mm", 10, 14), factor("shear_band_c10_mpa", 4, 4.5, 5)]
+    fixed = {"thickness_mm": 1, "angle_deg": 45, "spoke_c10_mpa": 1}
+    config = by_fe(archive, [], factors=both, fixed=fixed, solvers=["ring"])
+    (study,) = config.studies
+    ((solver, _),) = solvers_of(study, config.solver_options(study))
+    assert different_parts(study, solver, config.tyre) == 2
+    assert Costs(15.0, None, 0.0, shared_seconds=0.1).total_s(6, 2) == pytest.approx(30.4)
+    # all known but one: at most one spoke is new
+    assert Costs(15.0, None, 0.0, shared_seconds=0.1).total_s(1, 1) == 15.0
+    assert Costs(2.0, None, 0.0).total_s(6, 2) == 12.0
 
 
 def test_cases_of_a_material_that_is_not_calibrated_are_not_counted(archive, tmp_path):

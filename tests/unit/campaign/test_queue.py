@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from nptcs.campaign.queue import batch_count, batch_memory_mb, batch_minutes, licence_request
 from nptcs.config.root import Campaign
 from nptcs.solvers.contract import SolverOptions
-from nptcs.solvers.registry import MODULES, load
+from nptcs.solvers.registry import MODULES, load_solver
 from nptcs.threads import VARIABLES
 
 
@@ -48,7 +48,7 @@ def test_memory_grows_with_the_cases_side_by_side_and_with_each_attempt():
 
 
 def test_a_case_of_several_cores_counts_once():
-    options = load(MODULES["abaqus"]).options(cpus=4, case_memory_mb=5000.0)
+    options = load_solver(MODULES["abaqus"]).options(cpus=4, case_memory_mb=5000.0)
     assert batch_memory_mb(4, options) == 5800
     assert batch_memory_mb(8, options) == 10800
 

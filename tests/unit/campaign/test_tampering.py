@@ -15,7 +15,7 @@ from nptcs.seal import SEAL, sealed_object
 from nptcs.solvers.contract import SolverResult
 from nptcs.surface.stored import read_surfaces
 from nptcs.tables.laboratory.curves import IngestRecord
-from nptcs.tables.laboratory.material_card import PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import CardConstant, PlyCard, RubberCard
 
 STIFFNESS = 612.25
 
@@ -166,12 +166,16 @@ CARDS = [
     PlyCard(
         name="cfrp",
         synthetic=False,
-        constants={"e1_mpa": Quantity(value=613.25, unit="MPa", origin="measured", rule="ASTM")},
+        constants={
+            "e1_mpa": CardConstant(value=613.25, unit="MPa", origin="measured", rule="ASTM")
+        },
     ),
     RubberCard(
         name="rubber_µ",
         synthetic=True,
-        constants={"c10_mpa": Quantity(value=613.25, unit="MPa", origin="assumed", rule="ours")},
+        constants={
+            "c10_mpa": CardConstant(value=613.25, unit="MPa", origin="assumed", rule="ours")
+        },
         strain_range=(0.0, 0.5),
     ),
     IngestRecord(specimen="T0-1", status="ok", flags=("613.25",)),

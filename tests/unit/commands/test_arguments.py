@@ -10,10 +10,10 @@ from hypothesis import strategies as st
 from nptcs.arguments import (
     existing_file,
     existing_folder,
-    number,
+    number_type,
     output_file,
     output_folder,
-    whole,
+    whole_number_type,
 )
 from nptcs.cli import main
 from nptcs.ranges import RANGES, Range
@@ -25,16 +25,16 @@ REFUSED = argparse.ArgumentTypeError
 def test_a_number_is_taken_exactly_if_it_lies_in_the_range(value):
     allowed = Range(0, 10, "mm", open_low=True)
     if 0 < value <= 10:
-        assert number(allowed)(repr(value)) == value
+        assert number_type(allowed)(repr(value)) == value
     else:
         with pytest.raises(REFUSED, match=r"above 0 and at most 10 mm, got"):
-            number(allowed)(repr(value))
+            number_type(allowed)(repr(value))
 
 
 @pytest.mark.parametrize("text", ["1.5", "0", "-1", "9", "ten", ""])
 def test_whole_numbers(text):
     with pytest.raises(REFUSED, match="between 1 and 8, got"):
-        whole(1, 8)(text)
+        whole_number_type(1, 8)(text)
 
 
 @pytest.mark.parametrize(("name", "bad"), [("angle_deg", 300), ("load_n", 0), ("thickness_mm", -1)])

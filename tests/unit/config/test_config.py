@@ -9,7 +9,7 @@ import yaml
 from nptcs.commands.fe_calibrate import CASES
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
-from nptcs.solvers.registry import check_study, load, module_of
+from nptcs.solvers.registry import check_study, load_solver, module_of
 
 ROOT = Path(__file__).parents[3]
 DEFAULT = yaml.safe_load((ROOT / "config" / "config.yaml").read_text())
@@ -112,7 +112,7 @@ def test_unknown_solvers_and_options_are_named():
     with pytest.raises(InputError, match="did you mean 'archive'"):
         checked(["studies", 0, "solver_options"], {"published": {"archve": "x.csv"}})
     with pytest.raises(InputError, match="does not exist"):
-        load(module_of("own", {"module": "no/such/file.py"}))
+        load_solver(module_of("own", {"module": "no/such/file.py"}))
 
 
 SPOKE = next(number for number, s in enumerate(DEFAULT["studies"]) if s["name"] == "spoke")

@@ -10,7 +10,7 @@ from nptcs.campaign.record import CaseRecord
 from nptcs.config.studies.decisions import Decision
 from nptcs.decisions.confirm import confirmed
 from nptcs.decisions.decide import decide
-from nptcs.decisions.tables import Answer, decision_tables
+from nptcs.decisions.tables import DecisionAnswer, decision_tables
 from nptcs.solvers.contract import SolverResult
 from nptcs.tables.analysis import decisions as contracts
 from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintyShares
@@ -86,7 +86,7 @@ def test_an_outside_case_is_added_and_the_surface_fitted_again(source, solved_de
     value = outcome.problem.fitted[k].model.value(first, {})[0]
     assert value == pytest.approx(rounds[0].compared[k].solved, abs=1.0)
     assert len(rounds) <= DECISION.rounds
-    tables = decision_tables([Answer(DECISION, outcome, tuple(rounds), 1.0)])
+    tables = decision_tables([DecisionAnswer(DECISION, outcome, tuple(rounds), 1.0)])
     confirmation = check(tables.confirmation, contracts.DecisionConfirmation, "confirmation")
     assert confirmation["added"].iloc[0]
     assert confirmation["difference"].iloc[0] == pytest.approx(-8.0, abs=1.0)
@@ -95,7 +95,7 @@ def test_an_outside_case_is_added_and_the_surface_fitted_again(source, solved_de
 def test_a_design_that_cannot_be_solved_is_said_to_be(source, solved_design):
     outcome, rounds, _ = confirmed(DECISION, source, Run(solved_design, 0.0, "diverged"))
     assert [one.result for one in rounds] == ["not solved"]
-    tables = decision_tables([Answer(DECISION, outcome, tuple(rounds), 1.0)])
+    tables = decision_tables([DecisionAnswer(DECISION, outcome, tuple(rounds), 1.0)])
     assert tables.decisions["confirmation"].tolist() == ["not solved"]
     assert "step 3" in tables.confirmation["message"].iloc[0]
     assert tables.confirmation["goal_met"].iloc[0] == ""
@@ -103,8 +103,8 @@ def test_a_design_that_cannot_be_solved_is_said_to_be(source, solved_design):
 
 def test_every_table_keeps_its_contract(source):
     outcome = decide(DECISION, source)
-    refused = Answer(DECISION.model_copy(update={"name": "e"}), None, refusal="no case")
-    tables = decision_tables([Answer(DECISION, outcome, cpu_s=1.0), refused])
+    refused = DecisionAnswer(DECISION.model_copy(update={"name": "e"}), None, refusal="no case")
+    tables = decision_tables([DecisionAnswer(DECISION, outcome, cpu_s=1.0), refused])
     found = check(tables.decisions, contracts.Decisions, "decisions")
     assert found["status"].tolist() == ["feasible", "refused"]
     assert found["confirmation"].tolist() == ["not asked", ""]

@@ -17,7 +17,7 @@ from nptcs.ingest import ingest_specimen
 from nptcs.ingest.account import account_for_files
 from nptcs.ingest.check_files import check_files
 from nptcs.ingest.file_names import proposed_test
-from nptcs.ingest.inspect import describe, inspect_file
+from nptcs.ingest.inspect import inspect_file, inspection_text
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.ingest.reading.raw_file import read_raw
 from nptcs.ingest.repeats import counted_once
@@ -221,7 +221,7 @@ def test_a_missing_unit_is_said(lab, profiles, tmp_path):
     [
         (("Time [s]", "Load [N]", "Zzz [%]"), "'Zzz' in %"),
         (("Time [s]", "Prüfkraft [kN]", "Quux [mm]"), "'Quux' in mm"),
-        (("Time [s]", "Load (ton)", "Strain [%]"), "'Load (ton)' in no unit"),
+        (("Time [s]", "Load (10 N)", "Strain [%]"), "'Load (10 N)' in no unit"),
     ],
 )
 def test_inspect_says_which_of_load_and_strain_it_did_not_read(
@@ -231,7 +231,7 @@ def test_inspect_says_which_of_load_and_strain_it_did_not_read(
     inspection = inspect_file(tmp_path / "a.csv", profiles)
     assert inspection.usable  # next to another file
     assert word in inspection.unread()
-    assert word in describe(inspection)
+    assert word in inspection_text(inspection)
 
 
 @pytest.mark.parametrize("names", [("Time [s]", "Load [N]"), ("Time [s]", "exx [1]", "eyy [1]")])

@@ -23,7 +23,7 @@ from nptcs.report.tables import entries
 from nptcs.report.tables.headings import UNITS, heading, words
 from nptcs.runs import all_tables, constants, decisions, ranking, stiffness
 from nptcs.runs.part import Found
-from nptcs.solvers.registry import MODULES, load
+from nptcs.solvers.registry import MODULES, load_solver
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.laboratory.files import FileStatus
 from nptcs.tables.laboratory.flags import FLAG_KINDS
@@ -80,7 +80,7 @@ def closed_texts() -> Iterator[str]:
     for entry in (value for value in vars(entries).values() if isinstance(value, entries.Entry)):
         yield from (entry.title, entry.source, entry.file)
         yield from (part for head in entry.headings.values() for part in (head.name, head.unit))
-    yield from (load(module).about for module in MODULES.values())
+    yield from (load_solver(module).about for module in MODULES.values())
     yield from map(words, RESPONSE_KINDS)
     yield from map(words, get_args(AveragingRule))
     yield from (test.value.removeprefix("rubber_").replace("_", " ") for test in TestType)

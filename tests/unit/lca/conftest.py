@@ -19,7 +19,7 @@ def tyre():
 
 @pytest.fixture
 def section(tyre):
-    return lca.RingSection.from_tyre(tyre, 5.0)
+    return lca.ShearBandSection.from_tyre(tyre, 5.0)
 
 
 @pytest.fixture
@@ -62,7 +62,7 @@ def design_of_row():
 def _design_of_row(designs, row):
     """Section and spokes of one row of a table of designs."""
     names = ("axial_stiffness_n", "shear_stiffness_n", "bending_stiffness_n_mm2")
-    section = lca.RingSection(
+    section = lca.ShearBandSection(
         *(float(designs[name][row]) for name in (*names, "radius_mm", "width_mm"))
     )
     spokes = lca.LinearSpokes(

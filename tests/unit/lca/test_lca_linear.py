@@ -156,12 +156,12 @@ def test_small_load_on_equal_spokes_is_the_fourier_series_of_a_point_load(sectio
     load=st.floats(200, 12000),
 )
 def test_scaling_laws(factor, length, load):
-    section = lca.RingSection(2.7e7, 30100, 1.05e9, 300, 215)
+    section = lca.ShearBandSection(2.7e7, 30100, 1.05e9, 300, 215)
     spokes = lca.LinearSpokes(60, 25)
     state = lca.solve(section, spokes, load_n=load)
     # all moduli and the load times a factor: the same shape
     stiffer = lca.solve(
-        lca.RingSection(2.7e7 * factor, 30100 * factor, 1.05e9 * factor, 300, 215),
+        lca.ShearBandSection(2.7e7 * factor, 30100 * factor, 1.05e9 * factor, 300, 215),
         lca.LinearSpokes(60 * factor, 25 * factor),
         load_n=load * factor,
     )
@@ -170,7 +170,9 @@ def test_scaling_laws(factor, length, load):
     # all lengths times a factor at the same moduli: forces grow with its square
     area = length**2
     larger = lca.solve(
-        lca.RingSection(2.7e7 * area, 30100 * area, 1.05e9 * area**2, 300 * length, 215 * length),
+        lca.ShearBandSection(
+            2.7e7 * area, 30100 * area, 1.05e9 * area**2, 300 * length, 215 * length
+        ),
         lca.LinearSpokes(60 * length, 25 * length),
         load_n=load * area,
     )

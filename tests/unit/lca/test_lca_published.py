@@ -61,7 +61,7 @@ def test_model_is_softer_than_all_fifteen_finite_element_results(published, tyre
 
 
 def test_printed_section_constants_are_those_of_the_paper(tyre):
-    section = lca.RingSection.from_tyre(tyre, 5.0, "printed")
+    section = lca.ShearBandSection.from_tyre(tyre, 5.0, "printed")
     area = section.shear_stiffness_n / 10
     inertia = section.bending_stiffness_n_mm2 / (section.axial_stiffness_n / area)
     assert area == pytest.approx(2687.5)
@@ -69,7 +69,7 @@ def test_printed_section_constants_are_those_of_the_paper(tyre):
 
 
 def test_sandwich_section_constants(tyre):
-    section = lca.RingSection.from_tyre(tyre, 5.0)
+    section = lca.ShearBandSection.from_tyre(tyre, 5.0)
     assert section.axial_stiffness_n == pytest.approx(2.711e7, rel=1e-4)
     assert section.shear_stiffness_n == 30100
     assert section.bending_stiffness_n_mm2 == pytest.approx(1.0554e9, rel=1e-4)

@@ -12,7 +12,7 @@ from pathlib import Path
 import pytest
 
 from nptcs.processes import runs, scratch
-from nptcs.processes.identity import RUN, ProcessName, lives, name_of, read_name, wait_for_end
+from nptcs.processes.identity import RUN, ProcessName, lives, process_name, read_name, wait_for_end
 from nptcs.processes.marked import MARK, end_marked
 from nptcs.processes.stops import command_again
 
@@ -29,7 +29,7 @@ def sleeper():
 
 
 def ended(sleeper):
-    name = name_of(sleeper.pid)
+    name = process_name(sleeper.pid)
     sleeper.kill()
     sleeper.wait()
     return name
@@ -52,18 +52,18 @@ def gone(condition, seconds=10.0):
 
 
 def test_a_process_is_known_as_long_as_it_lives(sleeper):
-    name = name_of(sleeper.pid)
+    name = process_name(sleeper.pid)
     assert lives(name) is True
     assert read_name(name.text()) == name
     assert lives(dataclasses.replace(name, started="0 ticks")) is False  # the number, used again
     assert lives(ended(sleeper)) is False
     wait_for_end(name)
     with pytest.raises(ProcessLookupError):
-        name_of(sleeper.pid)
+        process_name(sleeper.pid)
 
 
 def test_what_this_machine_cannot_know_is_not_guessed():
-    name = name_of()
+    name = process_name()
     assert lives(dataclasses.replace(name, host="another")) is None
     assert lives(dataclasses.replace(name, space="pid:[1]")) is None
     assert lives(dataclasses.replace(name, boot="before the last start")) is False
@@ -100,17 +100,17 @@ def test_the_lock_of_a_dead_run_is_lifted(locked, sleeper, capsys):
     assert locks(locked) == 0
     assert "none of its processes is alive" in capsys.readouterr().err
     noted = (locked / "runs" / f"{os.getpid()}.json").read_text()
-    assert read_name(noted.splitlines()[0]) == name_of()
+    assert read_name(noted.splitlines()[0]) == process_name()
 
 
 def test_an_earlier_run_with_our_number_is_dead(locked):
-    note(locked, dataclasses.replace(name_of(), started="0 ticks"))
+    note(locked, dataclasses.replace(process_name(), started="0 ticks"))
     assert runs.begin_run(locked) is True
     assert locks(locked) == 0
 
 
 def test_the_lock_of_a_run_that_lives_stays(locked, sleeper):
-    note(locked, name_of(sleeper.pid))
+    note(locked, process_name(sleeper.pid))
     assert runs.begin_run(locked) is False
     assert locks(locked) == 2
 
@@ -172,7 +172,7 @@ time.sleep(600)
 def test_nothing_is_left_of_a_process_that_was_killed(tmp_path):
     process = python(SCRATCH, TMPDIR=str(tmp_path))
     folder, child = process.stdout.readline().decode().split()
-    command = name_of(int(child))
+    command = process_name(int(child))
     assert json.loads((Path(folder) / scratch.OWNER).read_text())["pid"] == process.pid
     assert scratch.sweep(tmp_path) == []  # its owner lives
     process.kill()
@@ -197,10 +197,10 @@ def test_a_long_temporary_folder_leaves_sockets_a_short_name(tmp_path):
 
 
 def test_a_process_ends_with_its_run_and_so_does_its_command(tmp_path, sleeper):
-    run = name_of(sleeper.pid).text()
+    run = process_name(sleeper.pid).text()
     process = python(SCRATCH, TMPDIR=str(tmp_path), **{RUN: run})
     _, child = process.stdout.readline().decode().split()
-    command = name_of(int(child))
+    command = process_name(int(child))
     sleeper.kill()
     sleeper.wait()
     process.communicate(timeout=20)
@@ -243,7 +243,7 @@ with clear_errors(sys.argv[1] if len(sys.argv) > 1 else {log!r}), atomic_path({t
 
 def test_a_script_ends_with_its_run_and_leaves_no_half_file(tmp_path, sleeper):
     code = SCRIPT.format(log=str(tmp_path / "a.log"), table=str(tmp_path / "results/a.csv"))
-    process = python(code, **{RUN: name_of(sleeper.pid).text()})
+    process = python(code, **{RUN: process_name(sleeper.pid).text()})
     assert process.stdout.readline() == b"ready\n"
     sleeper.kill()
     sleeper.wait()

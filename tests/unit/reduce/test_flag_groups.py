@@ -6,7 +6,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from nptcs.config.materials.reduction import ReductionSettings
-from nptcs.reduce.groups.flag_groups import NUMBER, group_flags, kind_of, with_ranges
+from nptcs.reduce.groups.flag_groups import NUMBER, flag_kind, group_flags, with_ranges
 from nptcs.tables.io import check
 from nptcs.tables.laboratory.flags import FlagsTable
 
@@ -68,7 +68,7 @@ def test_specimens_without_flags_give_no_rows():
     ],
 )
 def test_kinds(flag, kind):
-    assert kind_of(flag, "ASTM D3039") == kind
+    assert flag_kind(flag, "ASTM D3039") == kind
 
 
 def test_names_with_digits_are_no_numbers():

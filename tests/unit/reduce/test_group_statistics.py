@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from nptcs.config.materials.reduction import ReductionSettings, StatisticsSettings
 from nptcs.errors import InputError
-from nptcs.reduce.groups.sample import b_basis_factor, describe, mnr_critical
+from nptcs.reduce.groups.sample import b_basis_factor, describe_sample, mnr_critical
 from nptcs.reduce.groups.statistics import group_statistics
 from nptcs.tables.laboratory.properties import PropertiesTable
 
@@ -266,7 +266,7 @@ def test_confidence_interval_holds_the_truth_in_95_of_100_and_b_basis_in_95_of_1
     settings = StatisticsSettings()
     names = [str(i) for i in range(6)]
     for _ in range(repetitions):
-        numbers, _ = describe(rng.normal(truth, scatter, 6), names, settings)
+        numbers, _ = describe_sample(rng.normal(truth, scatter, 6), names, settings)
         inside += numbers["ci95_low"] <= truth <= numbers["ci95_high"]
         below += numbers["b_basis"] <= tenth
     # three standard deviations of a binomial share at p = 0.95
@@ -290,8 +290,8 @@ def test_mnr_flags_5_of_100_clean_samples() -> None:
 )
 def test_units_do_not_change_the_statistics(values: list[float], factor: float) -> None:
     names = [str(i) for i in range(len(values))]
-    one, _ = describe(np.array(values), names, StatisticsSettings())
-    other, _ = describe(factor * np.array(values), names, StatisticsSettings())
+    one, _ = describe_sample(np.array(values), names, StatisticsSettings())
+    other, _ = describe_sample(factor * np.array(values), names, StatisticsSettings())
     for key in ("mean", "standard_deviation", "ci95_low", "b_basis", "median"):
         scale = factor * max(values)
         assert other[key] == pytest.approx(factor * one[key], abs=1e-9 * scale, nan_ok=True)

@@ -30,7 +30,7 @@ from nptcs.compare.spoke_stiffness import spoke_curves, spoke_lines
 from nptcs.compare.stiffness_exponents import stiffness_exponents
 from nptcs.config.root import read_config
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.report.data import Results, SolverFacts
+from nptcs.report.data import Results, SolverDescription
 from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.io import check, empty_table, read_table
@@ -44,7 +44,7 @@ from nptcs.tables.published.stiffness import (
     StiffnessExponents,
 )
 from nptcs.tables.result_table import PER_STUDY
-from nptcs.tables.tyres.cases import Cases, Design
+from nptcs.tables.tyres.cases import Cases, DesignTable
 from nptcs.tables.tyres.neutral_line import NeutralLine
 from nptcs.tables.tyres.spoke_stiffness import SpokeCurves, SpokeLines
 
@@ -86,7 +86,9 @@ def results(config):
     return Results(
         config=config,
         sheet=sheet,
-        solvers={"published": SolverFacts("the published finite element results", False, True)},
+        solvers={
+            "published": SolverDescription("the published finite element results", False, True)
+        },
         software={"nptcs": "0.1.0", "Python": "3.11"},
         inputs={"raw_data/published/table5_plate_doe.csv": "a" * 64},
         card=card(),
@@ -97,7 +99,7 @@ def results(config):
                 table[["case_id"]]
                 .assign(case=range(1, len(table) + 1))
                 .join(table[[f.name for f in config.study(name).factors]]),
-                Design,
+                DesignTable,
                 name,
             )
             for name, table in cases.items()
@@ -193,11 +195,13 @@ def compared(results):
         config=config,
         solvers={
             **results.solvers,
-            "lca": SolverFacts("the ring", False, True),
-            "fe_tyre_paper": SolverFacts("the tyre", True, True, [{"plate_coupling": "embedded"}]),
-            "fe_spoke": SolverFacts("one spoke", True, False),
+            "lca": SolverDescription("the ring", False, True),
+            "fe_tyre_paper": SolverDescription(
+                "the tyre", True, True, [{"plate_coupling": "embedded"}]
+            ),
+            "fe_spoke": SolverDescription("one spoke", True, False),
         },
-        designs={**results.designs, "spoke": check(spokes, Design, "spoke")},
+        designs={**results.designs, "spoke": check(spokes, DesignTable, "spoke")},
         surfaces={
             name: {**by_solver, "fe_tyre_paper": parts[name][0]}
             for name, by_solver in results.surfaces.items()

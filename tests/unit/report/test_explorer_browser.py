@@ -17,15 +17,15 @@ from nptcs.config.studies.surface import (
     LaminationModel,
     PolynomialModel,
     SpokeProcessModel,
-    name_of,
+    surface_name,
 )
 from nptcs.doe.split_plot import split_plot
 from nptcs.lca.spokes.stiffness_table import SpokeStiffnessTable
-from nptcs.report.data import LcaRing, SolverFacts
+from nptcs.report.data import LcaRing, SolverDescription
 from nptcs.report.explorer.markup import asset, explorer_markup
 from nptcs.report.explorer.models import plain_surface
 from nptcs.report.explorer.payload import explorer_payload
-from nptcs.surface.kinds.models import FitCases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -64,9 +64,14 @@ def fitted(study, cases):
             if response.unit == "N/mm" or not isinstance(model, LaminationModel):
                 if getattr(model, "mean", None) is LAMINATION and response.unit != "N/mm":
                     continue
-                surface = fit_model(model, FitCases(x, y, names, study.terms, PUBLISHED_PLY))
+                surface = fit_surface(model, FitCases(x, y, names, study.terms, PUBLISHED_PLY))
                 yield FittedSurface(
-                    study.name, "published", name_of(model), response, surface, left_out_rms=1.0
+                    study.name,
+                    "published",
+                    surface_name(model),
+                    response,
+                    surface,
+                    left_out_rms=1.0,
                 )
 
 
@@ -82,7 +87,7 @@ def explored(results):
     return replace(
         results,
         models=models,
-        solvers={"published": SolverFacts("published", False, True, whole_plates=True)},
+        solvers={"published": SolverDescription("published", False, True, whole_plates=True)},
         lca_ring=LcaRing("sandwich", "table10.csv", spokes),
     )
 
@@ -133,7 +138,7 @@ def spoke_surface():
     y = 200 * x[:, 3] ** 0.4 * x[:, 4] ** 0.5 * (1 + 0.1 * np.log1p(plates)) / x[:, 0] ** 0.2
     names = ("spacing_mm", "thickness_mm", "angle_deg", "shear_band_c10_mpa", "spoke_c10_mpa")
     model = SpokeProcessModel(kind="spoke_process", degree=3)
-    return fit_model(model, FitCases(x, y, names, (), PUBLISHED_PLY))
+    return fit_surface(model, FitCases(x, y, names, (), PUBLISHED_PLY))
 
 
 def difference(tab, surface):
@@ -192,7 +197,7 @@ def test_the_ring_is_that_of_the_load_bearing_model(payload, tab, functions):
     )
     degrees = np.arange(-180.0, 181.0, 7.5)
     for band, spoke, load in [(5.0, 1.0, 5000.0), (4.2, 3.3, 9000.0), (6.0, 4.9, 700.0)]:
-        ring = lca.RingSection.from_tyre(tyre, band)
+        ring = lca.ShearBandSection.from_tyre(tyre, band)
         state = lca.solve(ring, table.spokes(spoke, tyre.spoke_count), load_n=load)
         found = tab.value(
             f"(() => {{ const w = wheelOf({json.dumps(payload['ring'])}, {band}, {spoke});"

@@ -9,7 +9,7 @@ from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
 from nptcs.report.figures.lca import deformed_ring, load_displacement
 from nptcs.report.figures.materials import hyperelastic_fit
-from nptcs.report.figures.specimens import DRAWN_POINTS, stress_strain, thinned
+from nptcs.report.figures.specimens import DRAWN_POINTS, evenly_spaced, stress_strain
 from nptcs.report.figures.style import to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
 from nptcs.tables.analysis.impact import Impact
@@ -56,7 +56,7 @@ def test_only_synthetic_curves_are_marked(results):
 def test_thinning_keeps_the_ends_and_the_peak():
     strain = np.linspace(0, 1, 5001)
     stress = np.where(np.arange(5001) == 3333, 9.0, strain)
-    curve = thinned(pd.DataFrame({"strain_axial": strain, "stress_mpa": stress}))
+    curve = evenly_spaced(pd.DataFrame({"strain_axial": strain, "stress_mpa": stress}))
     assert len(curve) <= DRAWN_POINTS + 1
     assert curve["stress_mpa"].max() == 9.0
     assert (curve["strain_axial"].iloc[0], curve["strain_axial"].iloc[-1]) == (0, 1)

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from nptcs.archive.contents import inputs_of
+from nptcs.archive.contents import study_inputs
 from nptcs.config.laboratory import Laboratory
 from nptcs.config.root import read_config
 from nptcs.errors import InputError
@@ -137,7 +137,7 @@ def test_logo_and_templates_are_inputs_that_are_checked_and_archived(tmp_path):
     changed = read_config(values)
     named = {tmp_path / "logo.svg", tmp_path / "mine/cover.html.j2"}
     assert {Path(name) for name in changed.page_inputs()} == named
-    assert named <= set(inputs_of(ROOT, changed))
+    assert named <= set(study_inputs(ROOT, changed))
     (fault,) = page_faults(changed)
     assert (fault.file, fault.line) == (tmp_path / "mine/cover.html.j2", 1)
     (tmp_path / "logo.svg").unlink()

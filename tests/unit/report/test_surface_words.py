@@ -10,7 +10,7 @@ from nptcs.config.studies.surface import (
     LaminationModel,
     PolynomialModel,
     SpokeProcessModel,
-    name_of,
+    surface_name,
 )
 from nptcs.language import language
 from nptcs.report.words.surfaces import surface_words
@@ -26,9 +26,12 @@ POLYNOMIALS = [
 ]
 MEANS = [*POLYNOMIALS, *(LaminationModel(kind="lamination", coefficients=n) for n in (6, 7, 8))]
 NAMES = [
-    *map(name_of, MEANS),
-    *(name_of(GaussianProcessModel(kind="gaussian_process", mean=mean)) for mean in (None, *MEANS)),
-    name_of(SpokeProcessModel(kind="spoke_process")),
+    *map(surface_name, MEANS),
+    *(
+        surface_name(GaussianProcessModel(kind="gaussian_process", mean=mean))
+        for mean in (None, *MEANS)
+    ),
+    surface_name(SpokeProcessModel(kind="spoke_process")),
 ]
 KEPT = re.compile("AICc|PRESS")
 

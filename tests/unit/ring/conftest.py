@@ -7,7 +7,7 @@ import pytest
 from scipy.stats import qmc
 
 from nptcs.config.solvers.fe import EnergyTableOptions
-from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit
+from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit_energy
 
 HEIGHT_MM = 84.1
 OPTIONS = EnergyTableOptions(samples=(7, 3, 3), degrees=(8, 4))
@@ -38,7 +38,7 @@ def invented_table(scale=1.0, lean=6.0):
         scale * np.stack(force, axis=1),
         scale * np.moveaxis(np.array(tangent), 2, 0),
     )
-    return fit(samples, OPTIONS, HEIGHT_MM)
+    return fit_energy(samples, OPTIONS, HEIGHT_MM)
 
 
 @pytest.fixture(scope="session")

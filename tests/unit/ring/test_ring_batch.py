@@ -10,7 +10,7 @@ from nptcs.config.solvers.ring import RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.ring.batch import NUMBERS, NamedTables, solve_table
-from nptcs.ring.solution import load
+from nptcs.ring.solution import press_through_loads
 from nptcs.ring.surrogate.model import SpokeSurrogate
 from nptcs.ring.surrogate.source import PredictedSpokes, with_table
 from nptcs.ring.tyre import ring_tyre
@@ -34,7 +34,9 @@ def row(**change):
 
 def test_a_row_is_the_single_tyre(table, named):
     found = solved([row(note="kept")], named).iloc[0]
-    single = load(ring_tyre(TYRE, table, 5.0, OPTIONS, kernel="numpy"), [500, 1000, 1500, 2000])
+    single = press_through_loads(
+        ring_tyre(TYRE, table, 5.0, OPTIONS, kernel="numpy"), [500, 1000, 1500, 2000]
+    )
     assert found["displacement_mm"] == pytest.approx(single[-1].rise_mm, rel=1e-9)
     assert found["vertical_stiffness_n_per_mm"] == pytest.approx(2000 / single[-1].rise_mm)
     assert found["displacement_standard_error_mm"] == 0.0
@@ -104,7 +106,7 @@ def test_a_left_out_spoke_is_predicted(surrogate, table, law):
     design = [16.0, 1.7, 40.0, 2.2]
     predicted, true = surrogate.predict(design).table, law(design, table)
     tyres = [ring_tyre(TYRE, spoke, 5.0, OPTIONS, kernel="numpy") for spoke in (predicted, true)]
-    rises = [load(tyre, [1000.0, 2000.0])[-1].rise_mm for tyre in tyres]
+    rises = [press_through_loads(tyre, [1000.0, 2000.0])[-1].rise_mm for tyre in tyres]
     assert rises[0] == pytest.approx(rises[1], rel=0.003)
 
 
@@ -145,7 +147,7 @@ def test_its_uncertainty_reaches_the_displacement(surrogate):
     changes = []
     for mode in predicted.modes:
         ends = [
-            load(
+            press_through_loads(
                 with_table(
                     tyre,
                     replace(

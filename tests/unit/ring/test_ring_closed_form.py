@@ -5,7 +5,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.tyre import ring_tyre
@@ -14,12 +14,13 @@ AXIAL, BENDING, SHEAR = 3.0e6, 4.0e8, 2.0e5
 
 
 def test_pinched_ring(table):
-    options = RingOptions(mesh=RingMesh(elements_per_pitch=4, refinement=1))
+    options = RingOptions(mesh=RingElements(elements_per_pitch=4, refinement=1))
     ring = ring_tyre(TyreGeometry(), table, 5.0, options, kernel="numpy").ring
     # axial force, bending moment and shear as a Timoshenko ring; the faces and the tread carry
     # nothing and turn with the line
     stiffness = np.diag([AXIAL, BENDING, 1e2, 1e2, 1e9, SHEAR, 1e2])
-    ring = replace(ring, stiffness=stiffness, hardening=np.zeros((4, 4, 4)), feet=ring.feet[:0])
+    ring = replace(ring, stiffness=stiffness, hardening=np.zeros((4, 4, 4)))
+    ring = replace(ring, core=np.zeros(6), feet=ring.feet[:0])
     count = len(ring.theta)
     rest = np.zeros((count, 5))
     system = numpy_kernel.assemble(ring, rest, -50.0, np.zeros(count))

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from nptcs.config.solvers.fe import GroundContact
-from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.kernel import elementwise, numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
@@ -12,7 +12,7 @@ from nptcs.ring.kernel.cyclic_elimination import eliminate
 from nptcs.ring.tyre import ring_tyre
 
 COARSE = RingOptions(
-    mesh=RingMesh(elements_per_pitch=1, refined_deg=7, refinement=2),
+    mesh=RingElements(elements_per_pitch=1, refined_deg=7, refinement=2),
     contact=GroundContact(penalty_mpa_per_mm=50.0, smoothing_mm=0.1),
 )
 RISE = 4.0
@@ -105,7 +105,9 @@ def test_the_core_shears_with_the_wires_axes_not_their_sections(tyre):
     own = tyre.ring.stiffness
     length, slope, zero = 5.0, 1e-3, np.zeros(5)
     turned = np.array([0.0, slope, 0.0, 0.0, 0.0])
-    energy = elementwise.band_energy(own, tyre.ring.hardening, 0.0, length, zero, turned)
+    energy = elementwise.band_energy(
+        own, tyre.ring.hardening, tyre.ring.core, 0.0, length, zero, turned
+    )
     assert energy == pytest.approx(0.5 * length * (own[4, 4] + own[5, 5]) * slope**2, rel=1e-6)
 
 

@@ -4,13 +4,13 @@ import numpy as np
 import pytest
 
 from nptcs.config.solvers.fe import FeModel, GroundContact, TyreMesh
-from nptcs.config.solvers.ring import RingMesh, RingOptions
+from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.tyre.equilibrium import TyreModel
 from nptcs.ring.gradient import stiffness_gradient
 from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.responses import contact_cells
-from nptcs.ring.solution import SpokeRangeError, load, tangent_stiffness
+from nptcs.ring.solution import SpokeRangeError, press_through_loads, tangent_stiffness
 from nptcs.ring.tyre import ring_tyre
 
 TYRE = TyreGeometry()
@@ -25,7 +25,7 @@ def built(table, c10=5.0, kernel="numpy", tyre=TYRE, **options):
 @pytest.fixture(scope="module")
 def loaded(table):
     tyre = built(table)
-    return tyre, load(tyre, LOADS)
+    return tyre, press_through_loads(tyre, LOADS)
 
 
 def test_spokes_carry_the_load(table, loaded):
@@ -50,7 +50,7 @@ def test_the_ground_carries_the_load(loaded):
 
 def test_a_mirrored_tyre_stays_mirrored(even_table):
     tyre = built(even_table)
-    outward, along = tyre.neutral_line(load(tyre, LOADS)[-1].u)
+    outward, along = tyre.neutral_line(press_through_loads(tyre, LOADS)[-1].u)
     mirrored = np.argsort(np.mod(-tyre.nodes.theta + 1e-9, 2 * np.pi))
     order = np.argsort(np.mod(tyre.nodes.theta + 1e-9, 2 * np.pi))
     np.testing.assert_allclose(outward[order], outward[mirrored], atol=1e-7)
@@ -64,15 +64,17 @@ def test_the_leaning_spoke_turns_the_ring(loaded):
 
 
 def test_refinement_changes_little(table, loaded):
-    fine = built(table, mesh=RingMesh(elements_per_pitch=6, refined_deg=20))
-    rises = [load(tyre, LOADS)[-1].rise_mm for tyre in (built(table), fine)]
+    fine = built(table, mesh=RingElements(elements_per_pitch=6, refined_deg=20))
+    rises = [press_through_loads(tyre, LOADS)[-1].rise_mm for tyre in (built(table), fine)]
     assert rises[0] == pytest.approx(rises[1], rel=0.003)
 
 
 def test_half_a_pitch_on(table):
     """Which spoke meets the ground matters by less than a tenth."""
     one, other = (
-        load(built(table, mesh=RingMesh(first_spoke_deg=angle)), LOADS)[-1].rise_mm
+        press_through_loads(built(table, mesh=RingElements(first_spoke_deg=angle)), LOADS)[
+            -1
+        ].rise_mm
         for angle in (0.0, 3.0)
     )
     assert one == pytest.approx(other, rel=0.1)
@@ -80,7 +82,7 @@ def test_half_a_pitch_on(table):
 
 def test_tangent_stiffness_is_the_slope_of_the_curve(table):
     tyre = built(table, contact=GroundContact(friction=0.0))
-    below, here, above = load(tyre, [1590.0, 1600.0, 1610.0])[-3:]
+    below, here, above = press_through_loads(tyre, [1590.0, 1600.0, 1610.0])[-3:]
     slope = 20.0 / (above.rise_mm - below.rise_mm)
     assert tangent_stiffness(tyre, here) == pytest.approx(slope, rel=2e-3)
 
@@ -90,7 +92,7 @@ def test_work_is_stored_without_friction(table):
     stiff = GroundContact(friction=0.0, penalty_mpa_per_mm=500.0, smoothing_mm=0.002)
     tyre = built(table, contact=stiff, axial="plane_strain")
     loads = np.linspace(0.0, 2400.0, 49)[1:]
-    states = load(tyre, loads.tolist())
+    states = press_through_loads(tyre, loads.tolist())
     rise = [0.0, *(state.rise_mm for state in states)]
     force = [0.0, *(state.force_n for state in states)]
     work = np.trapezoid(force, rise)
@@ -100,7 +102,7 @@ def test_work_is_stored_without_friction(table):
 @pytest.mark.parametrize("axial", ["free_edges", "plane_strain"])
 def test_it_equals_the_finite_elements(table, axial):
     tyre = built(table, contact=SOFT_GROUND, axial=axial)
-    states = load(tyre, LOADS)
+    states = press_through_loads(tyre, LOADS)
     fe = FeModel(
         axial=axial, contact=SOFT_GROUND, tyre_mesh=TyreMesh(foot_elements=1, gap_elements=2)
     )
@@ -125,21 +127,21 @@ def test_it_equals_the_finite_elements(table, axial):
 
 def test_the_parts_of_the_tread_in_contact_carry_the_load(table):
     tyre = built(table)
-    cells = contact_cells(tyre, load(tyre, [1500.0, 3000.0])[-1])
+    cells = contact_cells(tyre, press_through_loads(tyre, [1500.0, 3000.0])[-1])
     carried = np.sum(cells.pressure_mpa * cells.length_mm) * TYRE.tread_width_mm
     assert carried == pytest.approx(3000.0, rel=1e-6)
 
 
 def test_a_spoke_that_leaves_its_table_ends_the_path(table):
     with pytest.raises(SpokeRangeError, match="outside the table's range") as caught:
-        load(built(table), [2000.0, 90000.0])
+        press_through_loads(built(table), [2000.0, 90000.0])
     assert caught.value.states[-1].force_n > 2000.0
 
 
 @pytest.mark.parametrize("loads", [[], [100.0, 50.0], [0.0], [float("nan")]])
 def test_loads_that_do_not_rise_are_refused(table, loads):
     with pytest.raises(ValueError, match="rise"):
-        load(built(table), loads)
+        press_through_loads(built(table), loads)
 
 
 def test_spokes_that_do_not_fit_the_tyre_are_refused(table):
@@ -149,7 +151,7 @@ def test_spokes_that_do_not_fit_the_tyre_are_refused(table):
 
 @pytest.mark.skipif(not HAS_NUMBA, reason="needs numba")
 def test_the_compiled_kernel_gives_the_same_curve(table, loaded):
-    compiled = load(built(table, kernel="numba"), LOADS)
+    compiled = press_through_loads(built(table, kernel="numba"), LOADS)
     for one, other in zip(loaded[1], compiled, strict=True):
         assert one.rise_mm == pytest.approx(other.rise_mm, rel=1e-8)
 
@@ -171,6 +173,6 @@ def test_the_adjoint_is_the_derivative_of_the_whole_path(table):
         for sign in (1, -1):
             moved = start.copy()
             moved[place] += sign * step
-            ends.append(LOADS[-1] / load(build(moved), LOADS)[-1].rise_mm)
+            ends.append(LOADS[-1] / press_through_loads(build(moved), LOADS)[-1].rise_mm)
         slope = (ends[0] - ends[1]) / (2 * step)
         assert found.stiffness_slope[place] == pytest.approx(slope, rel=1e-3)

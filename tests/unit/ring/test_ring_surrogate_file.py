@@ -8,7 +8,7 @@ import pandas as pd
 import pytest
 
 from nptcs.cli import main
-from nptcs.config.solvers.ring import RingMesh, RingModel
+from nptcs.config.solvers.ring import RingElements, RingModel
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.ring.surrogate.common_range import on_common_range
@@ -17,7 +17,7 @@ from nptcs.ring.surrogate.model import DESIGN, SpokeSurrogate
 from nptcs.ring.surrogate.stored import StoredSurrogate, dump_surrogate, read_surrogate
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
-MODEL = RingModel(mesh=RingMesh(elements_per_pitch=1))
+MODEL = RingModel(mesh=RingElements(elements_per_pitch=1))
 BETWEEN = [16.0, 1.7, 40.0, 2.2]
 MOTIONS = np.array([[-8.0, 2.0, 0.03], [3.0, -4.0, -0.02], [-20.0, 0.0, 0.05]])
 

@@ -14,7 +14,7 @@ from nptcs.runs.content import inputs_of_run, tables_of_run
 from nptcs.runs.identity import identify
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.io import empty_table, write_table
-from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import CardConstant, MaterialCard, PlyCard, RubberCard
 from nptcs.tables.result_table import PER_STUDY
 
 ROOT = Path(__file__).parents[3]
@@ -44,10 +44,10 @@ def configuration(**changes):
 def card(c10, error=ERROR, unit="MPa"):
     def quantity(name, value):
         specimens = tuple(f"{name}-{number}" for number in (1, 2, 3))
-        return Quantity(value=value, unit=unit, standard_error=error, origin="measured",
+        return CardConstant(value=value, unit=unit, standard_error=error, origin="measured",
                         rule="least squares", specimens=specimens)  # fmt: skip
 
-    assumed = Quantity(value=2300.0, unit="MPa", origin="assumed", rule="assumed value")
+    assumed = CardConstant(value=2300.0, unit="MPa", origin="assumed", rule="assumed value")
     plies = [PlyCard(name="cfrp", synthetic=False, constants={"g23_mpa": assumed})]
     rubbers = [
         RubberCard(name=name, synthetic=True, constants={"c10_mpa": quantity(name, value)},

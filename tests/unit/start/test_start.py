@@ -5,7 +5,7 @@ import json
 
 import pytest
 
-from nptcs.start.facts import Facts, SolverFacts, known_facts
+from nptcs.start.facts import RuleFacts, SolverFacts, known_facts
 
 SOLVER = SolverFacts(
     module="nptcs.solvers.lca", about="a model", needs_ply=False, loads_tyre=True,
@@ -21,7 +21,7 @@ class Finder:
 
     def __call__(self):
         self.times += 1
-        return Facts(
+        return RuleFacts(
             solvers={"s": {"lca": SOLVER}}, modules={}, plies=("cfrp",), rubbers=(), ply={},
             profiles={}, tables=("cases.csv",), files=dict(self.files),
         )  # fmt: skip

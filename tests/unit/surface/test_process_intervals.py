@@ -12,7 +12,7 @@ from nptcs.surface.diagnostics.comparison import leave_one_level_out, leave_one_
 from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process, kernel_of
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
 from nptcs.surface.kinds.matern import MaternLikelihood
-from nptcs.surface.kinds.models import FitCases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 UNIT = Path(__file__).parents[1]
@@ -31,7 +31,7 @@ def our_cases():
 @pytest.fixture(scope="module")
 def plates():
     mean = LaminationModel(kind="lamination", coefficients=7)
-    return fit_model(GaussianProcessModel(kind="gaussian_process", mean=mean), our_cases())
+    return fit_surface(GaussianProcessModel(kind="gaussian_process", mean=mean), our_cases())
 
 
 def drawn(length_along, seed, points):
@@ -69,7 +69,7 @@ def test_between_levels_the_interval_holds_what_it_promises():
         y = drawn(0.6, seed, together)
         cases = FitCases(LEVELS, y[: len(LEVELS)], ("a", "b"), ("1", "a", "b", "a^2"))
         mean = PolynomialModel(kind="polynomial")
-        surface = fit_model(GaussianProcessModel(kind="gaussian_process", mean=mean), cases)
+        surface = fit_surface(GaussianProcessModel(kind="gaussian_process", mean=mean), cases)
         low, high = surface.interval(between)
         truth = y[len(LEVELS) :]
         inside.append(np.mean((low <= truth) & (truth <= high)))
@@ -81,7 +81,7 @@ def test_far_from_all_cases_the_interval_has_the_error_of_the_means_coefficients
     rng = np.random.default_rng(2)
     x = np.linspace(0.0, 1.0, 5)[:, None]
     y = 1 + 2 * x[:, 0] + rng.normal(0, 0.1, 5)
-    line = fit_model(PolynomialModel(kind="polynomial"), FitCases(x, y, ("x",), ("1", "x")))
+    line = fit_surface(PolynomialModel(kind="polynomial"), FitCases(x, y, ("x",), ("1", "x")))
     theta = np.log([1.0, 0.05])
     surface = GaussianProcess(("x",), x, y, line, theta, np.zeros((1, 2)))
     between = x[:-1] + np.diff(x, axis=0) / 2
@@ -109,7 +109,7 @@ def test_two_spacings_do_not_tell_how_spacing_acts(plates):
     kept = plates.x[:, 0] != np.unique(plates.x[:, 0])[1]
     cases = FitCases(plates.x[kept], plates.y[kept], PLATES, (), PUBLISHED_PLY)
     with pytest.raises(InputError, match="do not determine the 7 coeff.*2 of spacing_mm"):
-        fit_model(LaminationModel(kind="lamination", coefficients=7), cases)
+        fit_surface(LaminationModel(kind="lamination", coefficients=7), cases)
     for surface in (plates, plates.mean):
         level = leave_one_level_out(surface, 0)
         assert np.isnan(level.largest)
@@ -122,5 +122,5 @@ def test_the_interval_holds_for_the_fifteen_cases_of_table_7():
     terms = pd.read_csv(PUBLISHED / "table8_rubber_coefficients.csv", dtype={"term": str})["term"]
     x, y = table[list(RUBBERS)].to_numpy(float), table["stiffness_n_per_mm"].to_numpy(float)
     model = GaussianProcessModel(kind="gaussian_process", mean=PolynomialModel(kind="polynomial"))
-    surface = fit_model(model, FitCases(x, y, RUBBERS, list(terms)))
+    surface = fit_surface(model, FitCases(x, y, RUBBERS, list(terms)))
     assert leave_one_out(surface).coverage_percent >= 90

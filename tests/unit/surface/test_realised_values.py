@@ -13,7 +13,7 @@ from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.study import Study
 from nptcs.solvers import fe_tyre, published
 from nptcs.solvers.contract import SolverResult, Status
-from nptcs.solvers.registry import MODULES, load
+from nptcs.solvers.registry import MODULES, load_solver
 from nptcs.surface.cases import changed_factors, solved_cases
 from nptcs.surface.sensitivity.impact_table import impact_table
 from nptcs.surface.study import fit_study
@@ -147,7 +147,7 @@ def test_the_campaign_records_what_a_solver_realises_of_each_solved_case(tmp_pat
 
 @pytest.mark.parametrize("solver", ["fe_tyre", "fe_tyre_paper", "ring", "fe_spoke", "calculix"])
 def test_every_solver_on_our_spokes_says_its_pitch(solver):
-    realise = load(MODULES[solver]).realise
+    realise = load_solver(MODULES[solver]).realise
     for spacing, plates in ((10.0, 22), (14.05, 15), (15.0, 15), (20.0, 11)):
         realised = realise({"spacing_mm": spacing}, TyreGeometry())
         assert realised == {"spacing_mm": pytest.approx(215 / plates)}

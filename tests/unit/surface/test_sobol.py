@@ -9,7 +9,7 @@ import pytest
 from nptcs.config.studies.sensitivity import NormalFactor, Sensitivity, Sobol, UniformFactor
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
-from nptcs.surface.sensitivity.sobol import inputs_of, main_effect, sobol_indices
+from nptcs.surface.sensitivity.sobol import factor_distribution, main_effect, sobol_indices
 from nptcs.surface.sensitivity.sobol_tables import variance_shares
 from nptcs.surface.sensitivity.ties import near_ties
 from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
@@ -23,7 +23,7 @@ def ishigami(x):
 
 
 def uniform(names, low, high):
-    return {name: inputs_of(name, low, high, None) for name in names}
+    return {name: factor_distribution(name, low, high, None) for name in names}
 
 
 def test_ishigami():
@@ -44,8 +44,8 @@ def test_ishigami():
 def test_normal_factors_share_the_variance_by_the_square_of_their_spread():
     # a linear response of independent normals: S_i = (c_i s_i)² / Σ
     inputs = {
-        "a": inputs_of("a", -40, 40, NormalFactor(kind="normal", mean=0, sd=1)),
-        "b": inputs_of("b", -40, 40, NormalFactor(kind="normal", mean=5, sd=2)),
+        "a": factor_distribution("a", -40, 40, NormalFactor(kind="normal", mean=0, sd=1)),
+        "b": factor_distribution("b", -40, 40, NormalFactor(kind="normal", mean=5, sd=2)),
     }
     found = sobol_indices(lambda x: 3 * x[:, 0] + x[:, 1], inputs, Sobol(points=4096))
     np.testing.assert_allclose(found.total, [9 / 13, 4 / 13], atol=0.02)
@@ -53,13 +53,13 @@ def test_normal_factors_share_the_variance_by_the_square_of_their_spread():
 
 
 def test_distributions_are_cut_to_the_cases_and_say_so():
-    half = inputs_of("a", 0, 10, NormalFactor(kind="normal", mean=10, sd=1))
+    half = factor_distribution("a", 0, 10, NormalFactor(kind="normal", mean=10, sd=1))
     assert half.cut_percent == pytest.approx(50, abs=0.01)
-    third = inputs_of("a", 0, 10, UniformFactor(kind="uniform", low=5, high=20))
+    third = factor_distribution("a", 0, 10, UniformFactor(kind="uniform", low=5, high=20))
     assert (third.low, third.high) == (5, 10)
     assert third.cut_percent == pytest.approx(100 * 2 / 3)
     with pytest.raises(InputError, match="outside the cases") as refusal:
-        inputs_of("a", 0, 10, UniformFactor(kind="uniform", low=20, high=30))
+        factor_distribution("a", 0, 10, UniformFactor(kind="uniform", low=20, high=30))
     assert "sensitivity.distributions.a" in str(refusal.value)
 
 

@@ -3,11 +3,11 @@
 import numpy as np
 import pytest
 
-from nptcs.config.studies.surface import SpokeProcessModel, name_of
+from nptcs.config.studies.surface import SpokeProcessModel, surface_name
 from nptcs.doe.split_plot import split_plot
 from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_out
-from nptcs.surface.kinds.models import FitCases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.stored import dump_registry, load_registry
@@ -41,7 +41,7 @@ def cases(plots=60, each=5):
 @pytest.fixture(scope="module")
 def surface():
     x = cases()
-    return fit_model(MODEL, FitCases(x, law(x), FACTORS, (), PUBLISHED_PLY))
+    return fit_surface(MODEL, FitCases(x, law(x), FACTORS, (), PUBLISHED_PLY))
 
 
 def test_it_follows_its_cases_and_predicts_unseen_ones(surface):
@@ -73,7 +73,7 @@ def test_the_interval_grows_away_from_the_spokes(surface):
 
 def test_a_response_that_changes_sign_is_not_taken_as_a_logarithm():
     x = cases(30)
-    surface = fit_model(MODEL, FitCases(x, x[:, 4] - x[:, 3], FACTORS, (), PUBLISHED_PLY))
+    surface = fit_surface(MODEL, FitCases(x, x[:, 4] - x[:, 3], FACTORS, (), PUBLISHED_PLY))
     assert not surface.logarithmic
     assert np.abs(surface.predict(x) - surface.y).max() < 1e-2
 
@@ -99,11 +99,11 @@ def test_it_comes_back_from_its_file(surface):
 def test_cases_that_cannot_carry_it_are_refused(factors, ply, rows, words):
     x = cases()[rows]
     with pytest.raises(InputError, match=words):
-        fit_model(MODEL, FitCases(x[:, : len(factors)], law(x), factors, (), ply))
+        fit_surface(MODEL, FitCases(x[:, : len(factors)], law(x), factors, (), ply))
 
 
 def test_its_name():
-    assert name_of(MODEL) == "spoke process"
+    assert surface_name(MODEL) == "spoke process"
 
 
 def test_a_split_plot_has_the_same_rings_on_every_spoke():

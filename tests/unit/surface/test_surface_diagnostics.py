@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 from scipy import linalg
 
-from nptcs.surface.diagnostics.anova import Noise, anova, noise_of
+from nptcs.surface.diagnostics.anova import Noise, anova, noise_of_replicates
 from nptcs.surface.diagnostics.influence import influence, press, term_tests
 from nptcs.surface.diagnostics.stationary import ridge_path, stationary_points
 from nptcs.surface.fit import fit
@@ -196,7 +196,7 @@ def test_what_the_cases_say_of_noise():
     equal = fit(x, pd.Series([0.0, 1.0, 1.0, 2.0, 3.1]), ["x"], ["1", "x"])
     single = fit(x.drop(index=1), pd.Series([0.0, 1.0, 2.0, 3.1]), ["x"], ["1", "x"])
 
-    assert [noise_of(s) for s in (noisy, equal, single)] == list(Noise)
+    assert [noise_of_replicates(s) for s in (noisy, equal, single)] == list(Noise)
     assert np.isnan(rows_of(equal)["lack of fit"].f_value)
     assert "lack of fit" not in rows_of(single)
 

@@ -11,18 +11,18 @@ from nptcs.config.studies.surface import (
     GaussianProcessModel,
     LaminationModel,
     PolynomialModel,
-    name_of,
+    surface_name,
 )
 from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases
 from nptcs.surface.diagnostics.comparison import directions, leave_one_level_out, leave_one_out
 from nptcs.surface.diagnostics.influence import influence
 from nptcs.surface.kinds.gaussian_process import fit_process
-from nptcs.surface.kinds.models import FitCases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import predict
 from nptcs.surface.stored import dump_registry, load_registry
-from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
+from nptcs.surface.study import RESPONSE, StudySurfaces, SurfaceFit
 from nptcs.surface.tables import comparison_tables
 from nptcs.tables.analysis.surface import SurfaceComparison
 from nptcs.tables.io import check
@@ -52,7 +52,7 @@ def table_5(order=FACTORS):
 
 @pytest.fixture(scope="module")
 def fitted():
-    return {name_of(model): fit_model(model, table_5()) for model in MODELS}
+    return {surface_name(model): fit_surface(model, table_5()) for model in MODELS}
 
 
 def worst_level(surface):
@@ -93,9 +93,9 @@ def test_leave_one_out_by_refits_equals_the_closed_form(fitted):
     np.testing.assert_allclose(leave_one_out(fitted["polynomial"]).error, closed, rtol=1e-6)
 
 
-@pytest.mark.parametrize("model", MODELS, ids=name_of)
+@pytest.mark.parametrize("model", MODELS, ids=surface_name)
 def test_a_stored_surface_of_any_kind_is_the_same(fitted, model):
-    surface = fitted[name_of(model)]
+    surface = fitted[surface_name(model)]
     fitted = FittedSurface("study", "s", "m", RESPONSE, surface)
     again = load_registry(dump_registry(SurfaceRegistry("study", (fitted,)))).surfaces[0].surface
     x = surface.x[::5] * 0.99 + 0.01 * surface.x.mean(axis=0)
@@ -104,9 +104,9 @@ def test_a_stored_surface_of_any_kind_is_the_same(fitted, model):
         np.testing.assert_allclose(stored, side, rtol=1e-9)
 
 
-@pytest.mark.parametrize("model", MODELS, ids=name_of)
+@pytest.mark.parametrize("model", MODELS, ids=surface_name)
 def test_outside_the_box_a_prediction_is_refused_or_flagged(fitted, model):
-    surface = fitted[name_of(model)]
+    surface = fitted[surface_name(model)]
     inside = predict(surface, surface.x[:3] * 0.5 + surface.x.mean(axis=0) * 0.5)
     assert inside.inside.all()
     assert (inside.low < inside.value).all()
@@ -126,27 +126,27 @@ def test_outside_the_box_a_prediction_is_refused_or_flagged(fitted, model):
 def test_the_order_of_the_factors_does_not_matter(fitted):
     order = ("angle_deg", "spacing_mm", "thickness_mm")
     model = GaussianProcessModel(kind="gaussian_process", mean=LAMINATION)
-    surface = fit_model(model, table_5(order))
+    surface = fit_surface(model, table_5(order))
     x = np.array([[37.5, 12.5, 1.5]])
-    expected = fitted[name_of(model)].predict(x[:, [1, 2, 0]])
+    expected = fitted[surface_name(model)].predict(x[:, [1, 2, 0]])
     assert surface.predict(x)[0] == pytest.approx(expected[0], abs=0.02)
     errors = leave_one_level_out(surface, 1)
     assert errors.largest == pytest.approx(
-        leave_one_level_out(fitted[name_of(model)], 0).largest, abs=0.2
+        leave_one_level_out(fitted[surface_name(model)], 0).largest, abs=0.2
     )
 
 
 def test_the_compliance_of_a_made_up_tyre_is_recovered():
-    exact = fit_model(LAMINATION, table_5())
+    exact = fit_surface(LAMINATION, table_5())
     made = FitCases(exact.x, exact.predict(exact.x), FACTORS, [], PUBLISHED_PLY)
-    again = fit_model(LAMINATION, made)
+    again = fit_surface(LAMINATION, made)
     assert again.shape == exact.shape
     np.testing.assert_allclose(again.parameters, exact.parameters, rtol=1e-4)
 
 
 @pytest.mark.parametrize("coefficients", [6, 7, 8])
 def test_the_lamination_forms_slopes_are_those_of_differences(coefficients):
-    surface = fit_model(LaminationModel(kind="lamination", coefficients=coefficients), table_5())
+    surface = fit_surface(LaminationModel(kind="lamination", coefficients=coefficients), table_5())
     points = np.array([[10.0, 1.2, 0.0], [15.0, 1.8, 45.0], [18.3, 2.1, 80.0]])
     for place, value in enumerate(surface.parameters):
         step = np.zeros(coefficients)
@@ -168,7 +168,7 @@ def test_the_lamination_form_refuses_what_it_is_not_made_for():
         (FitCases(cases.x[:5], cases.y[:5], FACTORS, [], PUBLISHED_PLY), "5 solved cases"),
     ):
         with pytest.raises(InputError, match=match):
-            fit_model(LAMINATION, wrong)
+            fit_surface(LAMINATION, wrong)
 
 
 def test_log_and_reciprocal_need_a_positive_response():
@@ -176,7 +176,7 @@ def test_log_and_reciprocal_need_a_positive_response():
     shifted = FitCases(cases.x, cases.y - 250, FACTORS, cases.terms)
     for link in ("log", "reciprocal"):
         with pytest.raises(InputError, match=f"the {link} link needs a positive response"):
-            fit_model(PolynomialModel(kind="polynomial", link=link), shifted)
+            fit_surface(PolynomialModel(kind="polynomial", link=link), shifted)
 
 
 def test_repeated_cases_that_differ_give_the_process_a_noise():
@@ -198,8 +198,8 @@ def test_a_polynomial_chosen_by_press_predicts_at_least_as_well():
     cases = table_5()
     terms = [*cases.terms, "thickness_mm*angle_deg^2", "angle_deg^4", "angle_deg^5", "angle_deg^6"]
     wide = FitCases(cases.x, cases.y, FACTORS, terms)
-    every = fit_model(PolynomialModel(kind="polynomial"), wide)
-    chosen = fit_model(PolynomialModel(kind="polynomial", choose="press"), wide)
+    every = fit_surface(PolynomialModel(kind="polynomial"), wide)
+    chosen = fit_surface(PolynomialModel(kind="polynomial", choose="press"), wide)
     rms = [np.sqrt(np.mean(influence(s).left_out ** 2)) for s in (every, chosen)]
     assert rms[1] <= rms[0]
     assert len(chosen.polynomial) <= len(every.polynomial)
@@ -208,16 +208,18 @@ def test_a_polynomial_chosen_by_press_predicts_at_least_as_well():
 def test_what_cannot_be_assessed_is_not_a_number():
     x = np.linspace(0, 1, 12)[:, None]
     cases = FitCases(x, x[:, 0] ** 2, ("x",), ["1", "x", "x^2"])
-    surface = fit_model(PolynomialModel(kind="polynomial"), cases)
+    surface = fit_surface(PolynomialModel(kind="polynomial"), cases)
     level = leave_one_level_out(surface, 0)
     assert np.isnan(level.largest)
     assert level.refused == "not assessed: 12 values and no levels"
-    few = fit_model(
+    few = fit_surface(
         PolynomialModel(kind="polynomial"),
         FitCases(x[:4], x[:4, 0] ** 3, ("x",), ["1", "x", "x^2"]),
     )
     assert np.isnan(leave_one_out(few).error).all()
-    done = StudySurfaces("study", (Fit("s", "polynomial", RESPONSE, few),), {"s": SOLVED}, None)
+    done = StudySurfaces(
+        "study", (SurfaceFit("s", "polynomial", RESPONSE, few),), {"s": SOLVED}, None
+    )
     comparison, _ = comparison_tables(done)
     row = check(comparison, SurfaceComparison, "comparison").iloc[0]
     assert np.isnan(row["coverage_percent"])
@@ -226,7 +228,7 @@ def test_what_cannot_be_assessed_is_not_a_number():
 
 @pytest.mark.parametrize("link", ["identity", "log", "reciprocal"])
 def test_left_out_errors_of_many_cases_are_those_of_fitting_again(link, monkeypatch):
-    surface = fit_model(PolynomialModel(kind="polynomial", link=link), table_5())
+    surface = fit_surface(PolynomialModel(kind="polynomial", link=link), table_5())
     at_once = leave_one_out(surface)
     monkeypatch.setattr("nptcs.surface.diagnostics.comparison.MANY_CASES", 1000)
     again = leave_one_out(surface)

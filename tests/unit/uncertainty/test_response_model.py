@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.config.studies.surface import GaussianProcessModel, LaminationModel, PolynomialModel
-from nptcs.surface.kinds.models import FitCases, fit_model
+from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 from nptcs.uncertainty.response_model import (
     RubberEffect,
@@ -34,7 +34,7 @@ def process():
         (),
         PUBLISHED_PLY,
     )
-    return fit_model(GaussianProcessModel(kind="gaussian_process", mean=LAMINATION), cases)
+    return fit_surface(GaussianProcessModel(kind="gaussian_process", mean=LAMINATION), cases)
 
 
 @pytest.fixture(scope="module")
@@ -48,7 +48,7 @@ def rubber_surface():
         RUBBERS,
         list(terms),
     )
-    return fit_model(PolynomialModel(kind="polynomial"), cases)
+    return fit_surface(PolynomialModel(kind="polynomial"), cases)
 
 
 def response(process, rubbers=None):
@@ -109,7 +109,7 @@ def test_beyond_the_edge_two_factors_go_on_along_their_slopes():
         ("a", "b"),
         ["1", "a", "b"],
     )
-    surface = fit_model(PolynomialModel(kind="polynomial"), cases)
+    surface = fit_surface(PolynomialModel(kind="polynomial"), cases)
     points = np.array([[2.5, 1.2], [-0.5, -0.1], [1.0, 0.5]])
     np.testing.assert_allclose(continued(surface, points), points @ [3.0, 5.0], atol=1e-9)
 

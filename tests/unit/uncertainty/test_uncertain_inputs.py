@@ -7,10 +7,10 @@ from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.errors import InputError
 from nptcs.tables.analysis.uncertainty import SourceKind
 from nptcs.tables.laboratory.material_card import (
+    CardConstant,
     Covariance,
     MaterialCard,
     PlyCard,
-    Quantity,
     RubberCard,
 )
 from nptcs.uncertainty.inputs import ply_inputs, uncertain_inputs
@@ -19,7 +19,7 @@ TENSION, SHEAR = ("T0-1", "T0-2", "T0-3", "T0-4"), ("S45-1", "S45-2")
 
 
 def quantity(value, specimens=(), equal_to=None):
-    return Quantity(
+    return CardConstant(
         value=value,
         unit="MPa",
         standard_error=0.01 * value if specimens else None,

@@ -113,7 +113,7 @@ def _card(text: str) -> str:
     return text if text == "published" else existing_file(text)
 
 
-def number(allowed: Range) -> Callable[[str], float]:
+def number_type(allowed: Range) -> Callable[[str], float]:
     """Return the type of a number in a range."""
 
     def read(text: str) -> float:
@@ -130,12 +130,12 @@ def number(allowed: Range) -> Callable[[str], float]:
     return read
 
 
-def factor(name: str) -> Callable[[str], float]:
+def factor_type(name: str) -> Callable[[str], float]:
     """Return the type of a factor of a design, or of the load, by its column name."""
-    return number(RANGES[name])
+    return number_type(RANGES[name])
 
 
-def whole(least: int, most: int | None = None) -> Callable[[str], int]:
+def whole_number_type(least: int, most: int | None = None) -> Callable[[str], int]:
     """Return the type of a whole number of at least `least`, and at most `most`."""
     allowed = Range(least, float("inf") if most is None else most)
 

@@ -7,11 +7,11 @@ from hypothesis import strategies as st
 from small_tyres import COARSE_SPOKE, spoke_design
 
 from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
-from nptcs.fe.energy_cache import read_table, shared_table, table_key, write_table
+from nptcs.fe.energy_cache import read_energy_table, shared_table, table_key, write_energy_table
 from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
-from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit
+from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit_energy
 from nptcs.fe.spoke.equilibrium import SpokeModel
-from nptcs.fe.spoke.sampling import sample
+from nptcs.fe.spoke.sampling import sample_spoke
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
 OPTIONS = EnergyTableOptions(
@@ -44,7 +44,7 @@ def manufactured(coordinates):
 
 
 def grid_samples():
-    """States with β ≥ 0, as `sample` computes them."""
+    """States with β ≥ 0, as `sample_spoke` computes them."""
     sides = chebyshev_nodes(-OPTIONS.inclination_rad, OPTIONS.inclination_rad, OPTIONS.samples[1])
     lines = [
         chebyshev_nodes(*OPTIONS.elongation_mm, OPTIONS.samples[0]),
@@ -54,7 +54,7 @@ def grid_samples():
     return manufactured(np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 3))
 
 
-TABLE = fit(grid_samples(), OPTIONS, HEIGHT)
+TABLE = fit_energy(grid_samples(), OPTIONS, HEIGHT)
 CHORDS = st.tuples(st.floats(-6.0, 3.0), st.floats(-0.045, 0.045), st.floats(-0.04, 0.04))
 
 
@@ -107,21 +107,21 @@ def test_the_table_ends_at_its_corners(corner):
 def test_more_terms_than_data_are_refused():
     few = OPTIONS.model_copy(update={"degrees": (6, 12)})
     with pytest.raises(ValueError, match="lower degrees"):
-        fit(grid_samples(), few, HEIGHT)
+        fit_energy(grid_samples(), few, HEIGHT)
 
 
 def test_a_table_that_ends_early_has_a_lower_degree():
     samples = grid_samples()
     kept = samples.coordinates[:, 0] > -4.0
     short = SpokeSamples(*(getattr(samples, name)[kept] for name in SAMPLE_FIELDS))
-    table = fit(short, OPTIONS, HEIGHT)
+    table = fit_energy(short, OPTIONS, HEIGHT)
     assert table.exponents[:, 0].max() == 4
     assert table.low[0] > -4.0
 
 
 def test_the_table_of_a_spoke_predicts_states_between_its_samples():
     model = SpokeModel(spoke_design())
-    table = fit(sample(model, OPTIONS), OPTIONS, HEIGHT)
+    table = fit_energy(sample_spoke(model, OPTIONS), OPTIONS, HEIGHT)
     for motion in ([-4.1, 1.3, 0.02], [1.9, -0.7, -0.03]):
         state = model.move(model.rest(), np.array(motion))
         energy, force, _ = table.evaluate(np.array([motion]))
@@ -135,7 +135,7 @@ def test_a_level_of_the_unloaded_spoke_is_one_state():
         degrees=(4, 4),
     )  # fmt: skip
     every = options.model_copy(update={"side_states": "every"})
-    coordinates = sample(SpokeModel(spoke_design()), every).coordinates
+    coordinates = sample_spoke(SpokeModel(spoke_design()), every).coordinates
     assert len(coordinates) == 3 * 2 * 3
     assert np.unique(coordinates[:, 0].round(9)) == pytest.approx([-1.5, 0.0, 1.5])
 
@@ -178,7 +178,7 @@ def test_equal_spokes_share_one_file(tmp_path, monkeypatch):
     assert len(list(tmp_path.glob("*.npz"))) == 2
     key = table_key(spoke_design(), OPTIONS)
     path = tmp_path / f"{key}.npz"
-    assert read_table(path, key).force_residual_n == TABLE.force_residual_n
+    assert read_energy_table(path, key).force_residual_n == TABLE.force_residual_n
 
 
 @pytest.mark.parametrize("harm", ["emptied", "cut", "renamed", "doubled", "not a number"])
@@ -186,8 +186,8 @@ def test_a_table_that_is_not_sound_is_computed_again(tmp_path, harm):
     key = "a" * 64
     path = tmp_path / f"{key}.npz"
     bad = {"doubled": 2.0 * TABLE.coefficients, "not a number": np.nan * TABLE.coefficients}
-    write_table(path, key, TABLE)
-    assert read_table(path, key) is not None
+    write_energy_table(path, key, TABLE)
+    assert read_energy_table(path, key) is not None
     whole = path.read_bytes()
     if harm == "emptied":
         path.write_bytes(b"")
@@ -200,7 +200,7 @@ def test_a_table_that_is_not_sound_is_computed_again(tmp_path, harm):
         with np.load(path) as data:
             content = {**data, "coefficients": bad[harm]}
         np.savez(path, **content)
-    assert read_table(path, key) is None
+    assert read_energy_table(path, key) is None
 
 
 def test_every_part_of_the_design_is_in_the_key():

@@ -5,8 +5,8 @@ from small_tyres import COARSE_SPOKE
 from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, TyreMesh
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.case import spoke_design
-from nptcs.fe.spoke.energy_table import fit
-from nptcs.fe.spoke.sampling import sample
+from nptcs.fe.spoke.energy_table import fit_energy
+from nptcs.fe.spoke.sampling import sample_spoke
 from nptcs.fe.tyre.equilibrium import TyreError, TyreModel
 from nptcs.fe.tyre.mesh import build_ring
 from nptcs.fe.verification.direct_tyre import (
@@ -39,7 +39,7 @@ def design(published_ply):
 
 @pytest.fixture(scope="module")
 def table(design):
-    return fit(sample(MeshedSpoke(design), FE.table), FE.table, FE.geometry.height_mm)
+    return fit_energy(sample_spoke(MeshedSpoke(design), FE.table), FE.table, FE.geometry.height_mm)
 
 
 @pytest.fixture(scope="module", params=["conforming", "rigid"])

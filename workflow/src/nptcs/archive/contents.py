@@ -10,7 +10,7 @@ import nptcs
 from nptcs.config.root import Config
 from nptcs.errors import InputError
 from nptcs.ingest.folder import raw_files
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.solvers.registry import load_solver, module_of, read_options
 from nptcs.tables.catalogue import result_files
 
 
@@ -57,7 +57,7 @@ def contents_of(root: Path, config: Config) -> dict[str, tuple[Path, ArchivedAs]
         For a result or an input that is missing or lies outside the project folder.
     """
     found: dict[str, tuple[Path, ArchivedAs]] = {}
-    for path in inputs_of(root, config):
+    for path in study_inputs(root, config):
         found[_inside(path, root)] = (path, ArchivedAs.INPUT)
     for path in _results(root, config):
         found[_inside(path, root)] = (path, ArchivedAs.RESULT)
@@ -73,7 +73,7 @@ def contents_of(root: Path, config: Config) -> dict[str, tuple[Path, ArchivedAs]
     return found
 
 
-def inputs_of(root: Path, config: Config) -> list[Path]:
+def study_inputs(root: Path, config: Config) -> list[Path]:
     """List the files that a study reads: laboratory data, profiles, published tables, modules."""
     sheet = root / config.lab_data.specimen_sheet
     formats = root / config.lab_data.formats
@@ -89,7 +89,7 @@ def inputs_of(root: Path, config: Config) -> list[Path]:
 def _of_solver(name: str, options: Mapping[str, object]) -> Iterator[str]:
     """Yield the tables of a solver, and its module where that is a user's file."""
     module = module_of(name, options)
-    yield from read_options(load(module), options).tables().values()
+    yield from read_options(load_solver(module), options).tables().values()
     if module.endswith(".py"):
         yield module
 

@@ -8,7 +8,7 @@ import tempfile
 import zipfile
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Any
+from typing import Any, assert_never
 
 import yaml
 from rocrate.rocrate import ROCrate
@@ -98,7 +98,8 @@ def _describe(
     commit: str,
 ) -> None:
     """Add each file with its checksum, and the run that made the results."""
-    entities: dict[ArchivedAs, list[Any]] = {role: [] for role in ArchivedAs}
+    inputs: list[Any] = []
+    results: list[Any] = []
     for name, path in sorted(held.items()):
         properties = {"sha256": sums[name], "contentSize": str(path.stat().st_size)}
         if name == WORKFLOW:
@@ -108,13 +109,21 @@ def _describe(
             )
             workflow["codeCommit"] = commit
             continue
-        role = roles.get(name, ArchivedAs.INPUT)
-        entities[role].append(crate.add_file(path, name, properties=properties))
+        entity = crate.add_file(path, name, properties=properties)
+        match role := roles.get(name, ArchivedAs.INPUT):
+            case ArchivedAs.INPUT:
+                inputs.append(entity)
+            case ArchivedAs.RESULT:
+                results.append(entity)
+            case ArchivedAs.CODE:
+                pass  # neither read nor made by the run
+            case _:
+                assert_never(role)
     crate.add_action(
         crate.mainEntity,
         identifier="#run",
-        object=entities[ArchivedAs.INPUT],
-        result=entities[ArchivedAs.RESULT],
+        object=inputs,
+        result=results,
         properties={"name": f"Run of nptcs {__version__}, commit {commit}"},
     )
 

@@ -9,7 +9,7 @@ import pandas as pd
 import pandera.pandas as pa
 
 from nptcs.calibrate.drucker import instabilities
-from nptcs.calibrate.fit import Model, fit_model
+from nptcs.calibrate.fit import HyperelasticModel, fit_model
 from nptcs.calibrate.invariants import NEO_HOOKEAN
 from nptcs.calibrate.models import model_named
 from nptcs.calibrate.observations import (
@@ -19,10 +19,10 @@ from nptcs.calibrate.observations import (
     observe,
     specimens_in_fit,
 )
-from nptcs.calibrate.rubber import unit_of
+from nptcs.calibrate.rubber import constant_unit
 from nptcs.config.materials.calibration import CalibrationSettings, RubberSettings
 from nptcs.errors import InputError
-from nptcs.reduce.origin import Origin
+from nptcs.reduce.strain_origin import StrainOrigin
 from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.laboratory.specimens import Specimen
 
@@ -36,7 +36,7 @@ def compare_models(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> pd.DataFrame:
     """Fit each model of the settings to the same points of a rubber.
 
@@ -72,7 +72,7 @@ def compare_models(
 
 
 def _model_rows(
-    model: Model,
+    model: HyperelasticModel,
     data: Sequence[Observation],
     high: float,
     settings: RubberSettings,
@@ -95,7 +95,7 @@ def _model_rows(
         {
             "constant": constant,
             "value": value,
-            "unit": unit_of(constant),
+            "unit": constant_unit(constant),
             "standard_error": error,
             "points": fit.points,
             "rmse_mpa": fit.rmse_mpa,
@@ -110,12 +110,12 @@ def _model_rows(
     ]
 
 
-def _not_determined(model: Model, constant: str, reason: str) -> dict[str, object]:
+def _not_determined(model: HyperelasticModel, constant: str, reason: str) -> dict[str, object]:
     empty = ("value", "standard_error", "rmse_mpa", "largest_error_percent", "r_squared")
     return {
         **dict.fromkeys((*empty, "initial_shear_modulus_mpa"), NAN),
         "constant": constant,
-        "unit": unit_of(constant),
+        "unit": constant_unit(constant),
         "points": 0,
         "drucker_stable": pd.NA,
         "standard_error_rule": "",
@@ -128,7 +128,7 @@ def c10_against_range(
     curves: Mapping[str, pd.DataFrame],
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> pd.DataFrame:
     """Neo-Hookean C10 for a sequence of strain ranges, of each specimen and of all together.
 
@@ -166,7 +166,7 @@ def _range_rows(
     specimens: Sequence[Specimen],
     settings: RubberSettings,
     strain_range: tuple[float, float],
-    origins: Mapping[str, Origin],
+    origins: Mapping[str, StrainOrigin],
 ) -> list[dict[str, object]]:
     """Rows of one range: one row per specimen, and one for those that reach its end."""
     rows, together = [], []
@@ -178,7 +178,7 @@ def _range_rows(
         except InputError as error:
             rows.append(_empty_range_row(specimen.specimen, error.message))
             continue
-        observation = replace(observation, origin=origins.get(specimen.specimen, Origin()))
+        observation = replace(observation, origin=origins.get(specimen.specimen, StrainOrigin()))
         if any(STRAIN_ENDS in text for text in remarks):
             rows.append(_empty_range_row(specimen.specimen, "; ".join(remarks)))
             continue

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.calibrate.fit import Model
+from nptcs.calibrate.fit import HyperelasticModel
 from nptcs.calibrate.invariants import stretches
 
 # compression in a mode is the same path run backwards from λ = 1
@@ -17,7 +17,7 @@ PATHS = {
 STEPS = 400
 
 
-def instabilities(model: Model, constants: Array, largest_strain: float) -> list[str]:
+def instabilities(model: HyperelasticModel, constants: Array, largest_strain: float) -> list[str]:
     """Where the model is unstable, in words; empty if it is stable.
 
     Drucker's condition dτ : dε > 0 for an incompressible material: the Hessian of the energy in
@@ -27,7 +27,7 @@ def instabilities(model: Model, constants: Array, largest_strain: float) -> list
 
     Parameters
     ----------
-    model : Model
+    model : HyperelasticModel
         The model.
     constants : ndarray, shape (k,)
         Its constants.

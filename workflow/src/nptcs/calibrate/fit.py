@@ -17,7 +17,7 @@ SCATTER = "scatter between {n} specimens (jackknife)"
 REGRESSION = "scatter of the points about the fit (too few specimens of a mode for their scatter)"
 
 
-class Model(Protocol):
+class HyperelasticModel(Protocol):
     """What a hyperelastic model can do; incompressible, stresses nominal, MPa."""
 
     @property
@@ -48,7 +48,7 @@ class Model(Protocol):
 
 
 @dataclass(frozen=True)
-class Fit:
+class ModelFit:
     """Constants of a model with their covariance and the quality of the fit.
 
     Parameters
@@ -81,12 +81,14 @@ class Fit:
         return np.sqrt(np.diag(self.covariance))
 
 
-def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> Fit:
+def fit_model(
+    model: HyperelasticModel, data: Sequence[Observation], error_floor: float
+) -> ModelFit:
     """Fit a model to all observations together.
 
     Parameters
     ----------
-    model : Model
+    model : HyperelasticModel
         Neo-Hookean, Mooney–Rivlin, Yeoh or Ogden.
     data : sequence of Observation
         One per specimen, of one mode or of several.
@@ -95,7 +97,7 @@ def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> 
 
     Returns
     -------
-    Fit
+    ModelFit
         The covariance is the delete-one jackknife over specimens within each mode,
         Σ_h (n_h - 1)/n_h Σ_i (c_hi - c̄_h)(c_hi - c̄_h)ᵀ, which is s²/n for a mean; with a
         single specimen in some mode it is the regression's (HC1), and says so. The errors of the
@@ -116,7 +118,7 @@ def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> 
     covariance, rule = _covariance(model, data, constants)
     large = np.abs(stress) >= error_floor * np.abs(stress).max()
     total = float(((stress - stress.mean()) ** 2).sum())
-    return Fit(
+    return ModelFit(
         constants,
         covariance,
         rule,
@@ -127,11 +129,13 @@ def fit_model(model: Model, data: Sequence[Observation], error_floor: float) -> 
     )
 
 
-def _residuals(model: Model, data: Sequence[Observation], constants: Array) -> Array:
+def _residuals(model: HyperelasticModel, data: Sequence[Observation], constants: Array) -> Array:
     return np.concatenate([model.stress(o.mode, o.stretch, constants) - o.stress for o in data])
 
 
-def _covariance(model: Model, data: Sequence[Observation], constants: Array) -> tuple[Array, str]:
+def _covariance(
+    model: HyperelasticModel, data: Sequence[Observation], constants: Array
+) -> tuple[Array, str]:
     counts = Counter(o.mode for o in data)
     if min(counts.values()) > 1:
         covariance, rule = _jackknife(model, data, constants), SCATTER.format(n=len(data))
@@ -158,7 +162,10 @@ def _origin_rule(rule: str, errors: Sequence[float]) -> str:
 
 
 def _change(
-    model: Model, data: Sequence[Observation], constants: Array, strains: Sequence[float]
+    model: HyperelasticModel,
+    data: Sequence[Observation],
+    constants: Array,
+    strains: Sequence[float],
 ) -> Array:
     """Half the change of the constants from strains added to those subtracted, shape (k,)."""
     if not any(strains):
@@ -173,7 +180,7 @@ def _change(
     return (ends[0] - ends[1]) / 2
 
 
-def _jackknife(model: Model, data: Sequence[Observation], constants: Array) -> Array:
+def _jackknife(model: HyperelasticModel, data: Sequence[Observation], constants: Array) -> Array:
     total = np.zeros((len(constants), len(constants)))
     for mode in {o.mode for o in data}:
         left_out = [i for i, o in enumerate(data) if o.mode == mode]

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from typing import assert_never
 
-from nptcs.calibrate.fit import Model
+from nptcs.calibrate.fit import HyperelasticModel
 from nptcs.calibrate.invariants import MOONEY_RIVLIN, NEO_HOOKEAN, YEOH
 from nptcs.calibrate.ogden import ogden
 from nptcs.config.materials.calibration import ModelName
 
 
-def model_named(name: ModelName, ogden_terms: int) -> Model:
+def model_named(name: ModelName, ogden_terms: int) -> HyperelasticModel:
     """Return a hyperelastic model; `ogden_terms` is the number of terms of Ogden's."""
     match name:
         case "neo_hookean":

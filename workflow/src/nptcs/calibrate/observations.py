@@ -15,9 +15,9 @@ from nptcs.config.materials.calibration import RubberSettings
 from nptcs.errors import InputError
 from nptcs.mechanical_tests import HYPERELASTIC_FIT
 from nptcs.reduce.curve.branch import loading_branch
-from nptcs.reduce.origin import Origin
 from nptcs.reduce.rows import finite_pair
 from nptcs.reduce.standards.rubber_compression import disc_barrels
+from nptcs.reduce.strain_origin import StrainOrigin
 from nptcs.tables.laboratory.specimens import Specimen
 
 SMALLEST_NUMBER_OF_POINTS = 3
@@ -36,7 +36,7 @@ class Observation:
         λ and nominal stress (MPa).
     weight : ndarray, shape (n,)
         Factor of each squared residual.
-    origin : Origin
+    origin : StrainOrigin
         What was added to the strain before it came here, and the error of the strain's origin.
     """
 
@@ -45,7 +45,7 @@ class Observation:
     stretch: Array
     stress: Array
     weight: Array
-    origin: Origin = Origin()
+    origin: StrainOrigin = StrainOrigin()
 
     def moved(self, strain: float) -> Observation:
         """Return the same points with a strain added, positive in tension."""
@@ -68,7 +68,7 @@ def observations(
     specimens: Sequence[Specimen],
     settings: RubberSettings,
     strain_range: tuple[float, float],
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> tuple[list[Observation], list[str]]:
     """Points of the included specimens of a rubber, and remarks on what is missing.
 
@@ -84,7 +84,7 @@ def observations(
         Weights, and whether one specimen alone is fitted.
     strain_range : (float, float)
         Nominal strain, from and to.
-    origins : mapping of str to Origin, optional
+    origins : mapping of str to StrainOrigin, optional
         Strain origins by specimen id, as the ingest found them.
 
     Raises
@@ -103,7 +103,7 @@ def observations(
             observation, words = observe(
                 specimen, curves[specimen.specimen], settings, strain_range
             )
-            origin = (origins or {}).get(specimen.specimen, Origin())
+            origin = (origins or {}).get(specimen.specimen, StrainOrigin())
             observation = replace(observation, origin=origin)
             found.append(observation)
             remarks += words

@@ -9,7 +9,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
-from nptcs.tables.laboratory.material_card import Quantity
+from nptcs.tables.laboratory.material_card import CardConstant
 
 # a normal variable lies further out once in 370 times
 LARGEST_DISTANCE = 3.0
@@ -89,12 +89,12 @@ def check_ply(values: Mapping[str, float], material: str, tolerance_percent: flo
     ]
 
 
-def check_reciprocity(measured: Mapping[str, Quantity], nu21: pd.Series) -> str:
+def check_reciprocity(measured: Mapping[str, CardConstant], nu21: pd.Series) -> str:
     """Compare ν12/E1 = ν21/E2 with ν21 as measured on 90° specimens, in words.
 
     Parameters
     ----------
-    measured : mapping of str to Quantity
+    measured : mapping of str to CardConstant
         e1_mpa, e2_mpa and nu12 with their standard errors.
     nu21 : Series
         Poisson's ratios of the 90° specimens; may be empty.

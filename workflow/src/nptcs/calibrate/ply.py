@@ -15,7 +15,7 @@ from nptcs.mechanical_tests import COMPOSITE_TESTS
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.reduce.groups.counted import TRAVEL_NEXT_TO_SENSORS, counted, of_sensors, why_not
 from nptcs.reduce.standards.tension import ANOTHER_RANGE
-from nptcs.tables.laboratory.material_card import PLY_CONSTANTS, PlyCard, Quantity
+from nptcs.tables.laboratory.material_card import PLY_CONSTANTS, CardConstant, PlyCard
 from nptcs.tables.laboratory.specimens import Specimen
 
 MEASURED = ("e1_mpa", "e2_mpa", "nu12", "g12_mpa")
@@ -58,7 +58,9 @@ def calibrate_ply(
     sheet = {s.specimen: s for s in specimens if s.material == material}
     table = counted(properties[properties["specimen"].isin(list(sheet))], sheet)
     sources: dict[str, ConstantSource] = {name: getattr(settings.ply, name) for name in MEASURED}
-    samples = {name: sample(table, source, name, material) for name, source in sources.items()}
+    samples = {
+        name: specimen_values(table, source, name, material) for name, source in sources.items()
+    }
     constants = {
         name: measured_quantity(name, samples[name], table, sources[name]) for name in MEASURED
     }
@@ -97,7 +99,9 @@ def only_ply(specimens: Sequence[Specimen]) -> str:
     return names[0]
 
 
-def sample(table: pd.DataFrame, source: ConstantSource, constant: str, material: str) -> pd.Series:
+def specimen_values(
+    table: pd.DataFrame, source: ConstantSource, constant: str, material: str
+) -> pd.Series:
     """Values of a source by specimen id, those that were not assessed left out."""
     rows = rows_of(table, source)
     values = rows.dropna(subset=["value"]).set_index("specimen")["value"]
@@ -127,13 +131,13 @@ def rows_of(table: pd.DataFrame, source: ConstantSource) -> pd.DataFrame:
 
 def measured_quantity(
     name: str, values: pd.Series, table: pd.DataFrame, source: ConstantSource
-) -> Quantity:
+) -> CardConstant:
     """Mean and standard error of a measured constant, with rule and specimens."""
     rows = rows_of(table, source)
     rows = rows[rows["specimen"].isin(values.index)]
     rules = " | ".join(dict.fromkeys(rows["rule"] + ", " + rows["range"]))
     n = len(values)
-    return Quantity(
+    return CardConstant(
         value=float(values.mean()),
         unit=UNITS[name],
         standard_error=float(values.std(ddof=1) / np.sqrt(n)) if n > 1 else None,
@@ -144,13 +148,13 @@ def measured_quantity(
 
 
 def assumed_quantities(
-    assumptions: PlyAssumptions, measured: dict[str, Quantity]
-) -> dict[str, Quantity]:
+    assumptions: PlyAssumptions, measured: dict[str, CardConstant]
+) -> dict[str, CardConstant]:
     """Quantities that are assumed: a number, or equal to a measured constant."""
     quantities = {}
     for name, assumption in assumptions:
         if isinstance(assumption, str):
-            quantities[name] = Quantity(
+            quantities[name] = CardConstant(
                 value=measured[assumption].value,
                 unit=UNITS[name],
                 origin="assumed",
@@ -158,7 +162,7 @@ def assumed_quantities(
                 equal_to=assumption,
             )
         else:
-            quantities[name] = Quantity(
+            quantities[name] = CardConstant(
                 value=assumption, unit=UNITS[name], origin="assumed", rule="assumed value"
             )
     return quantities

@@ -8,14 +8,14 @@ import numpy as np
 import pandas as pd
 
 from nptcs.calibrate.drucker import instabilities
-from nptcs.calibrate.fit import Fit, Model, fit_model
+from nptcs.calibrate.fit import HyperelasticModel, ModelFit, fit_model
 from nptcs.calibrate.models import model_named
 from nptcs.calibrate.observations import Observation, observations
-from nptcs.calibrate.toe import toe_words
+from nptcs.calibrate.toe import toe_bias
 from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.reduce.deviations import CROSSHEAD
-from nptcs.reduce.origin import Origin
-from nptcs.tables.laboratory.material_card import Covariance, Quantity, RubberCard
+from nptcs.reduce.strain_origin import StrainOrigin
+from nptcs.tables.laboratory.material_card import CardConstant, Covariance, RubberCard
 from nptcs.tables.laboratory.specimens import Specimen
 
 
@@ -25,7 +25,7 @@ def calibrate_rubber(
     specimens: Sequence[Specimen],
     settings: CalibrationSettings,
     strain_sources: Mapping[str, str] | None = None,
-    origins: Mapping[str, Origin] | None = None,
+    origins: Mapping[str, StrainOrigin] | None = None,
 ) -> RubberCard:
     """Fit the card's model to the included specimens of a rubber.
 
@@ -42,7 +42,7 @@ def calibrate_rubber(
     strain_sources : mapping of str to str, optional
         Where each specimen's strain came from, as the ingest records say; the card says which
         specimens have crosshead strain.
-    origins : mapping of str to Origin, optional
+    origins : mapping of str to StrainOrigin, optional
         Strain origins as the ingest found them: their errors enter those of the constants, and
         the card says what their correction did.
 
@@ -91,7 +91,7 @@ def calibrate_rubber(
         checks=(
             *model.remarks(fit.constants),
             *_stability_words(unstable, high),
-            *toe_words(data),
+            *toe_bias(data),
             *_origin_words(model, data, fit),
             *crosshead,
             *remarks,
@@ -99,7 +99,9 @@ def calibrate_rubber(
     )
 
 
-def _origin_words(model: Model, data: Sequence[Observation], fit: Fit) -> list[str]:
+def _origin_words(
+    model: HyperelasticModel, data: Sequence[Observation], fit: ModelFit
+) -> list[str]:
     """Say what the correction of the strain origin did to the first constant."""
     shifted = [o for o in data if o.origin.axial]
     if not shifted:
@@ -113,18 +115,18 @@ def _origin_words(model: Model, data: Sequence[Observation], fit: Fit) -> list[s
     ]
 
 
-def unit_of(constant: str) -> str:
+def constant_unit(constant: str) -> str:
     """Return the unit of a constant, from its name."""
     return "MPa" if constant.endswith("_mpa") else "1"
 
 
 def _quantities(
-    names: Sequence[str], fit: Fit, rule: str, used: tuple[str, ...]
-) -> dict[str, Quantity]:
+    names: Sequence[str], fit: ModelFit, rule: str, used: tuple[str, ...]
+) -> dict[str, CardConstant]:
     return {
-        name: Quantity(
+        name: CardConstant(
             value=float(value),
-            unit=unit_of(name),
+            unit=constant_unit(name),
             standard_error=float(error) if np.isfinite(error) else None,
             origin="measured",
             rule=rule,
@@ -134,12 +136,12 @@ def _quantities(
     }
 
 
-def _covariance(names: Sequence[str], fit: Fit, used: tuple[str, ...]) -> Covariance | None:
+def _covariance(names: Sequence[str], fit: ModelFit, used: tuple[str, ...]) -> Covariance | None:
     if not np.isfinite(fit.covariance).all():
         return None
     return Covariance(
         names=tuple(names),
-        units=tuple(unit_of(name) for name in names),
+        units=tuple(constant_unit(name) for name in names),
         rule=fit.covariance_rule,
         specimens=used,
         matrix=tuple(tuple(float(x) for x in row) for row in fit.covariance),

@@ -10,7 +10,7 @@ from nptcs.calibrate.compare import c10_against_range, compare_models
 from nptcs.calibrate.rubber import calibrate_rubber
 from nptcs.calibrate.strain_sources import without_travel_next_to_sensors
 from nptcs.config.materials.calibration import CalibrationSettings
-from nptcs.reduce.origin import origins_of
+from nptcs.reduce.strain_origin import strain_origins_of
 from nptcs.tables.laboratory.curves import IngestRecord
 from nptcs.tables.laboratory.material_card import RubberCard
 from nptcs.tables.laboratory.specimens import Specimen
@@ -53,7 +53,7 @@ def calibrate_rubber_tables(
     if settings.rubber.only_specimen is None:
         specimens, words = without_travel_next_to_sensors(name, specimens, sources)
     data = (name, usable, specimens, settings)
-    origins = origins_of(records)
+    origins = strain_origins_of(records)
     card = calibrate_rubber(*data, sources, origins)
     return (
         card.model_copy(update={"checks": (*card.checks, *words)}),

@@ -31,8 +31,8 @@ def sample_constants(card: PlyCard | RubberCard, draws: int, seed: int) -> pd.Da
 
     Examples
     --------
-    >>> from nptcs.tables.laboratory.material_card import Covariance, Quantity, RubberCard
-    >>> c10 = Quantity(value=1.18, unit="MPa", standard_error=0.02, origin="measured", rule="")
+    >>> from nptcs.tables.laboratory.material_card import CardConstant, Covariance, RubberCard
+    >>> c10 = CardConstant(value=1.18, unit="MPa", standard_error=0.02, origin="measured", rule="")
     >>> scatter = Covariance(names=("c10_mpa",), units=("MPa",), rule="", matrix=((0.0004,),))
     >>> card = RubberCard(
     ...     name="rubber_75A",

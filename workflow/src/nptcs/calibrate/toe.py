@@ -35,7 +35,7 @@ def fit_with_offset(data: Sequence[Observation]) -> tuple[float, float]:
     return float(solution.x[0]), float(solution.x[1])
 
 
-def toe_words(data: Sequence[Observation]) -> list[str]:
+def toe_bias(data: Sequence[Observation]) -> list[str]:
     """Say what strain offset the tension curves still show and how it biases C10.
 
     The offset is fitted above `TOE_SHARE` of the range, where a toe has ended; curvature that

@@ -8,14 +8,14 @@ from typing import Any
 
 import pandas as pd
 
-from nptcs.campaign.record import read_tables
+from nptcs.campaign.record import read_solver_tables
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.design import FullFactorial
 from nptcs.config.studies.study import Factor, MeasuredRubber, Study
 from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.solvers.contract import CaseInputs, Solver, SolverOptions, Status
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.solvers.registry import load_solver, module_of, read_options
 from nptcs.surface.fit import refuse_aliased
 from nptcs.tables.published.stiffness import PUBLISHED
 from nptcs.terms import parse
@@ -54,7 +54,9 @@ class Asked:
 
 def solvers_of(study: Study, options: Options) -> list[tuple[Solver, SolverOptions]]:
     """Return the solvers of a study with their checked options."""
-    solvers = [(load(module_of(name, options[name])), options[name]) for name in study.solvers]
+    solvers = [
+        (load_solver(module_of(name, options[name])), options[name]) for name in study.solvers
+    ]
     return [(solver, read_options(solver, given)) for solver, given in solvers]
 
 
@@ -95,7 +97,7 @@ def check_tables(asked: Asked) -> Iterator[InputError]:
     """Find tables of solvers that are missing or cannot be read."""
     for _, checked in asked.solvers():
         try:
-            read_tables(checked.tables())
+            read_solver_tables(checked.tables())
         except InputError as error:
             yield error
 
@@ -181,7 +183,7 @@ def check_calibration_cases(asked: Asked) -> Iterator[InputError]:
         return
     solver, checked = next(one for one in asked.solvers() if one[0].name == PUBLISHED)
     try:
-        tables = read_tables(checked.tables())
+        tables = read_solver_tables(checked.tables())
     except InputError:
         return  # `check_tables` names it
     design = asked.design

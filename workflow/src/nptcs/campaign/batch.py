@@ -15,7 +15,7 @@ from nptcs.campaign.runner import run_cases
 from nptcs.campaign.schedule import cases_side_by_side
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.study import Study
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.solvers.registry import load_solver, module_of, read_options
 
 
 def solve_batch(
@@ -35,7 +35,7 @@ def solve_batch(
         Plain values: ``study`` (`Study.case_definition`), ``solver``, ``options``, ``tyre``,
         ``batch`` (from 1) and ``batches``.
     design : DataFrame
-        `nptcs.tables.tyres.cases.Design` of the study.
+        `nptcs.tables.tyres.cases.DesignTable` of the study.
     ply : mapping of str to float or None
         Ply constants, for a solver that needs them.
     store : RecordStore
@@ -53,7 +53,7 @@ def solve_batch(
     study, tyre = Study.model_validate(job["study"]), TyreGeometry.model_validate(job["tyre"])
     cases = design.iloc[job["batch"] - 1 :: job["batches"]]
     jobs = make_jobs(study, job["solver"], job["options"], tyre, cases, ply)
-    options = read_options(load(module_of(job["solver"], job["options"])), job["options"])
+    options = read_options(load_solver(module_of(job["solver"], job["options"])), job["options"])
     at_a_time = cases_side_by_side(cores, tokens, options)
     progress = ProgressWriter(log, study.name, job["solver"], at_a_time)
     return run_cases(jobs, store, at_a_time, progress.case)

@@ -24,7 +24,7 @@ import pandas as pd
 from nptcs.campaign import bulk_worker
 from nptcs.campaign.bulk_file import read_bulk, write_bulk
 from nptcs.campaign.progress import ProgressWriter
-from nptcs.campaign.record import read_tables
+from nptcs.campaign.record import read_solver_tables
 from nptcs.campaign.runner import (
     SENT_FROM_OUTSIDE,
     case_environment,
@@ -40,7 +40,7 @@ from nptcs.errors import InputError
 from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash
 from nptcs.solvers.contract import Solver, Status, TableInputs
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.solvers.registry import load_solver, module_of, read_options
 from nptcs.tables.status import has_result
 
 OUTSIDE = [status.value for status in Status if status.from_outside]
@@ -100,11 +100,11 @@ class _Table:
     ) -> _Table:
         """Join the cases of a design with what all of them share."""
         module = module_of(solver_name, options)
-        solver = load(module)
+        solver = load_solver(module)
         checked = read_options(solver, options)
         given = dict(ply) if solver.needs_ply and ply is not None else None
         values = cases.drop(columns="case").reset_index(drop=True)
-        tables = read_tables(checked.tables())
+        tables = read_solver_tables(checked.tables())
         return cls(solver, module, TableInputs(values, study.load_n, tyre, checked, given, tables))
 
     def folder(self, store: str | Path) -> Path:

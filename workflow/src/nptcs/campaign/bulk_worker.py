@@ -14,7 +14,7 @@ import pandas as pd
 
 from nptcs.campaign.worker import begin_in, message_of, of_the_machine
 from nptcs.solvers.contract import TYRE_RESPONSES, Solver, Status, TableInputs
-from nptcs.solvers.registry import load, read_options
+from nptcs.solvers.registry import load_solver, read_options
 from nptcs.tables.status import has_result
 from nptcs.tables.tyres.cases import realised_column
 
@@ -32,7 +32,7 @@ def run(
     """
     begin_in(folder)
     start = time.perf_counter()
-    solver = load(module)
+    solver = load_solver(module)
     results = solve_part(solver, replace(inputs, options=read_options(solver, options)))
     channel.send((results, time.perf_counter() - start))
     channel.close()
@@ -76,7 +76,7 @@ def failed_row(status: Status, message: str, died: bool = False) -> pd.DataFrame
 
 
 def _checked(solver: Solver, inputs: TableInputs, results: pd.DataFrame) -> pd.DataFrame:
-    """Hold a table against the contract: a case that says ok has its finite responses."""
+    """Check a table against the contract: a case with status ok has finite responses."""
     if len(results) != len(inputs.cases):
         raise ValueError(
             f"solver '{solver.name}' gives {len(results)} rows for {len(inputs.cases)} cases"

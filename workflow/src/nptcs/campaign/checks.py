@@ -100,7 +100,9 @@ def name_faults(specimens: Sequence[Specimen], config: Config) -> list[InputErro
         if name.partition(".")[0].lower() in KEPT_BY_WINDOWS
     ]
     for kind, used in names.items():
-        faults += [_unfit(kind, name) for name in used if len(name) > LONGEST_NAME or repeats(name)]
+        faults += [
+            _unfit(kind, name) for name in used if len(name) > LONGEST_NAME or repeats_a_piece(name)
+        ]
     return faults
 
 
@@ -150,12 +152,12 @@ MOST_REPEATS = 15
 """Times that a piece of a name may be repeated in a row; Snakemake refuses 20 as endless."""
 
 
-def repeats(name: str) -> bool:
+def repeats_a_piece(name: str) -> bool:
     """Tell whether a piece of a name is repeated in a row more often than `MOST_REPEATS`.
 
     Examples
     --------
-    >>> repeats("T0-" + "0" * 12), repeats("T0-" + "01" * 16)
+    >>> repeats_a_piece("T0-" + "0" * 12), repeats_a_piece("T0-" + "01" * 16)
     (False, True)
     """
     longest = len(name) // (MOST_REPEATS + 1)

@@ -7,11 +7,11 @@ from typing import Any
 
 import pandas as pd
 
-from nptcs.campaign.record import CaseJob, read_tables
+from nptcs.campaign.record import CaseJob, read_solver_tables
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.study import Study
 from nptcs.provenance import code_hash
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.solvers.registry import load_solver, module_of, read_options
 
 
 def make_jobs(
@@ -45,9 +45,9 @@ def make_jobs(
         One per row of `design`.
     """
     module = module_of(solver_name, options)
-    solver = load(module)
+    solver = load_solver(module)
     checked = read_options(solver, options)
-    tables = read_tables(checked.tables())
+    tables = read_solver_tables(checked.tables())
     code = code_hash(module)
     return [
         CaseJob(

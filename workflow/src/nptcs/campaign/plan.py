@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import math
 import shutil
 from dataclasses import dataclass
 from itertools import islice
 from pathlib import Path
-from statistics import median
+from statistics import mean, median
 
 from nptcs.campaign.answers import Asked, rounding_notes, solvers_of
 from nptcs.campaign.bulk import in_bulk, known_in_bulk
@@ -14,10 +15,12 @@ from nptcs.campaign.jobs import make_jobs
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.schedule import batch_cores
 from nptcs.config.root import Config
+from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.study import Study
 from nptcs.design import build_design
 from nptcs.errors import InputError
 from nptcs.files import read_model
+from nptcs.solvers.contract import Solver, SolverOptions
 from nptcs.tables.laboratory.material_card import MaterialCard
 
 SAMPLE = 300
@@ -33,12 +36,23 @@ BULK_RECORD_MB = 2.5e-4
 
 @dataclass(frozen=True)
 class Costs:
-    """Median cost of the stored cases of one solver, or what it states of itself."""
+    """Mean time and median sizes of the stored cases of one solver, or what it states of itself.
+
+    Cases that share a part with an earlier one (`Solver.shares`) take `shared_seconds`.
+    """
 
     seconds: float
     memory_mb: float | None
     record_mb: float
     measured: bool = True
+    shared_seconds: float | None = None
+
+    def total_s(self, cases: int, parts: int) -> float:
+        """Time of cases that have this number of different parts between them."""
+        if self.shared_seconds is None:
+            return cases * self.seconds
+        own = min(parts, cases)
+        return own * self.seconds + (cases - own) * self.shared_seconds
 
 
 def costs_by_solver(store: RecordStore) -> dict[str, Costs]:
@@ -57,7 +71,7 @@ def costs_by_solver(store: RecordStore) -> dict[str, Costs]:
 def _costs(records: list[tuple[CaseRecord, float]]) -> Costs:
     memory = [r.peak_memory_mb for r, _ in records if r.peak_memory_mb is not None]
     return Costs(
-        median(record.wall_time_s for record, _ in records),
+        mean(record.wall_time_s for record, _ in records),
         median(memory) if memory else None,
         median(size for _, size in records),
     )
@@ -114,12 +128,14 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
         for solver, checked in solvers_of(study, config.solver_options(study)):
             cores = batch_cores(config.campaign.cores_per_batch, checked)
             at_a_time = max(1, cores // checked.cores_per_case())
-            stated = Costs(checked.case_s, checked.case_memory_mb, RECORD_MB, measured=False)
-            cost = costs.get(solver.name, stated)
-            if in_bulk(solver, study.number_of_cases(), config.campaign.bulk_from):
-                seconds = solver.table_case_s or checked.case_s
-                cost = Costs(seconds, checked.case_memory_mb, BULK_RECORD_MB, measured=False)
-            words, needed_mb = _words(study.number_of_cases(), known[solver.name], cost, at_a_time)
+            bulk = in_bulk(solver, study.number_of_cases(), config.campaign.bulk_from)
+            cost = _stated(solver, checked, bulk)
+            if not bulk:
+                cost = costs.get(solver.name, cost)
+            parts = different_parts(study, solver, config.tyre)
+            words, needed_mb = _words(
+                study.number_of_cases(), known[solver.name], parts, cost, at_a_time
+            )
             lines.append(f"  {solver.name}: {words}")
             if solver.name in rounded:
                 lines.append(f"    it rounds: {rounded[solver.name]}")
@@ -129,7 +145,33 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
     return lines
 
 
-def _words(cases: int, known: int | None, cost: Costs, at_a_time: int) -> tuple[str, float]:
+def _stated(solver: Solver, checked: SolverOptions, bulk: bool) -> Costs:
+    """Return what a solver states of the cost of its cases."""
+    alone = bulk and solver.table_case_s is not None
+    return Costs(
+        solver.table_case_s if alone and solver.table_case_s else checked.case_s,
+        checked.case_memory_mb,
+        BULK_RECORD_MB if bulk else RECORD_MB,
+        measured=False,
+        shared_seconds=solver.shared_case_s if solver.shares else None,
+    )
+
+
+def different_parts(study: Study, solver: Solver, tyre: TyreGeometry) -> int:
+    """Count the different parts that the cases of a study share: of a joint study its spokes.
+
+    Rubbers of the card do not vary within a study: their values make no difference here.
+    """
+    if not solver.shares:
+        return study.number_of_cases()
+    design = build_design(study, dict.fromkeys(study.rubbers(), 1.0), tyre)
+    varied = [name for name in design.columns if name in solver.shares]
+    return len(design[varied].drop_duplicates()) if varied else 1
+
+
+def _words(
+    cases: int, known: int | None, parts: int, cost: Costs, at_a_time: int
+) -> tuple[str, float]:
     """Describe what one solver has to do; also the space of its records in MB."""
     if known is None:
         new, how_many = cases, "known cases are counted once the materials are calibrated"
@@ -137,7 +179,7 @@ def _words(cases: int, known: int | None, cost: Costs, at_a_time: int) -> tuple[
         new, how_many = cases - known, f"{known:,} known, {cases - known:,} to solve"
     if new == 0:
         return how_many, 0.0
-    seconds = new * cost.seconds / at_a_time
+    seconds = cost.total_s(new, math.ceil(parts * new / cases)) / at_a_time
     time = f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:,.0f} min"
     memory = "" if cost.memory_mb is None else f", {cost.memory_mb * at_a_time:,.0f} MB of memory"
     source = "" if cost.measured else " (as the solver states; no case of it is stored)"

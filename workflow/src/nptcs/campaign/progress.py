@@ -76,7 +76,7 @@ class ProgressWriter:
         self._write(done, total, (total - done) * seconds / solved if solved else None)
 
     def _line(self, text: str) -> None:
-        """Add to the log; a log that cannot be written ends no case."""
+        """Add to the log; a log that cannot be written does not stop a case."""
         with suppress(OSError), self.log.open("a", encoding="utf-8") as stream:
             stream.write(f"{self.study}/{self.solver} {text}\n")
 

@@ -171,7 +171,7 @@ def write_records(path: str | Path, records: Sequence[CaseRecord]) -> None:
     write_text(path, sealed_lines([record.model_dump_json() for record in records], "CaseRecords"))
 
 
-def read_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
+def read_solver_tables(paths: Mapping[str, str]) -> dict[str, list[dict[str, Any]]]:
     """Read the CSV files that a solver needs, as rows of plain numbers and text.
 
     Raises

@@ -21,7 +21,7 @@ from nptcs.campaign.record import CaseJob, CaseRecord, RecordStore, make_record
 from nptcs.processes.marked import MARK, end_marked
 from nptcs.processes.scratch import scratch_folder, socket_folder
 from nptcs.solvers.contract import SolverResult, Status
-from nptcs.solvers.registry import load
+from nptcs.solvers.registry import load_solver
 
 THREAD_LIMITS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 """Set to 1 for every case: cases run side by side, and threads waiting for a core cost time."""
@@ -102,7 +102,7 @@ def _solve_all(
     context = multiprocessing.get_context("forkserver")
     modules = {jobs[position].module for position in waiting}
     preload = {module for module in modules if not module.endswith(".py")}
-    preload.update(*(load(module).preload for module in sorted(preload)))
+    preload.update(*(load_solver(module).preload for module in sorted(preload)))
     context.set_forkserver_preload(["nptcs.campaign.worker", *sorted(preload)])
     queue = list(reversed(waiting))
     running: dict[int, _Running] = {}

@@ -21,13 +21,13 @@ from nptcs.processes.marked import MARK
 from nptcs.processes.stops import leave_in_order
 from nptcs.solvers.contract import CaseInputs, SolverResult, Status
 from nptcs.solvers.external import end_all
-from nptcs.solvers.registry import load, read_options
+from nptcs.solvers.registry import load_solver, read_options
 
 
 def solve(job: CaseJob) -> SolverResult:
     """Solve a case; a solver that raises or leaves a response out gives status ``error``."""
     try:
-        solver = load(job.module)
+        solver = load_solver(job.module)
         inputs = CaseInputs(
             case_id=job.case_id,
             values=job.values,

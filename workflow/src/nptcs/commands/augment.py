@@ -6,7 +6,7 @@ import argparse
 from pathlib import Path
 from typing import Any
 
-from nptcs.arguments import add_command, existing_file, existing_folder, whole
+from nptcs.arguments import add_command, existing_file, existing_folder, whole_number_type
 
 
 def register(subparsers: Any) -> None:
@@ -24,7 +24,7 @@ def register(subparsers: Any) -> None:
     parser.add_argument("--solver", required=True, help="solver whose surface is used")
     parser.add_argument("--surface", default="polynomial", help="its name; default: %(default)s")
     parser.add_argument(
-        "--cases", type=whole(1, 100), default=5, help="how many; default: %(default)s"
+        "--cases", type=whole_number_type(1, 100), default=5, help="how many; default: %(default)s"
     )
     parser.add_argument(
         "--config",

@@ -9,7 +9,7 @@ from contextlib import ExitStack
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, get_args
 
-from nptcs.arguments import add_command, number, output_file
+from nptcs.arguments import add_command, number_type, output_file
 from nptcs.language import Language
 from nptcs.ranges import Range
 from nptcs.text_table import text_table
@@ -95,14 +95,14 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument("--json", action="store_true", help="print JSON for programs")
     parser.add_argument(
         "--k",
-        type=number(Range(0, open_low=True)),
+        type=number_type(Range(0, open_low=True)),
         default=2.0,
         help="coverage factor: a constant differs by more than its uncertainty if |B - A| > k "
         "times the combined standard error; default: %(default)g",
     )
     parser.add_argument(
         "--within",
-        type=number(Range(0, 1)),
+        type=number_type(Range(0, 1)),
         default=1e-9,
         help="relative difference up to which numbers are the same; default: %(default)g",
     )

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nptcs.arguments import add_card, add_command, existing_file, factor, output_file
+from nptcs.arguments import add_card, add_command, existing_file, factor_type, output_file
 
 if TYPE_CHECKING:
     from nptcs.config.solvers.tyre import TyreGeometry
@@ -55,7 +55,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     )
     parser.add_argument(
         "--load",
-        type=factor("load_n"),
+        type=factor_type("load_n"),
         default=5000.0,
         help="load on the tyre (N; Abaqus only; 5000)",
     )
@@ -67,7 +67,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         ("angle", "angle_deg", "plates' fibre angle (degrees)"),
     ):
         parser.add_argument(
-            f"--{name}", type=factor(column), help=f"{what}, where the table has no such column"
+            f"--{name}",
+            type=factor_type(column),
+            help=f"{what}, where the table has no such column",
         )
     parser.set_defaults(run=run)
 
@@ -110,10 +112,10 @@ def _calculix(inputs: CaseInputs) -> str:
 def _inputs(arguments: argparse.Namespace, ply: Mapping[str, float]) -> CaseInputs:
     """Collect what the solver is given for the case."""
     from nptcs.solvers.contract import CaseInputs
-    from nptcs.solvers.registry import MODULES, load, read_options
+    from nptcs.solvers.registry import MODULES, load_solver, read_options
 
     tyre, options = _configuration(arguments.config, arguments.solver)
-    solver = load(MODULES[arguments.solver])
+    solver = load_solver(MODULES[arguments.solver])
     return CaseInputs(
         case_id=arguments.case,
         values=_values(arguments),

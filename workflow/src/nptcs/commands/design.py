@@ -8,14 +8,20 @@ import sys
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nptcs.arguments import add_command, existing_file, existing_folder, number, whole
+from nptcs.arguments import (
+    add_command,
+    existing_file,
+    existing_folder,
+    number_type,
+    whole_number_type,
+)
 from nptcs.ranges import Range
 
 if TYPE_CHECKING:
     from nptcs.config.root import Config
     from nptcs.config.studies.decisions import Decision
     from nptcs.decisions.decide import Outcome
-    from nptcs.decisions.tables import Answer
+    from nptcs.decisions.tables import DecisionAnswer
 
 EXAMPLES = (
     "nptcs design k300",
@@ -59,7 +65,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         parser.add_argument(f"--{name}", action="append", default=[], metavar="GOAL", help=words)
     parser.add_argument(
         "--with-probability",
-        type=number(Range(0, 1, open_low=True, open_high=True)),
+        type=number_type(Range(0, 1, open_low=True, open_high=True)),
         metavar="P",
         help="with which all targets and bounds must hold together; default: 0.9",
     )
@@ -76,10 +82,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         metavar="FACTOR=STEP",
         help="step of the values that can be made",
     )
-    parser.add_argument("--top", type=whole(1, 50), help="designs to list; default: 5")
+    parser.add_argument("--top", type=whole_number_type(1, 50), help="designs to list; default: 5")
     parser.add_argument("--confirm", action="store_true", help="solve the chosen design")
     parser.add_argument(
-        "--cores", type=whole(1), default=1, help="for --confirm; default: %(default)s"
+        "--cores", type=whole_number_type(1), default=1, help="for --confirm; default: %(default)s"
     )
     parser.add_argument("--json", action="store_true", help="print JSON for programs")
     parser.add_argument(
@@ -177,7 +183,7 @@ def decision_of(arguments: argparse.Namespace, config: Config) -> Decision:
     return decision
 
 
-def as_text(done: Answer) -> str:
+def as_text(done: DecisionAnswer) -> str:
     """Write an answer for a reader."""
     from nptcs.decisions.tables import goals_text
 
@@ -241,7 +247,7 @@ def _designs_table(outcome: Outcome) -> str:
     return text_table(titles, rows, [True] * len(titles))
 
 
-def as_json(done: Answer) -> str:
+def as_json(done: DecisionAnswer) -> str:
     """Write an answer for a program: the rows of the result tables."""
     from nptcs.decisions.tables import decision_tables
 
@@ -257,7 +263,7 @@ def as_json(done: Answer) -> str:
     return json.dumps(plain, indent=1, ensure_ascii=False)
 
 
-def _round_lines(done: Answer) -> list[str]:
+def _round_lines(done: DecisionAnswer) -> list[str]:
     lines = []
     for place, one in enumerate(done.rounds, start=1):
         for name, compared in one.compared.items():
@@ -272,7 +278,7 @@ def _round_lines(done: Answer) -> list[str]:
     return lines
 
 
-def _added(done: Answer) -> list[dict[str, float]]:
+def _added(done: DecisionAnswer) -> list[dict[str, float]]:
     """Return the designs that were solved outside the prediction."""
     return [
         one.outcome.design(one.outcome.choice) for one in done.rounds if one.result == "outside"

@@ -5,7 +5,7 @@ from __future__ import annotations
 import argparse
 from typing import Any
 
-from nptcs.arguments import add_command, output_folder, whole
+from nptcs.arguments import add_command, output_folder, whole_number_type
 
 
 def register(subparsers: Any) -> None:
@@ -20,7 +20,7 @@ def register(subparsers: Any) -> None:
     )
     parser.add_argument("folder", type=output_folder, help="folder to write to")
     parser.add_argument(
-        "--seed", type=whole(0), default=None, help="default: that of raw_data/example"
+        "--seed", type=whole_number_type(0), default=None, help="default: that of raw_data/example"
     )
     parser.set_defaults(run=run)
 

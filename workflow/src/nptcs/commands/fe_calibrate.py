@@ -5,13 +5,19 @@ from __future__ import annotations
 import argparse
 from typing import TYPE_CHECKING, get_args
 
-from nptcs.arguments import add_command, existing_file, factor, output_folder, whole
+from nptcs.arguments import (
+    add_command,
+    existing_file,
+    factor_type,
+    output_folder,
+    whole_number_type,
+)
 from nptcs.config.solvers.fe import AxialFreedom, RingKind
 
 if TYPE_CHECKING:
     import pandas
 
-    from nptcs.fe.calibration import CalibrationProblem, Round
+    from nptcs.fe.calibration import CalibrationProblem, CalibrationRound
 
 # fiducial, and the corners of spacing with the softest and the stiffest plates
 CASES = (32, 49, 15, 7, 57)
@@ -51,23 +57,30 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="the paper's table 5: stiffness of tyres by plate design",
     )
     parser.add_argument(
-        "--cases", type=whole(1), nargs="+", default=CASES, help="cases of table 5, at most five"
+        "--cases",
+        type=whole_number_type(1),
+        nargs="+",
+        default=CASES,
+        help="cases of table 5, at most five",
     )
     parser.add_argument(
-        "--rounds", type=whole(1, 50), default=2, help="Gauss–Newton steps (default: %(default)s)"
+        "--rounds",
+        type=whole_number_type(1, 50),
+        default=2,
+        help="Gauss–Newton steps (default: %(default)s)",
     )
     parser.add_argument(
-        "--workers", type=whole(1), default=2, help="processes (default: %(default)s)"
+        "--workers", type=whole_number_type(1), default=2, help="processes (default: %(default)s)"
     )
     parser.add_argument(
         "--band-c10",
-        type=factor("shear_band_c10_mpa"),
+        type=factor_type("shear_band_c10_mpa"),
         default=5.0,
         help="C10 of the band in table 5, which does not state it (MPa; default: %(default)s)",
     )
     parser.add_argument(
         "--spoke-c10",
-        type=factor("spoke_c10_mpa"),
+        type=factor_type("spoke_c10_mpa"),
         default=1.04,
         help="C10 of the spokes in table 5, which does not state it (MPa; default: %(default)s)",
     )
@@ -188,7 +201,7 @@ def _read(path: str, columns: tuple[str, ...]) -> pandas.DataFrame:
     return table
 
 
-def _report(problem: CalibrationProblem, state: Round) -> None:
+def _report(problem: CalibrationProblem, state: CalibrationRound) -> None:
     """Print one round: dimensions, then computed against wanted."""
     import numpy as np
 

@@ -8,7 +8,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 
-from nptcs.arguments import FIGURES, add_card, add_command, factor, output_file
+from nptcs.arguments import FIGURES, add_card, add_command, factor_type, output_file
 from nptcs.ranges import RANGES
 
 if TYPE_CHECKING:
@@ -59,7 +59,7 @@ def add_design(parser: argparse.ArgumentParser) -> None:
     ):
         parser.add_argument(
             OPTIONS[column],
-            type=factor(column),
+            type=factor_type(column),
             default=value,
             metavar="NUMBER",
             help=f"{words}, {RANGES[column]}; default: %(default)s",
@@ -85,7 +85,7 @@ def c10_or_rubber(text: str) -> float | str:
         float(text)
     except ValueError:
         return text
-    return factor("spoke_c10_mpa")(text)
+    return factor_type("spoke_c10_mpa")(text)
 
 
 @dataclass(frozen=True)

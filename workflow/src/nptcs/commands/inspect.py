@@ -37,13 +37,13 @@ def run(arguments: argparse.Namespace) -> int:
     from nptcs.config.materials.ingest import limits_in
     from nptcs.errors import InputError
     from nptcs.files import write_text
-    from nptcs.ingest.inspect import describe, draft_profile, inspect_file
+    from nptcs.ingest.inspect import draft_profile, inspect_file, inspection_text
     from nptcs.ingest.reading.profiles import choose, load_profiles
 
     profiles = load_profiles(arguments.formats)
     declared = choose(arguments.format, profiles, "") if arguments.format else None
     inspection = inspect_file(Path(arguments.file), profiles, declared, limits_in(arguments.config))
-    print(describe(inspection))
+    print(inspection_text(inspection))
     if arguments.write_profile is not None:
         target = Path(arguments.write_profile)
         if target.exists():

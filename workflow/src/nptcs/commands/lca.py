@@ -8,7 +8,7 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from nptcs.arguments import FIGURES, add_command, existing_file, output_file, whole
+from nptcs.arguments import FIGURES, add_command, existing_file, output_file, whole_number_type
 
 if TYPE_CHECKING:
     import pandas
@@ -62,7 +62,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="draw the deformed ring of one row (.svg, .png or .pdf)",
     )
     parser.add_argument(
-        "--row", type=whole(1), default=1, help="row to draw, counted from 1; default: %(default)s"
+        "--row",
+        type=whole_number_type(1),
+        default=1,
+        help="row to draw, counted from 1; default: %(default)s",
     )
     parser.set_defaults(run=run)
 

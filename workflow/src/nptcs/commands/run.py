@@ -7,7 +7,7 @@ import os
 import sys
 from pathlib import Path
 
-from nptcs.arguments import add_command, add_project, existing_file, whole
+from nptcs.arguments import add_command, add_project, existing_file, whole_number_type
 
 CONFIG = "config/config.yaml"
 """The configuration that the Snakefile names itself; further files go on top of it."""
@@ -38,7 +38,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser.add_argument(
         "-j",
         "--cores",
-        type=whole(1),
+        type=whole_number_type(1),
         default=usable_cores(),
         metavar="N",
         help="cores to use; default: all of this machine",

@@ -65,7 +65,7 @@ def schema_text() -> str:
 def reference_text() -> str:
     """Return the reference page: a table of keys for each section."""
     from nptcs.config.root import Config
-    from nptcs.solvers.registry import MODULES, load
+    from nptcs.solvers.registry import MODULES, load_solver
 
     lines = [
         "# Configuration reference",
@@ -76,7 +76,7 @@ def reference_text() -> str:
     ]
     lines += _section("config/config.yaml", Config.model_json_schema())
     for name, module in MODULES.items():
-        lines += _section(f"solvers.{name}", load(module).options.model_json_schema())
+        lines += _section(f"solvers.{name}", load_solver(module).options.model_json_schema())
     return "\n".join(lines)
 
 

@@ -6,7 +6,13 @@ import argparse
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from nptcs.arguments import add_command, existing_file, existing_folder, output_file, whole
+from nptcs.arguments import (
+    add_command,
+    existing_file,
+    existing_folder,
+    output_file,
+    whole_number_type,
+)
 
 if TYPE_CHECKING:
     from nptcs.ring.surrogate.stored import StoredSurrogate
@@ -77,7 +83,11 @@ def register(subparsers: Any) -> None:
     )
     solve.add_argument("--surrogate", default=FILE, help="default: %(default)s")
     solve.add_argument(
-        "-j", "--workers", type=whole(1), default=1, help="processes; default: %(default)s"
+        "-j",
+        "--workers",
+        type=whole_number_type(1),
+        default=1,
+        help="processes; default: %(default)s",
     )
     solve.set_defaults(run=run_solve)
 
@@ -135,7 +145,7 @@ def _fitted(arguments: argparse.Namespace) -> StoredSurrogate:
     from nptcs.tables.io import read_table
     from nptcs.tables.laboratory.material_card import PlyCard
     from nptcs.tables.laboratory.specimens import read_sheet
-    from nptcs.tables.tyres.cases import Design
+    from nptcs.tables.tyres.cases import DesignTable
 
     config = read_config_files(arguments.config)
     known = [study.name for study in config.studies if "ring" in study.solvers]
@@ -150,7 +160,7 @@ def _fitted(arguments: argparse.Namespace) -> StoredSurrogate:
     specimens, _ = read_sheet(config.lab_data.specimen_sheet)
     ply = ply_of(study, specimens, config.calibration)
     card = read_model(results / f"3_calibrate/{ply}.json", PlyCard)
-    designs = read_table(results / f"4_design/{study.name}.csv", Design)
+    designs = read_table(results / f"4_design/{study.name}.csv", DesignTable)
     fitted = fit_surrogate(designs, options, config.tyre, card.values(), options.spoke_cache)
     return StoredSurrogate(fitted, config.tyre, options, study.name)
 

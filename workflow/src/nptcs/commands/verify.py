@@ -9,7 +9,7 @@ import sys
 import tempfile
 from pathlib import Path
 
-from nptcs.arguments import add_command, number, whole
+from nptcs.arguments import add_command, number_type, whole_number_type
 from nptcs.ranges import Range
 
 
@@ -32,10 +32,12 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         help="unpack to this new folder, run the study there with the archived code, and compare "
         "its tables with the archived ones",
     )
-    parser.add_argument("--jobs", type=whole(1), default=2, help="cores of the run; default: 2")
+    parser.add_argument(
+        "--jobs", type=whole_number_type(1), default=2, help="cores of the run; default: 2"
+    )
     parser.add_argument(
         "--within",
-        type=number(Range(0, 1)),
+        type=number_type(Range(0, 1)),
         default=1e-6,
         help="relative difference up to which numbers of the new run count as the same: another "
         "processor rounds differently; default: %(default)s",

@@ -1,4 +1,4 @@
-"""The conditions under which the paper made its tables: what else is not put next to them.
+"""The conditions under which the paper made its tables; other results are not compared with them.
 
 A coefficient that holds at 5000 N says nothing of a study at 4000 N, nor does one that was fitted
 over another range. Where a study differs the published values are left out and the reason is said.

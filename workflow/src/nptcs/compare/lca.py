@@ -15,7 +15,7 @@ import pandas as pd
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.lca.batch import solve_batch
 from nptcs.lca.neutral_line import neutral_line
-from nptcs.lca.section import SECTION_KINDS, RingSection, SectionKind
+from nptcs.lca.section import SECTION_KINDS, SectionKind, ShearBandSection
 from nptcs.lca.single import design_row, solve
 from nptcs.lca.spokes.stiffness_table import SpokeStiffnessTable
 
@@ -38,7 +38,8 @@ def _solve_cases(
     designs = pd.DataFrame(
         [
             design_row(
-                RingSection.from_tyre(tyre, band, section), spokes.spokes(spoke, tyre.spoke_count)
+                ShearBandSection.from_tyre(tyre, band, section),
+                spokes.spokes(spoke, tyre.spoke_count),
             )
             for band, spoke in zip(cases["shear_band_c10_mpa"], cases["spoke_c10_mpa"], strict=True)
         ]
@@ -52,7 +53,7 @@ def _solve_cases(
 
 
 def _percent(computed: pd.Series[float], published: pd.Series[float]) -> pd.Series[float]:
-    """Difference of ours from the published value, in percent of the latter."""
+    """Difference of the computed from the published value, in percent of the published one."""
     return 100 * (computed / published - 1)
 
 
@@ -185,7 +186,7 @@ def ring_neutral_lines(
         Points around each ring.
     """
     spokes = SpokeStiffnessTable.from_rows(spoke_table.to_dict("records"))
-    ring = RingSection.from_tyre(tyre, shear_band_c10_mpa, section)
+    ring = ShearBandSection.from_tyre(tyre, shear_band_c10_mpa, section)
     lines = []
     for c10, load in zip(table_11["spoke_c10_mpa"], table_11["lca_force_n"], strict=True):
         state = solve(ring, spokes.spokes(float(c10), tyre.spoke_count), load_n=float(load))

@@ -16,7 +16,7 @@ def case_ids(designs: Sequence[pd.DataFrame], numbers: Sequence[Collection[int]]
     Parameters
     ----------
     designs : sequence of DataFrame
-        `nptcs.tables.tyres.cases.Design` of each study.
+        `nptcs.tables.tyres.cases.DesignTable` of each study.
     numbers : sequence of a collection of int
         Numbers of the cases, in the same order of studies.
     """

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import BaseModel, ValidationError
 
 
-def describe(error: ValidationError, model: type[BaseModel]) -> str:
+def describe_faults(error: ValidationError, model: type[BaseModel]) -> str:
     """Turn a validation error into one line per fault: key path, fault, nearest known key."""
     lines = []
     for fault in error.errors():

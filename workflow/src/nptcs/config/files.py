@@ -26,23 +26,23 @@ def read_config_files(paths: Sequence[str]) -> Config:
         content = read_yaml(path) or {}
         if not isinstance(content, dict):
             raise InputError("is not a configuration", "write 'key: value' lines", path)
-        values = joined(values, content)
+        values = overlaid(values, content)
     return read_config(values, " + ".join(paths))
 
 
-def joined(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
+def overlaid(below: Mapping[str, Any], above: Mapping[str, Any]) -> dict[str, Any]:
     """Put one section on top of another.
 
     Examples
     --------
-    >>> joined({"a": 1, "b": {"c": 2, "d": 3}}, {"b": {"c": 4}})
+    >>> overlaid({"a": 1, "b": {"c": 2, "d": 3}}, {"b": {"c": 4}})
     {'a': 1, 'b': {'c': 4, 'd': 3}}
     """
     result = dict(below)
     for key, value in above.items():
         old = result.get(key)
         if isinstance(old, Mapping) and isinstance(value, Mapping):
-            result[key] = joined(old, value)
+            result[key] = overlaid(old, value)
         else:
             result[key] = value
     return result

@@ -8,7 +8,7 @@ from typing import Any, Self
 from pydantic import Field, ValidationError, model_validator
 
 from nptcs.config.base import Strict
-from nptcs.config.explain import describe
+from nptcs.config.explain import describe_faults
 from nptcs.config.laboratory import Laboratory
 from nptcs.config.materials.calibration import CalibrationSettings
 from nptcs.config.materials.ingest import IngestSettings
@@ -18,7 +18,7 @@ from nptcs.config.studies.decisions import Decision
 from nptcs.config.studies.responses import TyreResponseSettings
 from nptcs.config.studies.sensitivity import Sensitivity
 from nptcs.config.studies.study import Study
-from nptcs.config.studies.surface import GaussianProcessModel, name_of
+from nptcs.config.studies.surface import GaussianProcessModel, surface_name
 from nptcs.config.studies.uncertainty import Uncertainty
 from nptcs.errors import InputError
 from nptcs.files import files_below
@@ -77,7 +77,7 @@ class Campaign(Strict):
     )
 
 
-class LcaValidation(Strict):
+class LcaValidationSettings(Strict):
     """Published values against which the load-bearing model is checked."""
 
     spoke_stiffness: str = Field(
@@ -130,7 +130,7 @@ class Config(Strict):
     sensitivity: Sensitivity = Sensitivity()
     uncertainty: Uncertainty = Uncertainty()
     tyre_responses: TyreResponseSettings = TyreResponseSettings()
-    lca_validation: LcaValidation = LcaValidation()
+    lca_validation: LcaValidationSettings = LcaValidationSettings()
     report: ReportSettings = ReportSettings()
     laboratory: Laboratory = Laboratory()
 
@@ -283,10 +283,12 @@ def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> 
     try:
         return Config.model_validate(values)
     except ValidationError as error:
-        raise InputError(describe(error, Config), file=file) from None
+        raise InputError(describe_faults(error, Config), file=file) from None
 
 
 def surface_names(study: Study) -> list[str]:
     """Name the surfaces that can answer for a study with terms, each once."""
     process = GaussianProcessModel(kind="gaussian_process")
-    return list(dict.fromkeys(["polynomial", *map(name_of, study.surfaces), name_of(process)]))
+    return list(
+        dict.fromkeys(["polynomial", *map(surface_name, study.surfaces), surface_name(process)])
+    )

@@ -45,7 +45,7 @@ class Compared:
 
 
 @dataclass(frozen=True)
-class Round:
+class ConfirmationRound:
     """A chosen design that was solved.
 
     Parameters
@@ -112,7 +112,7 @@ class SolverRun:
 
 def confirmed(
     decision: Decision, source: Source, run: SolverRun
-) -> tuple[Outcome, list[Round], Source]:
+) -> tuple[Outcome, list[ConfirmationRound], Source]:
     """Decide, solve the choice, and choose again with that case while it is outside the interval.
 
     Parameters
@@ -126,18 +126,18 @@ def confirmed(
     -------
     outcome : Outcome
         The last choice.
-    rounds : list of Round
+    rounds : list of ConfirmationRound
         One per solved design; none where no design was acceptable.
     source : Source
         With the cases that were added.
     """
-    rounds: list[Round] = []
+    rounds: list[ConfirmationRound] = []
     outcome = decide(decision, source)
     while outcome.found.feasible and len(rounds) < decision.rounds:
         case_id = f"{decision.name}_{len(rounds) + 1}"
         design = pd.DataFrame([{"case_id": case_id, **outcome.design(outcome.choice)}])
         (record,), results = run.solve(source, design)
-        done = Round(outcome, record, compare(outcome, results))
+        done = ConfirmationRound(outcome, record, compare(outcome, results))
         again = done.result == "outside" and len(rounds) + 1 < decision.rounds
         rounds.append(replace(done, added=again))
         if not again:

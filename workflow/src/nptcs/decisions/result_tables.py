@@ -1,4 +1,4 @@
-"""All tables that decisions and their uncertainty end in, by the output that holds them."""
+"""All tables of decisions and of their uncertainty, by the output that holds them."""
 
 from __future__ import annotations
 

@@ -15,13 +15,13 @@ from nptcs.config.root import Config
 from nptcs.config.studies.decisions import Decision
 from nptcs.config.studies.goals import ResponseName
 from nptcs.config.studies.study import Study
-from nptcs.decisions.confirm import Round, SolverRun, confirmed
+from nptcs.decisions.confirm import ConfirmationRound, SolverRun, confirmed
 from nptcs.decisions.decide import decide
-from nptcs.decisions.tables import Answer
+from nptcs.decisions.tables import DecisionAnswer
 from nptcs.errors import InputError
 from nptcs.files import read_model
 from nptcs.responses.strength import ply_strengths
-from nptcs.solvers.registry import load, module_of
+from nptcs.solvers.registry import load_solver, module_of
 from nptcs.surface.registry import SurfaceRegistry
 from nptcs.surface.stored import read_registry
 from nptcs.tables.io import read_table
@@ -141,7 +141,7 @@ def source_of(
         solver in run.config.study(str(rubbers)).solvers
     ):
         varied = results_of(run.config.study(str(rubbers)), solver, *tables)
-    module = load(module_of(solver, run.config.options_of(study.name, solver)))
+    module = load_solver(module_of(solver, run.config.options_of(study.name, solver)))
     ply = _ply(run, study) if module.needs_ply or study.needs_ply() else None
     source = Source(
         results=results,
@@ -184,7 +184,7 @@ def solver_run(run: SolvedStudies, study: Study, solver: str, store: Path, cores
 
 def answer(
     run: SolvedStudies, decision: Decision, store: Path, cores: int
-) -> tuple[Answer, Source]:
+) -> tuple[DecisionAnswer, Source]:
     """Answer one decision, and confirm it where that is requested.
 
     Raises
@@ -196,12 +196,12 @@ def answer(
     solving = solver_run(run, study, decision.solver, store, cores)
     source = source_of(run, study, decision.solver, solving)
     start = time.process_time()
-    rounds: list[Round] = []
+    rounds: list[ConfirmationRound] = []
     if decision.confirm:
         outcome, rounds, source = confirmed(decision, source, solving)
     else:
         outcome = decide(decision, source)
-    return Answer(decision, outcome, tuple(rounds), time.process_time() - start), source
+    return DecisionAnswer(decision, outcome, tuple(rounds), time.process_time() - start), source
 
 
 @dataclass(frozen=True)
@@ -210,14 +210,14 @@ class Answered:
 
     Parameters
     ----------
-    answers : tuple of Answer
+    answers : tuple of DecisionAnswer
     designs : tuple of NamedDesign
         Reference designs and chosen ones.
     problems : DataFrame
         `nptcs.tables.problems.Problems`: what could not be answered or confirmed.
     """
 
-    answers: tuple[Answer, ...]
+    answers: tuple[DecisionAnswer, ...]
     designs: tuple[NamedDesign, ...]
     problems: pd.DataFrame
 
@@ -238,7 +238,7 @@ def answer_all(run: SolvedStudies, store: Path, cores: int) -> Answered:
         try:
             one, source = answer(run, decision, store, cores)
         except InputError as error:
-            answers.append(Answer(decision, None, refusal=str(error)))
+            answers.append(DecisionAnswer(decision, None, refusal=str(error)))
             problems.append(("decision", decision.name, decision.solver, "refused", str(error)))
             continue
         answers.append(one)
@@ -250,7 +250,7 @@ def answer_all(run: SolvedStudies, store: Path, cores: int) -> Answered:
     return Answered(tuple(answers), tuple(designs), problems_table(problems))
 
 
-def _faults(one: Answer) -> Iterator[tuple[str, str]]:
+def _faults(one: DecisionAnswer) -> Iterator[tuple[str, str]]:
     """Give status and message of what a reader must see."""
     if one.outcome is not None and not one.outcome.found.feasible:
         yield "infeasible", one.outcome.why
@@ -273,7 +273,7 @@ def _references(
     found, refused = [], []
     for solver in study.solvers:
         options = run.config.options_of(study.name, solver)
-        module = load(module_of(solver, options))
+        module = load_solver(module_of(solver, options))
         values = dict(study.reference)
         if module.realise is not None:
             realised = module.realise({**values, **_fixed_numbers(study)}, run.config.tyre)

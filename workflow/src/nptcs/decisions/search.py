@@ -95,7 +95,7 @@ def search(
     spread = [space.candidates(cell) for cell in space.cells]
     problem = problem.screened(np.vstack([points[:SCREENED] for points in spread]))
     parts = [problem.evaluate(points) for points in spread]
-    candidates = joined(parts)
+    candidates = joined_evaluations(parts)
     acceptable = candidates.probability >= probability
     if not acceptable.any():
         nearest = nearest_design(problem, space, candidates)
@@ -110,17 +110,19 @@ def search(
     best = [_best_of_cell(problem, space, part, scale, probability) for part in promising]
     found = [one for one in best if one is not None]
     rest = _make(problem, space, accepted, scale, top)
-    pool = joined([*found, chosen(rest, np.flatnonzero(rest.probability >= probability))])
+    pool = joined_evaluations(
+        [*found, chosen(rest, np.flatnonzero(rest.probability >= probability))]
+    )
     note = ""
     if not len(pool.x):
         note = "no design in the given steps meets the goals: the choice lies between the steps"
         pool = chosen(accepted, np.array([int(rank(problem, scale, accepted).argmax())]))
     # what was found may be better than any candidate: it has the desirability 1
-    scale = desirability(problem, joined([accepted, pool]))
+    scale = desirability(problem, joined_evaluations([accepted, pool]))
     value = rank(problem, scale, pool)
     picked = _different(pool.x, np.argsort(-value, kind="stable"), space, top)
     designs = chosen(pool, picked)
-    everything = joined([accepted, designs])
+    everything = joined_evaluations([accepted, designs])
     front = chosen(everything, np.flatnonzero(pareto(problem, everything)))
     return SearchResult(designs, scale.of(designs), True, candidates, acceptable, front, note)
 
@@ -176,7 +178,7 @@ def pareto(problem: DesignProblem, found: Evaluation) -> Mask:
     return kept
 
 
-def joined(parts: list[Evaluation]) -> Evaluation:
+def joined_evaluations(parts: list[Evaluation]) -> Evaluation:
     """Join evaluations of the same problem, one after the other."""
     first = parts[0]
     return Evaluation(

@@ -10,7 +10,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.studies.decisions import Decision
-from nptcs.decisions.confirm import Round
+from nptcs.decisions.confirm import ConfirmationRound
 from nptcs.decisions.decide import Outcome
 from nptcs.decisions.evaluate import meets
 from nptcs.doe.whole_plates import SPACING
@@ -24,7 +24,7 @@ from nptcs.uncertainty.tables import design_text
 
 
 @dataclass(frozen=True)
-class Answer:
+class DecisionAnswer:
     """What became of one decision.
 
     Parameters
@@ -32,7 +32,7 @@ class Answer:
     decision : Decision
     outcome : Outcome or None
         None where the question cannot be answered.
-    rounds : tuple of Round
+    rounds : tuple of ConfirmationRound
     cpu_s : float
         Processor time of fit and search; not a number without an outcome.
     refusal : str
@@ -41,7 +41,7 @@ class Answer:
 
     decision: Decision
     outcome: Outcome | None
-    rounds: tuple[Round, ...] = ()
+    rounds: tuple[ConfirmationRound, ...] = ()
     cpu_s: float = float("nan")
     refusal: str = ""
 
@@ -56,7 +56,7 @@ class DecisionTables:
     confirmation: pd.DataFrame
 
 
-def decision_tables(answers: Sequence[Answer]) -> DecisionTables:
+def decision_tables(answers: Sequence[DecisionAnswer]) -> DecisionTables:
     """Write the answers as tables."""
     outcomes = [answer.outcome for answer in answers if answer.outcome is not None]
     return DecisionTables(
@@ -92,7 +92,7 @@ def _columns(contract: type) -> list[str]:
     return list(contract.to_schema().columns)  # type: ignore[attr-defined]
 
 
-def _answer(answer: Answer) -> dict[str, object]:
+def _answer(answer: DecisionAnswer) -> dict[str, object]:
     decision, outcome = answer.decision, answer.outcome
     row: dict[str, object] = {
         "decision": decision.name,
@@ -177,7 +177,7 @@ def _front(outcome: Outcome) -> Iterator[dict[str, object]]:
             }
 
 
-def _confirmation(answer: Answer) -> Iterator[dict[str, object]]:
+def _confirmation(answer: DecisionAnswer) -> Iterator[dict[str, object]]:
     for number, one in enumerate(answer.rounds, start=1):
         outcome = one.outcome
         for name, compared in one.compared.items():

@@ -103,7 +103,7 @@ class CalibrationProblem:
 
 
 @dataclass(frozen=True)
-class Round:
+class CalibrationRound:
     """One round: the section, what it gives and the targets."""
 
     free: Array
@@ -160,7 +160,10 @@ def _job(problem: CalibrationProblem, job: tuple[Array, SpokeTarget | TyreTarget
 
 
 def calibrate(
-    problem: CalibrationProblem, rounds: int, workers: int, report: Callable[[Round], None]
+    problem: CalibrationProblem,
+    rounds: int,
+    workers: int,
+    report: Callable[[CalibrationRound], None],
 ) -> FeModel:
     """Find the section by rounds of damped Gauss–Newton steps.
 
@@ -189,7 +192,7 @@ def calibrate(
         for last in range(rounds + 1):
             free, computed = _reach(problem, best, step, pool.map)
             spokes, tyres = np.split(np.exp(computed), [2 * len(problem.spokes)])
-            report(Round(free.copy(), spokes.reshape(-1, 2), tyres))
+            report(CalibrationRound(free.copy(), spokes.reshape(-1, 2), tyres))
             if slopes is not None:
                 slopes = _corrected(slopes, free - best, computed - reached)
             misfit = _misfit(problem, computed, free - start)

@@ -53,15 +53,15 @@ def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> Sp
         return computed_table(design, model.table)
     key = table_key(design, model.table)
     path = folder / f"{key}.npz"
-    known = read_table(path, key)
+    known = read_energy_table(path, key)
     if known is not None:
         return known
     table = computed_table(design, model.table)
-    write_table(path, key, table)
+    write_energy_table(path, key, table)
     return table
 
 
-def write_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
+def write_energy_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
     """Write a table atomically, with its key and a checksum."""
     arrays = {
         "height_mm": np.array(table.height_mm),
@@ -75,8 +75,8 @@ def write_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
     write_arrays(path, f"{KIND} {key}", arrays)
 
 
-def read_table(path: Path, key: str) -> SpokeEnergyTable | None:
-    """Read a table that `write_table` wrote; None if there is no sound one under this key."""
+def read_energy_table(path: Path, key: str) -> SpokeEnergyTable | None:
+    """Read what `write_energy_table` wrote; None if there is no sound table under this key."""
     data = read_arrays(path, f"{KIND} {key}")
     if data is None:
         return None

@@ -15,7 +15,7 @@ from nptcs.tables.laboratory.curves import Role
 from nptcs.tables.laboratory.specimens import Specimen
 
 
-def read_tables(
+def read_specimen_tables(
     specimen: Specimen,
     folder: Path,
     profiles: Mapping[str, FormatProfile],

@@ -48,7 +48,7 @@ def _rounded(readings: Array) -> bytes:
     )
 
 
-def repeats(
+def records_that_repeat(
     records: Iterable[IngestRecord], pieces: Mapping[str, str] | None = None
 ) -> dict[str, str]:
     """Specimens whose data an earlier one has: specimen → the first one with these data.
@@ -83,7 +83,7 @@ def repeated_specimens(
     included = {specimen.specimen: specimen for specimen in specimens if specimen.include}
     by_name = {record.specimen: record for record in records}
     pieces = {name: specimen.piece for name, specimen in included.items()}
-    return repeats((by_name[name] for name in included if name in by_name), pieces)
+    return records_that_repeat((by_name[name] for name in included if name in by_name), pieces)
 
 
 def counted_once(specimens: Sequence[Specimen], records: Iterable[IngestRecord]) -> list[Specimen]:

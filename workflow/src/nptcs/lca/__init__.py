@@ -8,7 +8,7 @@ act one by one. Comparing with the paper belongs to `nptcs.compare`.
 
 from nptcs.lca.any_spokes.with_law import LawState, solve_law, stiffness_ripple
 from nptcs.lca.batch import Batch, solve_batch
-from nptcs.lca.section import RingSection
+from nptcs.lca.section import ShearBandSection
 from nptcs.lca.single import ModelError, curve, solve
 from nptcs.lca.spokes.law import SpokeLaw
 from nptcs.lca.spokes.linear import LinearSpokes
@@ -20,7 +20,7 @@ __all__ = [
     "LcaState",
     "LinearSpokes",
     "ModelError",
-    "RingSection",
+    "ShearBandSection",
     "SpokeLaw",
     "curve",
     "solve",

@@ -16,7 +16,7 @@ from nptcs.lca.linear.contact import LARGEST_KAPPA_ANGLE, hardness
 from nptcs.lca.linear.diagnosis import LARGEST_RESIDUAL, diagnose, doubts
 from nptcs.lca.linear.newton import Target, by_brackets, is_solution, newton, start_angle
 from nptcs.lca.linear.scaling import ScaledRing
-from nptcs.lca.linear.system import Arcs, Joined, join
+from nptcs.lca.linear.system import Arcs, Joined, join_regions
 
 CHUNK = 2048
 """Designs solved at once; more than this no longer fits the processor's cache."""
@@ -285,7 +285,7 @@ def _finish(
     if len(rows) < len(value):
         table = {column: values[rows] for column, values in table.items()}
         ring, arcs, value = ring.take(rows), arcs.take(rows), value[rows]
-    joined = join(ring, arcs, *angles)
+    joined = join_regions(ring, arcs, *angles)
     diagnosis = diagnose(ring, arcs, joined)
     numbers = _numbers(table, ring, joined)
     numbers["balance_residual"] = diagnosis.balance_residual

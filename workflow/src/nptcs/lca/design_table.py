@@ -9,7 +9,7 @@ from nptcs.arrays import Floating
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.errors import InputError
 from nptcs.lca.batch import solve_batch
-from nptcs.lca.section import RingSection, SectionKind, section_stiffness
+from nptcs.lca.section import SectionKind, ShearBandSection, section_stiffness
 from nptcs.lca.single import solve
 from nptcs.lca.spokes.linear import LinearSpokes
 from nptcs.lca.state import LcaState
@@ -119,7 +119,7 @@ def solve_row(
         raise InputError(text, remedy="correct the cell", line=row + 2)
     designs, largest = _designs(values, tyre, kind, 1)
     numbers = {name: float(column[0]) for name, column in designs.items()}
-    section = RingSection(**{name: numbers[name] for name in SECTION_COLUMNS})
+    section = ShearBandSection(**{name: numbers[name] for name in SECTION_COLUMNS})
     spokes = LinearSpokes(
         numbers["tension_n_per_mm"], numbers["compression_n_per_mm"], int(numbers["spoke_count"])
     )

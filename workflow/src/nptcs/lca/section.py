@@ -22,7 +22,7 @@ PHYSICAL_SECTION: SectionKind = "sandwich"
 
 
 @dataclass(frozen=True)
-class RingSection:
+class ShearBandSection:
     """Stiffness of the shear band, taken as a curved Timoshenko beam.
 
     Parameters
@@ -57,7 +57,7 @@ class RingSection:
     @classmethod
     def from_tyre(
         cls, tyre: TyreGeometry, c10_mpa: float, kind: SectionKind = "sandwich"
-    ) -> RingSection:
+    ) -> ShearBandSection:
         """Return the section of a tyre whose band rubber has the constant C10.
 
         Parameters
@@ -71,7 +71,7 @@ class RingSection:
 
         Examples
         --------
-        >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+        >>> ring = ShearBandSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
         >>> f"{ring.axial_stiffness_n:.4g} N, {ring.bending_stiffness_n_mm2:.4g} N mm2"
         '2.711e+07 N, 1.055e+09 N mm2'
         """

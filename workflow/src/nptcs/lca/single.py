@@ -19,7 +19,7 @@ from nptcs.lca.batch import (
     solve_batch,
     solve_rows,
 )
-from nptcs.lca.section import RingSection
+from nptcs.lca.section import ShearBandSection
 from nptcs.lca.spokes.linear import LinearSpokes
 from nptcs.lca.state import LcaState
 
@@ -33,7 +33,7 @@ class ModelError(InputError):
     """A design that is well formed but that the model cannot solve."""
 
 
-def design_row(section: RingSection, spokes: LinearSpokes) -> dict[str, float]:
+def design_row(section: ShearBandSection, spokes: LinearSpokes) -> dict[str, float]:
     """Return a design as a row of `nptcs.lca.batch.DESIGN_COLUMNS`."""
     row = asdict(section) | asdict(spokes)
     row["spoke_count"] = row.pop("count")
@@ -41,7 +41,7 @@ def design_row(section: RingSection, spokes: LinearSpokes) -> dict[str, float]:
 
 
 def solve(
-    section: RingSection,
+    section: ShearBandSection,
     spokes: LinearSpokes,
     *,
     load_n: float | None = None,
@@ -53,7 +53,7 @@ def solve(
 
     Parameters
     ----------
-    section : RingSection
+    section : ShearBandSection
         The ring.
     spokes : LinearSpokes
         The spokes.
@@ -79,7 +79,7 @@ def solve(
     Table 11 of the paper, S-C 1 at 5000 N (printed: 20.87 mm, 4.585° and 56.198°):
 
     >>> from nptcs.config.solvers.tyre import TyreGeometry
-    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> ring = ShearBandSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
     >>> state = solve(ring, LinearSpokes(30.2, 13.26), load_n=5000)
     >>> round(state.displacement_mm, 2), round(state.theta_c_deg, 3), round(state.theta_t_deg, 2)
     (20.74, 4.569, 56.45)
@@ -105,7 +105,7 @@ def solve(
 
 
 def curve(
-    section: RingSection,
+    section: ShearBandSection,
     spokes: LinearSpokes,
     *,
     load_n: ArrayLike | None = None,
@@ -116,7 +116,7 @@ def curve(
 
     Parameters
     ----------
-    section, spokes : RingSection, LinearSpokes
+    section, spokes : ShearBandSection, LinearSpokes
         The design.
     load_n, displacement_mm : array-like
         Exactly one of them: the points of the curve.
@@ -132,7 +132,7 @@ def curve(
     Examples
     --------
     >>> from nptcs.config.solvers.tyre import TyreGeometry
-    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> ring = ShearBandSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
     >>> points = curve(ring, LinearSpokes(30.2, 13.26), load_n=[2500, 5000])
     >>> points["displacement_mm"].round(2).tolist()
     [10.62, 20.74]

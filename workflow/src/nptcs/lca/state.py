@@ -12,7 +12,7 @@ from nptcs.arrays import Floating
 from nptcs.lca.linear.fields import compression_states, contact_states, tension_states
 from nptcs.lca.linear.scaling import ScaledRing
 from nptcs.lca.linear.system import Arcs, Joined
-from nptcs.lca.section import RingSection
+from nptcs.lca.section import ShearBandSection
 from nptcs.lca.spokes.linear import LinearSpokes
 
 REGIONS = ("contact", "compression", "tension")
@@ -24,7 +24,7 @@ class LcaState:
 
     Parameters
     ----------
-    section, spokes : RingSection, LinearSpokes
+    section, spokes : ShearBandSection, LinearSpokes
         The design.
     displacement_mm, load_n : float
         Displacement δ of the hub and force F of the ground.
@@ -43,7 +43,7 @@ class LcaState:
         Which of the model's assumptions the solution breaks; empty if none.
     """
 
-    section: RingSection
+    section: ShearBandSection
     spokes: LinearSpokes
     displacement_mm: float
     load_n: float

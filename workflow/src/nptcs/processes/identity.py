@@ -58,7 +58,7 @@ def read_name(text: str) -> ProcessName | None:
     return name if isinstance(name.pid, int) and name.pid > 0 else None
 
 
-def name_of(pid: int | None = None) -> ProcessName:
+def process_name(pid: int | None = None) -> ProcessName:
     """Name a process of this machine; by default this one.
 
     Raises

@@ -12,7 +12,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
-from nptcs.processes.identity import RUN, ProcessName, lives, name_of, read_name
+from nptcs.processes.identity import RUN, ProcessName, lives, process_name, read_name
 
 UNLOCK = "snakemake --unlock"
 
@@ -33,7 +33,7 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
     bool
         Whether an earlier run had died without an end in order.
     """
-    os.environ[RUN] = name_of().text()
+    os.environ[RUN] = process_name().text()
     noted = folder / "runs"
     noted.mkdir(parents=True, exist_ok=True)
     with _alone(noted):
@@ -57,7 +57,7 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
 
 def begin_job() -> None:
     """Note the Snakemake process that runs single jobs of a run, for example on another machine."""
-    os.environ[RUN] = name_of().text()
+    os.environ[RUN] = process_name().text()
 
 
 def _read(file: Path) -> ProcessName | None:

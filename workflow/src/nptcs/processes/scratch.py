@@ -10,7 +10,7 @@ import time
 from functools import cache
 from pathlib import Path
 
-from nptcs.processes.identity import lives, name_of, read_name
+from nptcs.processes.identity import lives, process_name, read_name
 from nptcs.processes.marked import WARDEN, end_marked
 
 PREFIX = "nptcs-"
@@ -48,7 +48,7 @@ def socket_folder() -> Path:
 def _folder_of(pid: int, parent: str) -> Path:
     sweep(Path(parent))
     folder = Path(tempfile.mkdtemp(prefix=PREFIX, dir=parent)).resolve()
-    (folder / OWNER).write_text(name_of(pid).text(), encoding="utf-8")
+    (folder / OWNER).write_text(process_name(pid).text(), encoding="utf-8")
     _start_warden(folder)
     return folder
 

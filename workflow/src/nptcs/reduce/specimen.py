@@ -13,7 +13,6 @@ from nptcs.mechanical_tests import TestType
 from nptcs.reduce.curve.branch import Branch, loading_branch
 from nptcs.reduce.curve.evidence import Evidence, evidence_of_failure
 from nptcs.reduce.deviations import CROSSHEAD, deviations, speed_properties
-from nptcs.reduce.origin import Origin, origin_of, with_origin
 from nptcs.reduce.plausible import only_plausible
 from nptcs.reduce.rows import Property, to_table
 from nptcs.reduce.standards.compression import reduce_compression
@@ -22,6 +21,7 @@ from nptcs.reduce.standards.rubber import reduce_rubber
 from nptcs.reduce.standards.rubber_compression import reduce_rubber_compression
 from nptcs.reduce.standards.shear import reduce_shear
 from nptcs.reduce.standards.tension import reduce_tension
+from nptcs.reduce.strain_origin import StrainOrigin, strain_origin_of, with_origin
 from nptcs.tables.laboratory.curves import IngestRecord
 from nptcs.tables.laboratory.specimens import Specimen
 
@@ -35,7 +35,7 @@ def reduce_specimen(
     *,
     failure_seen: bool = False,
     plausible: Plausible | None = None,
-    origin: Origin | None = None,
+    origin: StrainOrigin | None = None,
 ) -> pd.DataFrame:
     """Reduce one curve to properties by the standard in force for its test.
 
@@ -58,7 +58,7 @@ def reduce_specimen(
         strain and energy are not assessed.
     plausible : Plausible, optional
         The limits of the curve; a value outside them is not assessed either.
-    origin : Origin, optional
+    origin : StrainOrigin, optional
         Shift and error of the strain origin; they enter the standard errors.
 
     Returns
@@ -122,7 +122,7 @@ def reduce_record(
         record.flags,
         failure_seen=record.failure_seen,
         plausible=plausible,
-        origin=origin_of(record),
+        origin=strain_origin_of(record),
     )
 
 

@@ -27,11 +27,11 @@ from nptcs.tables.laboratory.curves import IngestRecord, read_curves
 from nptcs.tables.laboratory.material_card import MaterialCard, PlyCard, RubberCard
 from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.problems import Problems
-from nptcs.tables.tyres.cases import Cases, Design
+from nptcs.tables.tyres.cases import Cases, DesignTable
 
 
 @dataclass(frozen=True)
-class SolverFacts:
+class SolverDescription:
     """What the report says of a solver, with the models that its options choose."""
 
     about: str
@@ -71,7 +71,7 @@ class Results:
 
     config: Config
     sheet: tuple[Specimen, ...]
-    solvers: Mapping[str, SolverFacts]
+    solvers: Mapping[str, SolverDescription]
     software: Mapping[str, str]
     inputs: Mapping[str, str]
     card: MaterialCard
@@ -157,7 +157,7 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     Parameters
     ----------
     job : mapping
-        ``config``, ``specimens`` (rows of the sheet), ``solvers`` (`SolverFacts` by name), as
+        ``config``, ``specimens`` (rows of the sheet), ``solvers`` (`SolverDescription` by name), as
         plain values.
     files : mapping
         A path for ``card`` and one for ``identity``; lists of paths under ``tables`` (all of
@@ -183,13 +183,13 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
     return Results(
         config=config,
         sheet=tuple(Specimen.model_validate(row) for row in job["specimens"]),
-        solvers={name: SolverFacts(**facts) for name, facts in job["solvers"].items()},
+        solvers={name: SolverDescription(**facts) for name, facts in job["solvers"].items()},
         software=software_versions(),
         inputs={str(file): sha256_of_file(file) for file in files["inputs"]},
         card=read_model(files["card"], MaterialCard),
         curves=read_curves(files["curves"]),
         records={record.specimen: record for record in records},
-        designs={name: read_table(designs[name], Design) for name in studies},
+        designs={name: read_table(designs[name], DesignTable) for name in studies},
         surfaces={name: read_surfaces(surfaces[name]) for name in with_surface},
         tables={
             name: read_table(paths[name], row.contract)

@@ -54,7 +54,7 @@ class BarRow:
 
 
 @dataclass(frozen=True)
-class Part:
+class Share:
     """One part of a whole, by count."""
 
     name: str
@@ -63,14 +63,14 @@ class Part:
 
 
 @dataclass(frozen=True)
-class Columns:
+class MarkPositions:
     """Where the marks are: between the names on the left and the values on the right."""
 
     left: float
     span: float
 
     @classmethod
-    def beside(cls, rows: Sequence[IntervalRow | BarRow]) -> Columns:
+    def beside(cls, rows: Sequence[IntervalRow | BarRow]) -> MarkPositions:
         """Leave room for the longest name and the longest value."""
         left, right = (
             GAP + CHARACTER * max(map(text_width, texts), default=0)
@@ -100,7 +100,7 @@ def intervals(
     margin = 0.08 * (high - low) or 0.05 * abs(high) or 1.0
     low, high = low - margin, high + margin
 
-    columns = Columns.beside(rows)
+    columns = MarkPositions.beside(rows)
 
     def place(value: float) -> float:
         return columns.left + columns.span * (value - low) / (high - low)
@@ -125,7 +125,7 @@ def intervals(
 def bars(rows: Sequence[BarRow], alt: str) -> Sketch:
     """Draw bars from zero, each with its name and value."""
     longest = max((max(row.value, row.reach) for row in rows), default=0.0) or 1.0
-    columns = Columns.beside(rows)
+    columns = MarkPositions.beside(rows)
     left, per_unit = columns.left, columns.span / longest
     parts = []
     for number, row in enumerate(rows):
@@ -138,7 +138,7 @@ def bars(rows: Sequence[BarRow], alt: str) -> Sketch:
     return _sketch(parts, ROW * len(rows), alt)
 
 
-def whole(parts_of_it: Sequence[Part], alt: str) -> Sketch:
+def bar_of_shares(parts_of_it: Sequence[Share], alt: str) -> Sketch:
     """Draw the parts of a whole as one bar, with a legend that gives the counts."""
     total = sum(part.count for part in parts_of_it) or 1
     drawn, left = [], 0.0

@@ -17,7 +17,7 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.tyre.equilibrium import TyreError
 from nptcs.solvers.contract import SolverOptions
 from nptcs.solvers.fe_tyre import FeTyreOptions
-from nptcs.solvers.registry import load, module_of, read_options
+from nptcs.solvers.registry import load_solver, module_of, read_options
 from nptcs.tables.tyres.deformed_tyre import DeformedTyre
 
 
@@ -39,7 +39,7 @@ def outlines_of_study(
     records : sequence of CaseRecord
         Of this study and solver.
     design : DataFrame
-        The study's `nptcs.tables.tyres.cases.Design`.
+        The study's `nptcs.tables.tyres.cases.DesignTable`.
     ply : mapping
         The nine ply constants.
 
@@ -54,7 +54,7 @@ def outlines_of_study(
     return deformed_tyre(
         records,
         [case_ids[number] for number in asked if number in case_ids],
-        read_options(load(module_of(solver, options)), options),
+        read_options(load_solver(module_of(solver, options)), options),
         config.tyre,
         ply,
     )

@@ -56,7 +56,7 @@ STRESSES = ["along_mpa", "across_mpa", "shear_mpa"]
 
 
 @dataclass(frozen=True)
-class Response:
+class TyreResponse:
     """One response of one tyre, see `TyreResponses`."""
 
     response: str
@@ -67,8 +67,8 @@ class Response:
     note: str
 
 
-def _missing(name: str, at: str, unit: str, why: str, status: str = NOT_ASSESSED) -> Response:
-    return Response(name, at, np.nan, unit, status, why)
+def _missing(name: str, at: str, unit: str, why: str, status: str = NOT_ASSESSED) -> TyreResponse:
+    return TyreResponse(name, at, np.nan, unit, status, why)
 
 
 def tyre_responses(
@@ -131,13 +131,13 @@ def _who(record: CaseRecord) -> dict[str, str]:
 
 def _responses(
     record: CaseRecord, settings: TyreResponseSettings, strengths: PlyStrengths
-) -> Iterator[Response]:
+) -> Iterator[TyreResponse]:
     yield from _stiffness(record, settings)
     at = f"{record.load_n:g} N"
     for source in (AT_LOAD, IN_SPOKES):
         for key, (name, unit, rule) in source.items():
             if key in record.result.extra:
-                yield Response(name, at, record.result.extra[key], unit, OK, rule)
+                yield TyreResponse(name, at, record.result.extra[key], unit, OK, rule)
             else:
                 yield _missing(name, at, unit, _why_not(record, key))
     yield from _margins(record, strengths, at)
@@ -164,7 +164,7 @@ def _why_no_stress(record: CaseRecord) -> str:
     return record.result.message or "no spoke was solved again at its motion in the tyre"
 
 
-def _stiffness(record: CaseRecord, settings: TyreResponseSettings) -> Iterator[Response]:
+def _stiffness(record: CaseRecord, settings: TyreResponseSettings) -> Iterator[TyreResponse]:
     """Secant and tangent stiffness at loads and displacements."""
     places = [f"{load:g} N" for load in sorted({*settings.loads_n, float(record.load_n or 0.0)})]
     places += [f"{displacement:g} mm" for displacement in settings.displacements_mm]
@@ -188,7 +188,7 @@ def _end(curve: LoadCurve, record: CaseRecord) -> str:
     return f"{end}; {record.result.message}" if record.result.message else end
 
 
-def _at_point(point: CurvePoint | None, at: str, end: str) -> Iterator[Response]:
+def _at_point(point: CurvePoint | None, at: str, end: str) -> Iterator[TyreResponse]:
     names = ("secant_stiffness", "tangent_stiffness")
     if point is None:
         for name in names:
@@ -198,10 +198,10 @@ def _at_point(point: CurvePoint | None, at: str, end: str) -> Iterator[Response]
     for name, value, rule in zip(
         names, (point.secant_n_per_mm, point.tangent_n_per_mm), rules, strict=True
     ):
-        yield Response(name, at, value, "N/mm", OK, rule)
+        yield TyreResponse(name, at, value, "N/mm", OK, rule)
 
 
-def _margins(record: CaseRecord, strengths: PlyStrengths, at: str) -> Iterator[Response]:
+def _margins(record: CaseRecord, strengths: PlyStrengths, at: str) -> Iterator[TyreResponse]:
     """Factors from the plates' stress to their strengths."""
     stress = record.result.plate_stress
     for name, (rule, factor) in MARGINS.items():
@@ -213,20 +213,20 @@ def _margins(record: CaseRecord, strengths: PlyStrengths, at: str) -> Iterator[R
         else:
             points = np.array([stress[column] for column in STRESSES]).T
             note = f"{rule}, {PLATE}; stress may grow by this factor"
-            yield Response(name, at, factor(points, strengths), "1", OK, note)
+            yield TyreResponse(name, at, factor(points, strengths), "1", OK, note)
 
 
-def _plate_mass(record: CaseRecord, settings: TyreResponseSettings) -> Response:
+def _plate_mass(record: CaseRecord, settings: TyreResponseSettings) -> TyreResponse:
     density, volume = settings.plate_density_kg_per_m3, record.result.extra.get("plate_volume_mm3")
     if density is None:
         return _missing("plate_mass", "", "kg", "no plate_density_kg_per_m3 in the configuration")
     if volume is None:
         return _missing("plate_mass", "", "kg", "the solver does not report the plates' volume")
     note = f"all plates of the tyre, {density:g} kg/m³ as configured"
-    return Response("plate_mass", "", volume * density * 1e-9, "kg", OK, note)
+    return TyreResponse("plate_mass", "", volume * density * 1e-9, "kg", OK, note)
 
 
-def _plate_cost(mass: Response, settings: TyreResponseSettings) -> Response:
+def _plate_cost(mass: TyreResponse, settings: TyreResponseSettings) -> TyreResponse:
     price = settings.plate_price_per_kg
     if price is None:
         why = "no plate_price_per_kg in the configuration"
@@ -234,4 +234,4 @@ def _plate_cost(mass: Response, settings: TyreResponseSettings) -> Response:
     if mass.status != OK:
         return _missing("plate_cost", "", "currency", mass.note)
     note = f"all plates of the tyre, {price:g} per kg as configured"
-    return Response("plate_cost", "", mass.value * price, "currency", OK, note)
+    return TyreResponse("plate_cost", "", mass.value * price, "currency", OK, note)

@@ -19,7 +19,7 @@ from nptcs.errors import InputError
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring.kernel.compiled import Kernel
 from nptcs.ring.responses import responses
-from nptcs.ring.solution import RingError, SpokeRangeError, load
+from nptcs.ring.solution import RingError, SpokeRangeError, press_through_loads
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.tables.io import check
 from nptcs.tables.tyres.ring import RingResults
@@ -196,7 +196,7 @@ def _solve_row(
         return {"status": "bad_input", "message": _first_line(error)}
     steps = max(ceil(load_n / STEP_N), 2)
     try:
-        states = load(built, np.linspace(0.0, load_n, steps + 1)[1:].tolist())
+        states = press_through_loads(built, np.linspace(0.0, load_n, steps + 1)[1:].tolist())
     except SpokeRangeError as error:
         return {"status": "beyond_table", "message": str(error)}
     except RingError as error:

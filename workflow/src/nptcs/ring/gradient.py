@@ -16,9 +16,9 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.ring.kernel import elementwise, numpy_kernel
-from nptcs.ring.kernel.elementwise import OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
 from nptcs.ring.kernel.system import System
-from nptcs.ring.solution import RingState, load
+from nptcs.ring.solution import RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre
 
 # far below the depth over which the ground's pressure sets in, far above rounding
@@ -54,16 +54,16 @@ def stiffness_gradient(
     parameters : sequence of float
         For example the band's C10, a factor of the spokes' energy, a thickness.
     loads_n : sequence of float
-        As in `load`.
+        As in `press_through_loads`.
 
     Raises
     ------
     RingError
-        As `load`.
+        As `press_through_loads`.
     """
     values = np.asarray(parameters, dtype=float)
     tyre = build(values)
-    states = load(tyre, loads_n)
+    states = press_through_loads(tyre, loads_n)
     slopes = displacement_slopes(tyre, _neighbours(build, values), states)
     rise, force = states[-1].rise_mm, states[-1].force_n
     return Gradient(rise, force / rise, slopes, -force / rise**2 * slopes)
@@ -95,7 +95,7 @@ def displacement_slopes(
     neighbours : sequence of (below, above, distance)
         Two tyres for each parameter.
     states : sequence of RingState
-        The whole path, as `load` returned it.
+        The whole path, as `press_through_loads` returned it.
     """
     slopes = np.zeros(len(neighbours))
     count = len(tyre.nodes.theta)
@@ -193,7 +193,7 @@ class _Contact:
             ring.dimensions, depth, x - state.anchor_before
         )
         touching = (pressure > 0.0).astype(float)
-        stiff = tyre.contact.tangential_mpa_per_mm
+        stiff = ring.dimensions[SLIP_STIFF]
         area = tyre.areas_mm2()
         return cls(
             by_x, by_y, area * slide * touching, touching, touching * slide / stiff, cross / stiff

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.solvers.ring import RingMesh
+from nptcs.config.solvers.ring import RingElements
 from nptcs.ring.section import RingSection
 
 
@@ -37,7 +37,7 @@ class RingNodes:
         return radius_mm * np.stack([np.sin(self.theta), -np.cos(self.theta)], axis=1)
 
 
-def ring_nodes(mesh: RingMesh, section: RingSection, spoke_count: int) -> RingNodes:
+def ring_nodes(mesh: RingElements, section: RingSection, spoke_count: int) -> RingNodes:
     """Divide the ring: a node at each spoke's foot, equal elements between two of them.
 
     A pitch is finer if any of it lies within `refined_deg` of the contact's middle.

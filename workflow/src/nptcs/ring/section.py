@@ -21,7 +21,13 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.ring.pressure_waves import FlatRing, RubberLayer, WireSheet, matched_thickening
+from nptcs.ring.pressure_waves import (
+    FlatRing,
+    RubberLayer,
+    WireSheet,
+    matched_thickening,
+    missing_drift,
+)
 from nptcs.ring.rubber import Rubber
 
 STRAINS = 7
@@ -52,10 +58,15 @@ class RingSection:
         C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products ask.
     hardening : array (4, 4, 4)
         D for the strains (e, κs, κf, s').
+    core : array (6,)
+        Pull of the wires on the core's thickness by (e, κs, κf) (N, N mm, N mm), the core's
+        compliance (mm²/N), the wires' stiffness (N) and the curvature 1/R (1/mm).
     thickening : array (3,)
         Growth of the tread's thickness by κs and κf (mm²) and by s' (mm).
     compliance_mm_per_mpa : float
         Thinning of tread and band under the pressure of the ground; 0 for incompressible rubber.
+    shear_compliance_mm_per_mpa : float
+        What a shear of the ground moves the tread's surface more than the shape f does.
     """
 
     radius_mm: float
@@ -65,8 +76,10 @@ class RingSection:
     width_mm: float
     stiffness: Array
     hardening: Array
+    core: Array
     thickening: Array
     compliance_mm_per_mpa: float
+    shear_compliance_mm_per_mpa: float
 
     @property
     def outer_radius_mm(self) -> float:
@@ -118,15 +131,24 @@ def ring_section(
     squeezed += tread.through_compliance_per_mpa * (surface - cover)
     flat, _, flat_thickening = _assembled(tyre, band, tread, depths, np.inf)
     width = tyre.tread_width_mm
-    change = matched_thickening(
-        FlatRing(flat, flat_thickening, squeezed, width),
-        _strip(tyre, band, tread, depths),
-        2.0 * half + surface,
-    )
+    flat_ring = FlatRing(flat, flat_thickening, squeezed, width, half, surface)
+    strip = _strip(tyre, band, tread, depths)
+    change = matched_thickening(flat_ring, strip, 2.0 * half + surface)
     stiffness, hardening, thickening = _assembled(tyre, band, tread, depths, radius)
     thickening[2] += change
+    core = _core_under_wires(tyre, band, half - row, half, radius)
     return RingSection(
-        radius, half, surface, cover, width, stiffness, hardening, thickening, squeezed
+        radius,
+        half,
+        surface,
+        cover,
+        width,
+        stiffness,
+        hardening,
+        core,
+        thickening,
+        squeezed,
+        missing_drift(flat_ring, strip, 2.0 * half + surface),
     )
 
 
@@ -245,6 +267,25 @@ def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float)
     stiffness[:ALONG, :ALONG] += np.einsum("z,zi,zj->ij", scaled, strain, strain)
     shear = SHEAR_CORRECTION * tyre.wire_modulus_mpa / 2.0 / (1.0 + tyre.wire_poisson_ratio)
     stiffness[4, 4] += shear * area
+
+
+def _core_under_wires(
+    tyre: TyreGeometry, band: Rubber, inside: float, half: float, radius: float
+) -> Array:
+    """Give the wires' pull on the core by (e, κs, κf), its compliance, their stiffness and 1/R.
+
+    The core is 2 `inside` deep and moves nowhere along the ring as it is squeezed; each face moves
+    by δ: ½ δ²/a with a = inside/(2 b (κ + 4G/3)).
+    """
+    area = _wire_area_mm2(tyre)
+    z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm
+    pull, stiffness = np.zeros(ALONG), 0.0
+    for sign in (-1.0, 1.0):
+        scaled = 0.5 * area * tyre.wire_modulus_mpa / (1.0 + (sign * half + z) / radius)
+        pull += sign * scaled @ _face(sign * half, z)
+        stiffness += float(np.sum(scaled))
+    soft = inside * band.through_compliance_per_mpa / (2.0 * tyre.tread_width_mm)
+    return np.array([*pull[:3], soft, stiffness, 1.0 / radius])
 
 
 def _wire_area_mm2(tyre: TyreGeometry) -> float:

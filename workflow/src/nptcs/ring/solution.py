@@ -77,7 +77,7 @@ class RingState:
     iterations: int
 
 
-def load(tyre: RingTyre, loads_n: Sequence[float]) -> list[RingState]:
+def press_through_loads(tyre: RingTyre, loads_n: Sequence[float]) -> list[RingState]:
     """Press a tyre on the ground through a rising sequence of loads.
 
     Friction remembers: the states depend, a little, on the loads before them.

@@ -17,7 +17,7 @@ from nptcs.language import tr, translatable
 from nptcs.runs.content import FILES
 from nptcs.runs.finished import FinishedRun
 from nptcs.runs.part import RESULT, Found, Part, compared, part_table, percent, presence
-from nptcs.tables.laboratory.material_card import PlyCard, Quantity, RubberCard
+from nptcs.tables.laboratory.material_card import CardConstant, PlyCard, RubberCard
 from nptcs.tables.result_table import Heading
 
 NOT_ASSESSED = translatable("not assessed")
@@ -88,8 +88,8 @@ def _cards(run: FinishedRun) -> dict[str, Card]:
 
 
 def _row(
-    one: Quantity | None,
-    two: Quantity | None,
+    one: CardConstant | None,
+    two: CardConstant | None,
     k: float,
     within: float,
     files: tuple[Mapping[str, frozenset[str]], Mapping[str, frozenset[str]]],
@@ -116,7 +116,7 @@ def _row(
     return row
 
 
-def _difference(one: Quantity, two: Quantity, k: float, data: str) -> dict[str, object]:
+def _difference(one: CardConstant, two: CardConstant, k: float, data: str) -> dict[str, object]:
     difference = two.value - one.value
     found: dict[str, object] = {
         "difference": difference,
@@ -142,8 +142,8 @@ NO_FILES = translatable("no files")
 
 
 def _data(
-    one: Quantity,
-    two: Quantity,
+    one: CardConstant,
+    two: CardConstant,
     files: tuple[Mapping[str, frozenset[str]], Mapping[str, frozenset[str]]],
 ) -> str:
     """Say whether two constants are based on the same files, by their checksums."""
@@ -170,7 +170,7 @@ def _files_of_specimens(run: FinishedRun) -> dict[str, frozenset[str]]:
     return {name: frozenset(digests) for name, digests in found.items()}
 
 
-def _notes(one: Quantity, two: Quantity) -> Iterator[str]:
+def _notes(one: CardConstant, two: CardConstant) -> Iterator[str]:
     """Say what else differs of a constant."""
     if one.origin != two.origin:
         yield tr("{a} in A, {b} in B", a=tr(one.origin), b=tr(two.origin))
@@ -183,7 +183,7 @@ def _notes(one: Quantity, two: Quantity) -> Iterator[str]:
         yield tr("specimens only in B: {names}", names=", ".join(sorted(new)))
 
 
-def _units(one: Quantity | None, two: Quantity | None) -> str:
+def _units(one: CardConstant | None, two: CardConstant | None) -> str:
     return " / ".join(dict.fromkeys(q.unit for q in (one, two) if q is not None))
 
 

@@ -69,16 +69,16 @@ class Part:
         if self.table.empty:
             return tr("nothing to compare")
         counts = self.table[RESULT].value_counts()
-        words = [counted(one, int(counts[one])) for one in Found if one in counts.index]
+        words = [count_in_words(one, int(counts[one])) for one in Found if one in counts.index]
         return ", ".join(words)
 
 
-def counted(found: Found, count: int) -> str:
+def count_in_words(found: Found, count: int) -> str:
     """Say how often something was found.
 
     Examples
     --------
-    >>> counted(Found.ONLY_A, 3)
+    >>> count_in_words(Found.ONLY_A, 3)
     '3 only in A'
     """
     match found:

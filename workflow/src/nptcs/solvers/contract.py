@@ -249,6 +249,11 @@ class Solver:
         Modules that a case takes long to import; the process that all cases branch from has them.
     table_case_s : float, optional
         Wall time that a case of a table usually takes; without it that of a single case.
+    shares : frozenset of str
+        Factors that decide a part which cases share, as designs of equal spokes share a table; the
+        stated time of a case, `SolverOptions.case_s`, is that of a case with a part of its own.
+    shared_case_s : float
+        Wall time that a case usually takes whose part is there.
     """
 
     name: str
@@ -264,6 +269,8 @@ class Solver:
     solve_table: Callable[[TableInputs], pd.DataFrame] | None = None
     table_cases: int = 5000
     table_case_s: float | None = None
+    shares: frozenset[str] = frozenset()
+    shared_case_s: float = 0.0
     preload: tuple[str, ...] = ()
 
     def missing_responses(self, result: SolverResult) -> list[str]:

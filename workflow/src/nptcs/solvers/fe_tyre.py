@@ -31,7 +31,13 @@ from nptcs.solvers.contract import (
     Status,
     neutral_line_columns,
 )
-from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.fe_inputs import (
+    SPOKE_FACTORS,
+    TYRE_FACTORS,
+    checked_values,
+    ply_constants,
+    realised_spacing,
+)
 
 # part of a wire's diameter
 LARGEST_WRINKLE = 0.25
@@ -164,4 +170,6 @@ SOLVER = Solver(
     needs_ply=True,
     realise=realised_spacing,
     preload=("nptcs.fe.elements.preloaded",),
+    shares=SPOKE_FACTORS,
+    shared_case_s=5.0,
 )

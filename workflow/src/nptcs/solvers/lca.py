@@ -80,7 +80,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
         more displacement than the wheel has room for or the spokes' curve reaches.
     """
     options: LcaOptions = inputs.options
-    section = lca.RingSection.from_tyre(
+    section = lca.ShearBandSection.from_tyre(
         inputs.tyre, inputs.values["shear_band_c10_mpa"], options.section
     )
     try:
@@ -121,7 +121,7 @@ def _loads(inputs: CaseInputs) -> list[float]:
 
 
 def _solve_linear(
-    inputs: CaseInputs, section: lca.RingSection, spokes: lca.LinearSpokes
+    inputs: CaseInputs, section: lca.ShearBandSection, spokes: lca.LinearSpokes
 ) -> SolverResult:
     """Solve the exact model of two stiffnesses."""
     room = _room_mm(inputs.tyre)
@@ -139,7 +139,9 @@ def _solve_linear(
     return _result(state, extra, displacement, loads, neutral_line)
 
 
-def _solve_law(inputs: CaseInputs, section: lca.RingSection, law: lca.SpokeLaw) -> SolverResult:
+def _solve_law(
+    inputs: CaseInputs, section: lca.ShearBandSection, law: lca.SpokeLaw
+) -> SolverResult:
     """Solve the model of a spoke curve at every load of the curve."""
     contact, loads = inputs.options.contact_spokes, _loads(inputs)
     states = [lca.solve_law(section, law, load_n=load, contact=contact) for load in loads]

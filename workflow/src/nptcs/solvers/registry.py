@@ -11,7 +11,7 @@ from typing import Any, Literal, get_origin
 
 from pydantic import ValidationError
 
-from nptcs.config.explain import describe
+from nptcs.config.explain import describe_faults
 from nptcs.config.studies.study import Study
 from nptcs.errors import InputError
 from nptcs.solvers.contract import Solver, SolverOptions
@@ -58,7 +58,7 @@ def module_of(name: str, options: Mapping[str, Any]) -> str:
     return MODULES[name]
 
 
-def load(module: str) -> Solver:
+def load_solver(module: str) -> Solver:
     """Import a solver's module (dotted name, or the path of a Python file)."""
     if not module.endswith(".py"):
         return importlib.import_module(module).SOLVER
@@ -86,7 +86,9 @@ def read_options(solver: Solver, options: Mapping[str, Any]) -> SolverOptions:
     try:
         return solver.options.model_validate(own)
     except ValidationError as error:
-        raise InputError(describe(error, solver.options), column=f"solvers.{solver.name}") from None
+        raise InputError(
+            describe_faults(error, solver.options), column=f"solvers.{solver.name}"
+        ) from None
 
 
 def model_choices(options: SolverOptions) -> dict[str, str]:
@@ -108,7 +110,7 @@ def needs_ply(study: Study, options: Mapping[str, Mapping[str, Any]]) -> bool:
     options : mapping
         Options of each of these solvers.
     """
-    return any(load(module_of(name, options[name])).needs_ply for name in study.solvers)
+    return any(load_solver(module_of(name, options[name])).needs_ply for name in study.solvers)
 
 
 def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
@@ -127,7 +129,7 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
         When a solver does not see a factor of the study (it would return a constant), lacks a
         value that it needs, has faulty options, or cannot give what the study makes of it.
     """
-    solvers = {name: load(module_of(name, options[name])) for name in study.solvers}
+    solvers = {name: load_solver(module_of(name, options[name])) for name in study.solvers}
     _check_responses(study, solvers)
     for name, solver in solvers.items():
         read_options(solver, options[name])

@@ -20,7 +20,7 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 from nptcs.fe.tyre.responses import spoke_forces
 from nptcs.ring.responses import responses
-from nptcs.ring.solution import RingError, RingState, load
+from nptcs.ring.solution import RingError, RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre, ring_tyre
 from nptcs.solvers.contract import (
     CASE_MEMORY,
@@ -32,7 +32,13 @@ from nptcs.solvers.contract import (
     Status,
     neutral_line_columns,
 )
-from nptcs.solvers.fe_inputs import TYRE_FACTORS, checked_values, ply_constants, realised_spacing
+from nptcs.solvers.fe_inputs import (
+    SPOKE_FACTORS,
+    TYRE_FACTORS,
+    checked_values,
+    ply_constants,
+    realised_spacing,
+)
 from nptcs.solvers.tables import one_by_one
 
 
@@ -85,7 +91,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
         ) from error
     loads = np.linspace(0.0, inputs.load_n, options.load_steps + 1)[1:]
     try:
-        states = load(tyre, loads.tolist())
+        states = press_through_loads(tyre, loads.tolist())
     except RingError as error:
         return SolverResult(status=Status.DIVERGED, message=str(error), curve=_curve(error.states))
     last = states[-1]
@@ -136,7 +142,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="3",
+    version="4",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,
@@ -146,4 +152,6 @@ SOLVER = Solver(
     about="the tyre as a sandwich ring on the energies of finite element spokes",
     solve_table=one_by_one(solve),
     table_cases=10,
+    shares=SPOKE_FACTORS,
+    shared_case_s=0.1,
 )

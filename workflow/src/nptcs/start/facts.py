@@ -53,7 +53,7 @@ class SolverFacts:
 
 
 @dataclass
-class Facts:
+class RuleFacts:
     """What the rules know.
 
     Parameters
@@ -98,8 +98,8 @@ def known_facts(
     file: str | Path,
     given: Mapping[str, Any],
     inputs: Sequence[str | Path],
-    find: Callable[[], Facts],
-) -> Facts:
+    find: Callable[[], RuleFacts],
+) -> RuleFacts:
     """Read the facts from a file if what they depend on is unchanged, or find and keep them.
 
     Parameters
@@ -134,8 +134,9 @@ def known_facts(
 def keys_of(given: Mapping[str, Any], inputs: Sequence[str | Path]) -> tuple[str, str]:
     """Hash everything that facts depend on, and what hashes of code depend on.
 
-    Facts rest on the values, the files, this package and the version of Python; hashes of code on
-    the Python files among them and on that version, so that another configuration leaves them.
+    The facts depend on the values, the files, this package and the version of Python. The hashes
+    of code depend on the Python files among them and on that version only, so a change of the
+    configuration leaves them as they are.
     """
     read = contents([*map(str, inputs), *map(str, PACKAGE.rglob("*.py"))])
     code = {file: content for file, content in read.items() if file.endswith(".py")}
@@ -158,7 +159,7 @@ def contents(paths: Iterable[str]) -> dict[str, str]:
     return found
 
 
-def _read(file: str | Path, key: str) -> Facts | None:
+def _read(file: str | Path, key: str) -> RuleFacts | None:
     try:
         content = read_sealed(file, KIND)
         if content["key"] != key:
@@ -168,7 +169,7 @@ def _read(file: str | Path, key: str) -> Facts | None:
             study: {name: SolverFacts(**one) for name, one in of_study.items()}
             for study, of_study in facts.pop("solvers").items()
         }
-        found = Facts(solvers=solvers, **facts)
+        found = RuleFacts(solvers=solvers, **facts)
         return found if contents(found.files) == found.files else None
     except (OSError, InputError, KeyError, TypeError):
         return None

@@ -14,18 +14,18 @@ from nptcs.ingest.reading.profiles import load_profiles
 from nptcs.report.page_files import page_faults
 from nptcs.solvers.registry import (
     MODULES,
-    load,
+    load_solver,
     model_choices,
     module_of,
     needs_ply,
     read_options,
 )
-from nptcs.start.facts import Facts, SolverFacts, contents
+from nptcs.start.facts import RuleFacts, SolverFacts, contents
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.laboratory.specimens import Specimen
 
 
-def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) -> Facts:
+def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) -> RuleFacts:
     """Find the facts for the rules.
 
     Parameters
@@ -52,7 +52,7 @@ def survey(config: Config, specimens: Sequence[Specimen], checked: bool = True) 
     refuse_faults(faults)
     profiles = load_profiles(config.lab_data.formats)
     solvers = {study.name: _solvers(study, config) for study in config.studies}
-    return Facts(
+    return RuleFacts(
         solvers=solvers,
         files=contents(_files(config, solvers)),
         modules=dict(MODULES),
@@ -91,7 +91,7 @@ def _solvers(study: Study, config: Config) -> dict[str, SolverFacts]:
 
 def _solver(name: str, given: Mapping[str, Any], bulk: bool) -> SolverFacts:
     module = module_of(name, given)
-    solver = load(module)
+    solver = load_solver(module)
     options = read_options(solver, given)
     in_tables = bulk and solver.solve_table is not None and solver.table_case_s is not None
     return SolverFacts(

@@ -78,7 +78,7 @@ class FittedSurface:
     ----------
     study, solver, name : str
         Study, solver of its cases, and name of the surface
-        (`nptcs.config.studies.surface.name_of`).
+        (`nptcs.config.studies.surface.surface_name`).
     response : Response
     surface : ResponseSurface
         Its factors are in the values that the solver really used.

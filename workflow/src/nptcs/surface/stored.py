@@ -13,7 +13,7 @@ from nptcs.errors import InputError
 from nptcs.files import REWRITE, read_stored
 from nptcs.seal import BrokenSealError, open_object, sealed_object
 from nptcs.surface.fit import Surface
-from nptcs.surface.kinds.gaussian_process import GaussianProcess, Mean
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, MeanSurface
 from nptcs.surface.kinds.lamination import Lamination
 from nptcs.surface.kinds.linked import LinkedSurface
 from nptcs.surface.kinds.spoke_process import SpokeProcess
@@ -199,7 +199,7 @@ def _spoke_process(content: Mapping[str, Any]) -> SpokeProcess:
     )
 
 
-MEANS: dict[str, Callable[[Mapping[str, Any]], Mean]] = {
+MEANS: dict[str, Callable[[Mapping[str, Any]], MeanSurface]] = {
     Surface.__name__: _polynomial,
     LinkedSurface.__name__: _linked,
     Lamination.__name__: _lamination,

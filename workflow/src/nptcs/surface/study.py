@@ -16,7 +16,7 @@ from nptcs.errors import InputError
 from nptcs.surface.cases import SolvedCases, solved_cases
 from nptcs.surface.diagnostics.comparison import LeftOut, leave_one_out
 from nptcs.surface.fit import Surface
-from nptcs.surface.kinds.models import FitCases, fit_model, models_of
+from nptcs.surface.kinds.models import FitCases, fit_surface, models_of
 from nptcs.surface.registry import STIFFNESS, FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface
 from nptcs.tables.problems import Problem, problems_table
@@ -29,7 +29,7 @@ POLYNOMIAL = "polynomial"
 
 
 @dataclass(frozen=True, eq=False)
-class Fit:
+class SurfaceFit:
     """A surface of a study as it was fitted.
 
     Parameters
@@ -63,7 +63,7 @@ class StudySurfaces:
     Parameters
     ----------
     study : str
-    fits : tuple of Fit
+    fits : tuple of SurfaceFit
         Without those that the cases do not determine.
     solved : mapping of str to SolvedCases
         What they were fitted to, by solver.
@@ -72,11 +72,11 @@ class StudySurfaces:
     """
 
     study: str
-    fits: tuple[Fit, ...]
+    fits: tuple[SurfaceFit, ...]
     solved: Mapping[str, SolvedCases]
     problems: pd.DataFrame
 
-    def of_stiffness(self) -> list[Fit]:
+    def of_stiffness(self) -> list[SurfaceFit]:
         """Return the fits of the stiffness at the study's load."""
         return [fit for fit in self.fits if fit.response == RESPONSE]
 
@@ -148,7 +148,7 @@ def fit_study(
     """
     factors = [factor.name for factor in study.factors]
     solved = {solver: solved_cases(cases, solver, factors) for solver in study.solvers}
-    fits: list[Fit] = []
+    fits: list[SurfaceFit] = []
     problems: list[Problem] = []
     for response in [RESPONSE, *responses_of(study)]:
         by_solver = {
@@ -160,7 +160,7 @@ def fit_study(
         for solver in having or study.solvers:
             wanted = _Wanted(study, solver, response, solved[solver], by_solver[solver], ply)
             for fitted in _fits(wanted):
-                if isinstance(fitted, Fit):
+                if isinstance(fitted, SurfaceFit):
                     fits.append(fitted)
                 else:
                     problems.append(fitted)
@@ -191,7 +191,7 @@ def _values(
     return table["case_id"].map(rows.set_index("case_id")["value"])
 
 
-def _fits(wanted: _Wanted) -> Iterator[Fit | Problem]:
+def _fits(wanted: _Wanted) -> Iterator[SurfaceFit | Problem]:
     """Fit every surface of one response and solver, or give the rows of problems."""
     study, response = wanted.study, wanted.response
     known = wanted.values.notna()
@@ -209,12 +209,12 @@ def _fits(wanted: _Wanted) -> Iterator[Fit | Problem]:
             continue
         start = time.process_time()
         try:
-            surface = fit_model(model, FitCases(x, y, factors, study.terms, wanted.ply))
+            surface = fit_surface(model, FitCases(x, y, factors, study.terms, wanted.ply))
         except InputError as error:
             yield _refusal(study, about if name == POLYNOMIAL else [*about, name], error)
             continue
         cpu_s = time.process_time() - start
-        yield Fit(wanted.solver, name, response, surface, cpu_s, lacking)
+        yield SurfaceFit(wanted.solver, name, response, surface, cpu_s, lacking)
 
 
 def _describes(model: SurfaceModel, response: Response) -> bool:

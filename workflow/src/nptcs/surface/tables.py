@@ -21,7 +21,7 @@ from nptcs.surface.kinds.linked import LinkedSurface
 from nptcs.surface.kinds.spoke_process import SpokeProcess
 from nptcs.surface.registry import STIFFNESS
 from nptcs.surface.response_surface import ResponseSurface, box
-from nptcs.surface.study import Fit, StudySurfaces
+from nptcs.surface.study import StudySurfaces, SurfaceFit
 from nptcs.tables.analysis.surface import (
     SurfaceByFactor,
     SurfaceComparison,
@@ -124,7 +124,7 @@ def form_of(surface: ResponseSurface) -> str:
     raise TypeError(f"not a kind of surface: {type(surface).__name__}")
 
 
-def _compared(fit: Fit, levels: list[LevelError]) -> dict[str, object]:
+def _compared(fit: SurfaceFit, levels: list[LevelError]) -> dict[str, object]:
     """Fit, leave-one-out and level errors of one surface."""
     surface, left_out = fit.surface, fit.left_out
     worst = [level.largest for level in levels if np.isfinite(level.largest)]

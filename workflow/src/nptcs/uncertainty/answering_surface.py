@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from nptcs.config.studies.study import Study
-from nptcs.config.studies.surface import GaussianProcessModel, name_of
+from nptcs.config.studies.surface import GaussianProcessModel, surface_name
 from nptcs.surface.kinds.models import models_of
 from nptcs.surface.registry import STIFFNESS, SurfaceRegistry
 
@@ -38,12 +38,12 @@ def answering_surface(
     Returns
     -------
     str
-        As `name_of` writes it; the Gaussian process on the mean if no stored surface has been
+        As `surface_name` writes it; the Gaussian process on the mean if no stored surface has been
         tested.
     """
     if asked is not None:
         return asked
-    if preferred in {name_of(ALWAYS), *models_of(study)}:
+    if preferred in {surface_name(ALWAYS), *models_of(study)}:
         return str(preferred)
     stored = registry.surfaces if registry is not None else ()
     tested = [
@@ -54,4 +54,4 @@ def answering_surface(
         and one.left_out_rms == one.left_out_rms  # assessed
     ]
     best = min(tested, key=lambda one: one.left_out_rms, default=None)
-    return best.name if best is not None else name_of(ALWAYS)
+    return best.name if best is not None else surface_name(ALWAYS)

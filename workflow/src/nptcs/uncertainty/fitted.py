@@ -14,14 +14,14 @@ from nptcs.config.studies.surface import (
     LaminationModel,
     PolynomialModel,
     SurfaceModel,
-    name_of,
+    surface_name,
 )
 from nptcs.doe.whole_plates import SPACING
 from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_out
 from nptcs.surface.kinds.lamination import FACTORS as LAMINATION_FACTORS
 from nptcs.surface.kinds.lamination import Lamination
-from nptcs.surface.kinds.models import FitCases, fit_model, models_of
+from nptcs.surface.kinds.models import FitCases, fit_surface, models_of
 from nptcs.surface.registry import STIFFNESS as AT_STUDY_LOAD
 from nptcs.surface.registry import FittedSurface, Response, SurfaceRegistry
 from nptcs.surface.response_surface import ResponseSurface, box, inside_box
@@ -173,7 +173,7 @@ def _surface(
     stored = registry_surface(registry, results, response, name)
     if stored is not None and len(stored.surface.y) == len(cases.y):
         return stored
-    chosen = name if response.name in STIFFNESS else name_of(ALWAYS)
+    chosen = name if response.name in STIFFNESS else surface_name(ALWAYS)
     model = _model(results, chosen)
     if len(cases.y) < results.study.least_solved_cases():
         raise InputError(
@@ -185,7 +185,7 @@ def _surface(
     if stored is not None:  # cases were added: the form stays
         chosen, surface = stored.name, stored.surface.refit(cases.x, cases.y)
     else:
-        surface = fit_model(model, cases)
+        surface = fit_surface(model, cases)
     return FittedSurface(
         study=results.study.name,
         solver=results.solver,
@@ -222,7 +222,7 @@ def registry_surface(
 
 
 def _model(results: StudyResults, surface: str) -> SurfaceModel:
-    models = {name_of(ALWAYS): ALWAYS, **models_of(results.study)}
+    models = {surface_name(ALWAYS): ALWAYS, **models_of(results.study)}
     if surface not in models:
         raise InputError(
             f"study {results.study.name} has no such surface",
@@ -245,7 +245,7 @@ def _lamination(
     if sorted(cases.factors) != sorted(LAMINATION_FACTORS):
         return None, "effect of the ply not assessed: the lamination form has S, T and A alone"
     try:
-        form = fit_model(LaminationModel(kind="lamination", coefficients=7), cases)
+        form = fit_surface(LaminationModel(kind="lamination", coefficients=7), cases)
     except InputError as error:
         return None, f"effect of the ply not assessed: {error.message}"
     return lamination_of(form), ""
@@ -282,7 +282,7 @@ def _fit_rubbers(rubbers: StudyResults, response: ResponseName) -> ResponseSurfa
     y = rubbers.values(response)
     has = np.isfinite(y)
     cases = FitCases(rubbers.points[has], y[has], rubbers.factors, rubbers.study.terms)
-    return fit_model(PolynomialModel(kind="polynomial"), cases)
+    return fit_surface(PolynomialModel(kind="polynomial"), cases)
 
 
 def _plate_mass(results: StudyResults, tyre: TyreGeometry) -> FittedResponse:

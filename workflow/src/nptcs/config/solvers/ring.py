@@ -17,12 +17,12 @@ from nptcs.config.solvers.fe import (
 )
 
 
-class RingMesh(Strict):
+class RingElements(Strict):
     """Elements of the ring, two-node."""
 
     elements_per_pitch: int = Field(2, ge=1, description="Elements between two spokes' feet")
     refinement: int = Field(
-        3, ge=1, description="How many times as many there are near the contact"
+        5, ge=1, description="How many times as many there are near the contact"
     )
     refined_deg: float = Field(
         12.0, ge=0, le=180, description="Up to this angle from the middle of the contact"
@@ -35,7 +35,7 @@ class RingMesh(Strict):
 class RingOptions(Strict):
     """Options of the ring beyond the tyre's dimensions, its rubbers and its spokes."""
 
-    mesh: RingMesh = Field(default_factory=RingMesh, description="Elements of the ring")
+    mesh: RingElements = Field(default_factory=RingElements, description="Elements of the ring")
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     axial: AxialFreedom = Field(
         "free_edges",

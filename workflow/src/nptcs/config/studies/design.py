@@ -112,11 +112,8 @@ class SplitPlot(Strict):
     )
 
 
-Design = Annotated[
-    FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal | SplitPlot,
-    Field(discriminator="kind"),
-]
 AnyDesign = FullFactorial | SpaceFilling | CentralComposite | BoxBehnken | DOptimal | SplitPlot
+Design = Annotated[AnyDesign, Field(discriminator="kind")]
 
 
 def number_of_cases(design: AnyDesign, levels: list[int]) -> int:

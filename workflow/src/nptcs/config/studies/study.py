@@ -11,7 +11,7 @@ from nptcs.config.base import Name, Strict
 from nptcs.config.studies.decisions import Decision
 from nptcs.config.studies.design import Design, DOptimal, FullFactorial, SplitPlot, number_of_cases
 from nptcs.config.studies.response import ResponseChoice
-from nptcs.config.studies.surface import SurfaceModel, name_of, needs_ply, own_terms
+from nptcs.config.studies.surface import SurfaceModel, needs_ply, own_terms, surface_name
 from nptcs.ranges import RANGES
 from nptcs.terms import parse
 
@@ -118,7 +118,8 @@ class Study(Strict):
     )
     published_coefficients: str | None = Field(
         None,
-        description="CSV with the paper's coefficients (term, coefficient), shown next to ours",
+        description="CSV with the paper's coefficients (term, coefficient), shown next to the "
+        "fitted ones",
     )
     published_spoke_stiffness: str | None = Field(
         None,
@@ -248,7 +249,7 @@ class Study(Strict):
 
     @model_validator(mode="after")
     def _surfaces_differ(self) -> Self:
-        names = [name_of(model) for model in self.surfaces]
+        names = [surface_name(model) for model in self.surfaces]
         names += ["polynomial"] if self.terms else []
         if len(set(names)) < len(names):
             raise ValueError(f"study {self.name}: two surfaces are the same: {names}")

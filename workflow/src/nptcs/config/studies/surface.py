@@ -44,14 +44,14 @@ class LaminationModel(Strict):
     )
 
 
-Mean = Annotated[PolynomialModel | LaminationModel, Field(discriminator="kind")]
+MeanModel = Annotated[PolynomialModel | LaminationModel, Field(discriminator="kind")]
 
 
 class GaussianProcessModel(Strict):
     """A Gaussian process (Matérn 5/2, one length scale for each factor) on a mean."""
 
     kind: Literal["gaussian_process"]
-    mean: Mean | None = Field(
+    mean: MeanModel | None = Field(
         None,
         description="Surface whose residuals the process models; null: the mean response of the "
         "cases",
@@ -74,7 +74,7 @@ AnySurface = PolynomialModel | LaminationModel | GaussianProcessModel | SpokePro
 SurfaceModel = Annotated[AnySurface, Field(discriminator="kind")]
 
 
-def name_of(model: AnySurface) -> str:
+def surface_name(model: AnySurface) -> str:
     """Return the name of a surface in tables, e.g. ``gaussian process on lamination 7``."""
     match model:
         case PolynomialModel():
@@ -86,7 +86,7 @@ def name_of(model: AnySurface) -> str:
         case LaminationModel():
             return f"lamination {model.coefficients}"
         case GaussianProcessModel():
-            return f"gaussian process on {name_of(model.mean) if model.mean else 'the mean'}"
+            return f"gaussian process on {surface_name(model.mean) if model.mean else 'the mean'}"
         case SpokeProcessModel():
             return "spoke process"
         case _:

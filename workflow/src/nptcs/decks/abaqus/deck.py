@@ -14,7 +14,7 @@ from nptcs.decks.abaqus.parts import (
     band_lines,
     ground_lines,
     plates_lines,
-    spoke_lines,
+    spoke_text,
     wires_lines,
 )
 from nptcs.decks.abaqus.text import RULE, comment, members, number, numbers
@@ -57,7 +57,7 @@ def tyre_deck(
     plate = (values["spacing_mm"], values["thickness_mm"], values["angle_deg"])
     lines = [
         *_heading(values, load_n, case_id),
-        *spoke_lines(model, tyre),
+        *spoke_text(model, tyre),
         *plates_lines(model, tyre, *plate),
         *band_lines(model, tyre),
         *wires_lines(model, tyre),

@@ -27,7 +27,7 @@ QUAD = np.array([[0, 0], [1, 0], [1, 1], [0, 1]])
 
 
 @dataclass(frozen=True)
-class Part:
+class DeckPart:
     """Nodes and elements of a part; all numbers from 1.
 
     Parameters
@@ -64,7 +64,7 @@ def check_radii(geometry: SpokeGeometry, tyre: TyreGeometry) -> None:
         )
 
 
-def spoke_part(geometry: SpokeGeometry, mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
+def spoke_part(geometry: SpokeGeometry, mesh: AbaqusMesh, tyre: TyreGeometry) -> DeckPart:
     """Mesh the rubber of one spoke with bricks in rows of equal radius.
 
     Node set ``RIMFOOT``: the foot on the rim; element sets ``RUBBER`` and ``BANDFOOT``, the row
@@ -87,7 +87,7 @@ def spoke_part(geometry: SpokeGeometry, mesh: AbaqusMesh, tyre: TyreGeometry) ->
     numbers = _numbers(shape)
     bricks = _cells(numbers, BRICK)
     in_row = _numbers((mesh.columns, mesh.spoke_axial, len(rows) - 1))
-    return Part(
+    return DeckPart(
         positions=positions.reshape(-1, 3),
         elements=bricks,
         node_sets={"RIMFOOT": numbers[..., 0].ravel()},
@@ -106,7 +106,7 @@ def plate_axes(geometry: SpokeGeometry) -> dict[str, Array]:
 
 def plates_part(
     geometry: SpokeGeometry, mesh: AbaqusMesh, tyre: TyreGeometry, spacing_mm: float
-) -> Part:
+) -> DeckPart:
     """Mesh the plates of one spoke with shells along the middle of the legs.
 
     Element sets ``LOWER`` and ``UPPER``: the legs at rim and band. The shells' normal is the
@@ -135,7 +135,7 @@ def plates_part(
             positions.append(plate.reshape(-1, 3))
             elements.append(_cells(numbers, QUAD))
     numbers = _numbers((2, count * along * across))
-    return Part(
+    return DeckPart(
         positions=np.concatenate(positions),
         elements=np.concatenate(elements),
         node_sets={},
@@ -143,7 +143,7 @@ def plates_part(
     )
 
 
-def band_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
+def band_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> DeckPart:
     """Mesh the shear band and the tread with bricks; a row of nodes lies at the lowest point.
 
     Node set ``NEUTRAL``: the neutral line of the band, in the plane nearest to the middle of the
@@ -159,7 +159,7 @@ def band_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
     numbers = _numbers(positions.shape[:3])
     closed = np.concatenate([numbers, numbers[:1]])
     in_row = _numbers((mesh.around, mesh.band_axial, mesh.band_rows + mesh.tread_rows))
-    return Part(
+    return DeckPart(
         positions=positions.reshape(-1, 3),
         elements=_cells(closed, BRICK),
         node_sets={"NEUTRAL": numbers[:, mesh.band_axial // 2, mesh.band_rows // 2].ravel()},
@@ -172,7 +172,7 @@ def band_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
     )
 
 
-def wires_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
+def wires_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> DeckPart:
     """Mesh the two surfaces that carry the steel wires, at the same angles as the band.
 
     Element sets ``INNER`` and ``OUTER``.
@@ -183,7 +183,7 @@ def wires_part(mesh: AbaqusMesh, tyre: TyreGeometry) -> Part:
     numbers = _numbers(positions.shape[:3])
     closed = np.concatenate([numbers, numbers[:1]])
     one = mesh.around * mesh.band_axial
-    return Part(
+    return DeckPart(
         positions=positions.reshape(-1, 3),
         elements=np.concatenate([_cells(closed[..., layer], QUAD) for layer in (0, 1)]),
         node_sets={},

@@ -6,12 +6,19 @@ import numpy as np
 
 from nptcs.config.solvers.abaqus import AbaqusModel
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.decks.abaqus.mesh import Part, band_part, plate_axes, plates_part, spoke_part, wires_part
+from nptcs.decks.abaqus.mesh import (
+    DeckPart,
+    band_part,
+    plate_axes,
+    plates_part,
+    spoke_part,
+    wires_part,
+)
 from nptcs.decks.abaqus.text import THIN_RULE, comment, members, number, numbers
 from nptcs.errors import InputError
 
 
-def spoke_lines(model: AbaqusModel, tyre: TyreGeometry) -> list[str]:
+def spoke_text(model: AbaqusModel, tyre: TyreGeometry) -> list[str]:
     """Write the part of one spoke's rubber."""
     part = spoke_part(model.geometry, model.mesh, tyre)
     return [
@@ -165,7 +172,7 @@ def ground_lines(tyre: TyreGeometry) -> list[str]:
     ]
 
 
-def _mesh(part: Part, element: str) -> list[str]:
+def _mesh(part: DeckPart, element: str) -> list[str]:
     """Nodes, elements and sets of a part."""
     lines = ["*NODE"]
     for label, position in enumerate(part.positions, 1):

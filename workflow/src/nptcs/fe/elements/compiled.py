@@ -84,7 +84,7 @@ def neo_hooke(
 ) -> tuple[float, float, float, float, float]:
     """Evaluate the law at one point (`neo_hooke.NeoHooke`): J, a, a I1/3, p J, C10 (Ī1 - 3).
 
-    `inverse` takes G = F⁻ᵀ. Where J is not positive, only J is right.
+    `inverse` takes G = F⁻ᵀ. Where J is not positive, only J is meaningful.
     """
     volume = _cofactors(deformation, inverse)
     if not volume > 0.0:

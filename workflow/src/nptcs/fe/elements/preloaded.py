@@ -1,7 +1,7 @@
 """Compiled functions made ready by the import of this module, in a process that others branch from.
 
-The campaign starts each case as a copy of one process. What that one has imported and compiled, or
-read from numba's copies on disk (0.5 s), no case has to.
+The campaign starts each case as a copy of one process. That process imports and compiles, or reads
+numba's copies from disk (0.5 s), once for all cases.
 """
 
 from __future__ import annotations

@@ -58,7 +58,7 @@ class Bricks:
         )
 
 
-def join(parts: list[Bricks]) -> Bricks:
+def join_bricks(parts: list[Bricks]) -> Bricks:
     """All bricks of several sets with the same fields."""
     return Bricks(
         np.concatenate([part.position for part in parts]),
@@ -100,7 +100,7 @@ def spoke_bricks(model: SpokeModel, state: SpokeState, spoke: int = 0) -> Bricks
             )
         )
     parts.append(_plate_bricks(model, state, spoke))
-    return join(parts)
+    return join_bricks(parts)
 
 
 def _plate_bricks(model: SpokeModel, state: SpokeState, spoke: int) -> Bricks:
@@ -174,7 +174,7 @@ def ring_bricks(
             nothing,
         )
         parts.append(_extruded(group, corners, state.displacement, axial, cells))
-    return join(parts)
+    return join_bricks(parts)
 
 
 def _extruded(
@@ -221,4 +221,4 @@ def tyre_bricks(
         along = np.array([np.cos(angle), np.sin(angle), 0.0])
         axes = np.stack([along, [0.0, 0.0, 1.0], out], axis=1)
         parts.append(spoke_bricks(spoke, last, number).moved(axes, rim * out))
-    return join(parts)
+    return join_bricks(parts)

@@ -153,7 +153,9 @@ def side_part(s: Array, lowest: float, narrowing: float) -> Array:
     return part
 
 
-def fit(samples: SpokeSamples, options: EnergyTableOptions, height_mm: float) -> SpokeEnergyTable:
+def fit_energy(
+    samples: SpokeSamples, options: EnergyTableOptions, height_mm: float
+) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
     All data enter in units of energy: forces times the half range, tangents times its square;
@@ -192,7 +194,7 @@ def fit(samples: SpokeSamples, options: EnergyTableOptions, height_mm: float) ->
     coefficients, _, rank, _ = np.linalg.lstsq(*weighted, rcond=1e-12)
     if rank < len(exponents):
         raise ValueError(
-            f"{len(exponents)} terms cannot be found from {len(samples.coordinates)} states "
+            f"{len(exponents)} terms cannot be determined from {len(samples.coordinates)} states "
             f"(rank {rank}): lower degrees or take more samples"
         )
     force = _term(lines, _order(0)) @ coefficients / half[0]

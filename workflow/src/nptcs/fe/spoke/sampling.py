@@ -15,7 +15,7 @@ from nptcs.fe.spoke.energy_table import (
     SpokeEnergyTable,
     SpokeSamples,
     chebyshev_nodes,
-    fit,
+    fit_energy,
     side_part,
 )
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel, SpokeState
@@ -28,7 +28,7 @@ START = -1
 
 
 @dataclass(frozen=True)
-class Row:
+class SampledRow:
     """States of equal β and φ (at full range), and the numbers of their levels, rising."""
 
     number: int
@@ -58,7 +58,7 @@ class Grid:
         zero = np.abs(self.lengths) < 1e-9 * np.ptp(self.lengths)
         self._levels = [int(level) for level in np.flatnonzero(~zero)]
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[SampledRow]:
         """Rows with β ≥ 0, one after the other; the states with β < 0 follow by symmetry."""
         options = self._options
         turns = chebyshev_nodes(
@@ -68,7 +68,9 @@ class Grid:
         turns = turns[turns > -1e-12]
         middle = (len(rotations) - 1) // 2
         return [
-            Row(number, turns[j], rotations[k], self._levels_of(j + k - middle, turns[j], phi))
+            SampledRow(
+                number, turns[j], rotations[k], self._levels_of(j + k - middle, turns[j], phi)
+            )
             for number, ((j, k), phi) in enumerate(
                 (place, rotations[place[1]])
                 for place in product(range(len(turns)), range(len(rotations)))
@@ -82,7 +84,7 @@ class Grid:
         ends = self._levels[0], self._levels[-1]
         return tuple(level for level in self._levels if (level + colour) % 2 or level in ends)
 
-    def motions(self, row: Row, levels: Sequence[int]) -> Array:
+    def motions(self, row: SampledRow, levels: Sequence[int]) -> Array:
         """Motions (n, 3) of a row at these levels."""
         s = np.array([0.0 if level == START else self.lengths[level] for level in levels])
         part = side_part(s, self._options.elongation_mm[0], self._options.narrowing)
@@ -129,14 +131,14 @@ class _Walk:
     grid: Grid
     found: dict[Place, SpokeState] = field(default_factory=dict)
 
-    def begun(self, row: Row, near: SpokeState) -> SpokeState:
+    def begun(self, row: SampledRow, near: SpokeState) -> SpokeState:
         """Go from a state to the start of a row, which may be that state itself."""
         if np.allclose(self.grid.motions(row, [START])[0], near.motion, rtol=0.0, atol=1e-12):
             self.found[row.number, START] = near
             return near
         return self.along(row, near, [START])
 
-    def along(self, row: Row, start: SpokeState, levels: Sequence[int]) -> SpokeState:
+    def along(self, row: SampledRow, start: SpokeState, levels: Sequence[int]) -> SpokeState:
         """Go from a state through these levels of a row, and give the last state."""
         before, last = None, start
         for level, motion in zip(levels, self.grid.motions(row, levels), strict=True):
@@ -145,7 +147,9 @@ class _Walk:
         return last
 
 
-def _last_level(model: SpokeModel, grid: Grid, row: Row, found: dict[Place, SpokeState]) -> int:
+def _last_level(
+    model: SpokeModel, grid: Grid, row: SampledRow, found: dict[Place, SpokeState]
+) -> int:
     """Lowest level that a row reaches, with the one that it leaves out next to its last state."""
     inside = int(np.searchsorted(grid.lengths, 0.0))
     reached = [level for number, level in found if number == row.number and 0 <= level < inside]
@@ -174,12 +178,12 @@ def samples_of(states: Mapping[Place, SpokeState], height_mm: float) -> SpokeSam
     )
 
 
-def sample(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
+def sample_spoke(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples:
     """Sample a spoke for its table, see `sampled_states`."""
     return samples_of(sampled_states(model, options), model.design.geometry.height_mm)
 
 
 def computed_table(design: SpokeDesign, options: EnergyTableOptions) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
-    samples = sample(SpokeModel(design, options.accepted_work), options)
-    return fit(samples, options, design.geometry.height_mm)
+    samples = sample_spoke(SpokeModel(design, options.accepted_work), options)
+    return fit_energy(samples, options, design.geometry.height_mm)

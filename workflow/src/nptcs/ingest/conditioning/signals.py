@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from nptcs.arrays import Array, Mask, Rows
-from nptcs.tables.laboratory.curves import Step
+from nptcs.tables.laboratory.curves import ConditioningStep
 
 STRAIN_CHANNELS = (
     "strain",
@@ -34,7 +34,7 @@ class Signals:
     """
 
     values: dict[str, Array]
-    steps: list[Step] = field(default_factory=list)
+    steps: list[ConditioningStep] = field(default_factory=list)
     flags: list[str] = field(default_factory=list)
     failure_seen: bool = False
 
@@ -47,11 +47,11 @@ class Signals:
 
     def note(self, name: str, changed: str, **numbers: float) -> None:
         """Log a step that was on."""
-        self.steps.append(Step(name=name, on=True, changed=changed, numbers=numbers))
+        self.steps.append(ConditioningStep(name=name, on=True, changed=changed, numbers=numbers))
 
     def skipped(self, name: str) -> None:
         """Log a step that is switched off."""
-        self.steps.append(Step(name=name, on=False, changed="switched off"))
+        self.steps.append(ConditioningStep(name=name, on=False, changed="switched off"))
 
 
 def line_slope(x: Array, y: Array) -> float:

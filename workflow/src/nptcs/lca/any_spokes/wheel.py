@@ -24,7 +24,7 @@ from nptcs.lca.any_spokes.collocation import (
     free_matrix,
     gauss_tableau,
 )
-from nptcs.lca.section import RingSection
+from nptcs.lca.section import ShearBandSection
 from nptcs.lca.spokes.law import SpokeLaw
 
 ContactSpokes = Literal["paper", "local"]
@@ -42,7 +42,7 @@ class Wheel:
 
     Parameters
     ----------
-    section, law : RingSection, SpokeLaw
+    section, law : ShearBandSection, SpokeLaw
         ScaledRing and spokes.
     contact : {"local", "paper"}
         How the contact region's spokes act; single spokes act locally.
@@ -51,7 +51,7 @@ class Wheel:
         of them; without them the spokes are smeared.
     """
 
-    section: RingSection
+    section: ShearBandSection
     law: SpokeLaw
     contact: ContactSpokes = "local"
     spoke_angles: Floating | None = None
@@ -183,7 +183,7 @@ def break_points(
     return np.append(np.concatenate(parts), end)
 
 
-def press(
+def press_wheel(
     wheel: Wheel, left: Edge, right: Edge, field: CubicHermiteSpline | None = None
 ) -> Pressed:
     """Solve the wheel for given edges, the spokes linearised about a displacement `field`.

@@ -12,12 +12,12 @@ from scipy.optimize import brentq
 
 from nptcs.arrays import Floating
 from nptcs.errors import InputError
-from nptcs.lca.any_spokes.wheel import SAME_ANGLE, ContactSpokes, Edge, Pressed, Wheel, press
+from nptcs.lca.any_spokes.wheel import SAME_ANGLE, ContactSpokes, Edge, Pressed, Wheel, press_wheel
 from nptcs.lca.batch import TARGETS, only_target
 from nptcs.lca.checks import require_positive
 from nptcs.lca.linear.diagnosis import LARGEST_RESIDUAL
 from nptcs.lca.linear.newton import LARGEST_CONTACT
-from nptcs.lca.section import RingSection
+from nptcs.lca.section import ShearBandSection
 from nptcs.lca.single import ModelError
 from nptcs.lca.spokes.law import SpokeLaw
 
@@ -35,7 +35,7 @@ class LawState:
 
     Parameters
     ----------
-    section, law : RingSection, SpokeLaw
+    section, law : ShearBandSection, SpokeLaw
         The design.
     contact : {"local", "paper"}
         How the contact region's spokes act, see `nptcs.lca.any_spokes.wheel`.
@@ -59,7 +59,7 @@ class LawState:
         Which of the model's assumptions the solution breaks; empty if none.
     """
 
-    section: RingSection
+    section: ShearBandSection
     law: SpokeLaw
     contact: ContactSpokes
     hub_angle_deg: float | None
@@ -118,7 +118,7 @@ class _Search:
         """Iterate the spokes' linearisation for given edges."""
         guess, last = self.start, (np.inf, np.inf)
         for _ in range(_ITERATIONS):
-            pressed = press(self.wheel, left, right, guess)
+            pressed = press_wheel(self.wheel, left, right, guess)
             guess, now = pressed.field(), (pressed.sinking, pressed.force)
             if np.allclose(now, last, rtol=_STEADY, atol=0):
                 self.start = guess
@@ -183,7 +183,7 @@ def edge_at(coordinate: float, spokes: Floating) -> Edge:
 
 
 def solve_law(
-    section: RingSection,
+    section: ShearBandSection,
     law: SpokeLaw,
     *,
     load_n: float | None = None,
@@ -196,7 +196,7 @@ def solve_law(
 
     Parameters
     ----------
-    section, law : RingSection, SpokeLaw
+    section, law : ShearBandSection, SpokeLaw
         The design.
     load_n, displacement_mm, theta_c_deg : float
         Exactly one of them; `theta_c_deg` for smeared spokes only.
@@ -219,7 +219,7 @@ def solve_law(
 
     >>> from nptcs.config.solvers.tyre import TyreGeometry
     >>> from nptcs.lca.spokes.linear import LinearSpokes
-    >>> ring = RingSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
+    >>> ring = ShearBandSection.from_tyre(TyreGeometry(), c10_mpa=5.0)
     >>> law = SpokeLaw.linear(LinearSpokes(30.2, 13.26), reach_mm=50)
     >>> round(solve_law(ring, law, load_n=5000, contact="paper").displacement_mm, 2)
     20.74
@@ -353,13 +353,13 @@ def _refuse(state: LawState) -> None:
 
 
 def stiffness_ripple(
-    section: RingSection, law: SpokeLaw, load_n: float, hub_angles_deg: Floating
+    section: ShearBandSection, law: SpokeLaw, load_n: float, hub_angles_deg: Floating
 ) -> pd.DataFrame:
     """Return displacement and stiffness against the hub's angle, for single spokes.
 
     Parameters
     ----------
-    section, law : RingSection, SpokeLaw
+    section, law : ShearBandSection, SpokeLaw
         The design.
     load_n : float
         Load (N).

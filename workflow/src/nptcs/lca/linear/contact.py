@@ -31,7 +31,7 @@ COLUMNS = ("m", "h", "delta", "one")
 
 
 @dataclass(frozen=True)
-class Rule:
+class IntegrationRule:
     """Spectral integration on 0…1 for functions known at `nodes`, the last of which is 1."""
 
     nodes: Floating
@@ -44,7 +44,7 @@ class Rule:
 
 
 @lru_cache(maxsize=8)
-def rule(points: int) -> Rule:
+def rule(points: int) -> IntegrationRule:
     """Return integration matrices, all from 0.
 
     ``once_odd`` integrates an odd function V to the nodes, ``rotation_odd`` integrates
@@ -66,7 +66,7 @@ def rule(points: int) -> Rule:
     end = np.asarray(chebyshev.chebval(1.0, chebyshev.chebint(even, lbnd=0, axis=1).T))
     slopes = chebyshev.chebder(odd, axis=1).T
     slope = np.asarray(chebyshev.chebval(np.append(0.0, nodes), slopes)).T
-    return Rule(
+    return IntegrationRule(
         nodes,
         odd.T @ to_odd,
         even.T @ to_even,
@@ -111,7 +111,7 @@ def points_for(kappa2: Floating, angle: Floating) -> int:
 
 
 def _forcing(
-    theta: Floating, epsilon: Floating, kappa2: Floating, angle: Floating, r: Rule
+    theta: Floating, epsilon: Floating, kappa2: Floating, angle: Floating, r: IntegrationRule
 ) -> Floating:
     """Right-hand side of the system for W, by the columns of `COLUMNS`."""
     sine, cosine = np.sin(theta), np.cos(theta)
@@ -154,7 +154,7 @@ def _edge_states(
     epsilon: Floating,
     kappa2: Floating,
     angle: Floating,
-    r: Rule,
+    r: IntegrationRule,
 ) -> Floating:
     """State at θc from W at the nodes, shape (n, 6, 4)."""
     sine, cosine, tangent = np.sin(theta), np.cos(theta), np.tan(theta)

@@ -15,7 +15,7 @@ import numpy as np
 
 from nptcs.arrays import Floating, Mask
 from nptcs.lca.linear.scaling import ScaledRing
-from nptcs.lca.linear.system import Arcs, Joined, join
+from nptcs.lca.linear.system import Arcs, Joined, join_regions
 
 Target = Literal["force", "sinking", "contact_angle"]
 STEP = 1e-7
@@ -103,7 +103,7 @@ def newton(
     open_rows = np.arange(len(theta_c))
     for _ in range(NEWTON_STEPS):
         here_c, here_t = angles.contact[open_rows], angles.transition[open_rows]
-        joined = join(ring, arcs, here_c, here_t)
+        joined = join_regions(ring, arcs, here_c, here_t)
         by_c, by_t = _step(joined, _misfit(joined, target, value))
         new_c = here_c + by_c
         angles.contact[open_rows] = new_c
@@ -144,7 +144,7 @@ def transition_for(ring: ScaledRing, arcs: Arcs, theta_c: Floating) -> Floating:
     """θt of given contact angles, by brackets."""
 
     def function(theta_t: Floating) -> tuple[Floating, Floating]:
-        joined = join(ring, arcs, theta_c, theta_t)
+        joined = join_regions(ring, arcs, theta_c, theta_t)
         return joined.transition[:, 0], joined.transition[:, 2]
 
     low, high = theta_c * (1 + 1e-6), np.full_like(theta_c, np.pi - 1e-9)
@@ -164,7 +164,7 @@ def by_brackets(
             assert_never(target)
 
     def function(theta_c: Floating) -> tuple[Floating, Floating]:
-        joined = join(ring, arcs, theta_c, transition_for(ring, arcs, theta_c))
+        joined = join_regions(ring, arcs, theta_c, transition_for(ring, arcs, theta_c))
         misfit = _misfit(joined, target, value)
         return misfit[:, 0], misfit[:, 1]
 

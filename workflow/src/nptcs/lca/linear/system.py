@@ -115,7 +115,7 @@ def _dot(columns: Floating, coefficients: Floating) -> Floating:
     return np.einsum("...c,...c->...", columns, coefficients)
 
 
-def join(
+def join_regions(
     ring: ScaledRing, arcs: Arcs, theta_c: Floating, theta_t: Floating, points: int | None = None
 ) -> Joined:
     """Solve n designs for given angles θc < θt (radians), with derivatives by both.

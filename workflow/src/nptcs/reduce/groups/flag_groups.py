@@ -43,7 +43,7 @@ def group_flags(properties: pd.DataFrame, settings: ReductionSettings) -> pd.Dat
     rows = [
         (
             standard,
-            kind_of(rows["flag"].iloc[0], str(standard)),
+            flag_kind(rows["flag"].iloc[0], str(standard)),
             with_ranges(list(dict.fromkeys(rows["flag"]))),
             rows["specimen"].nunique(),
             ", ".join(rows["specimen"].unique()),
@@ -59,7 +59,7 @@ def group_flags(properties: pd.DataFrame, settings: ReductionSettings) -> pd.Dat
     )
 
 
-def kind_of(flag: str, standard: str) -> str:
+def flag_kind(flag: str, standard: str) -> str:
     """Return one of `FLAG_KINDS`."""
     if flag.startswith(NOT_ASSESSED):
         return "not assessed"

@@ -51,7 +51,7 @@ def b_basis_factor(n: int, degrees_of_freedom: int | None = None) -> float:
     return float(stats.nct.ppf(0.95, free, noncentrality) / np.sqrt(n))
 
 
-def describe(
+def describe_sample(
     values: Array, names: Sequence[str], settings: StatisticsSettings, allowable: bool = True
 ) -> tuple[dict[str, object], list[str]]:
     """Statistics of one sample, and remarks on them.
@@ -71,7 +71,7 @@ def describe(
     --------
     >>> values = np.array([1500.0, 1540.0, 1480.0, 1520.0, 1510.0])
     >>> names = ["T0-1", "T0-2", "T0-3", "T0-4", "T0-5"]
-    >>> numbers, remarks = describe(values, names, StatisticsSettings())
+    >>> numbers, remarks = describe_sample(values, names, StatisticsSettings())
     >>> numbers["mean"], round(numbers["standard_deviation"], 2), round(numbers["b_basis"], 1)
     (1510.0, 22.36, 1433.8)
     >>> remarks

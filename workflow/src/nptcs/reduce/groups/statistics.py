@@ -12,7 +12,7 @@ from nptcs.mechanical_tests import TestType
 from nptcs.reduce.deviations import CROSSHEAD, with_crosshead_strain
 from nptcs.reduce.groups.counted import GROUP, counted, left_out, why_not
 from nptcs.reduce.groups.pooling import pooled_rows
-from nptcs.reduce.groups.sample import describe
+from nptcs.reduce.groups.sample import describe_sample
 from nptcs.reduce.rows import TEST_CONDITIONS
 from nptcs.tables.laboratory.specimens import Specimen
 from nptcs.tables.laboratory.statistics import StatisticsTable
@@ -63,7 +63,7 @@ def group_statistics(
             "reported_statistic": rules.reported_statistic,
         }
         measured = included[included["value"].notna()]
-        numbers, notes = describe(
+        numbers, notes = describe_sample(
             measured["value"].to_numpy(),
             measured["specimen"].tolist(),
             settings.statistics,

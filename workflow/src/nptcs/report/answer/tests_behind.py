@@ -5,7 +5,7 @@ from __future__ import annotations
 from nptcs.language import tr, tr_count
 from nptcs.report.blocks import Finding
 from nptcs.report.data import Results
-from nptcs.report.sketches import Part, whole
+from nptcs.report.sketches import Share, bar_of_shares
 from nptcs.tables.laboratory.flags import FlagsTable
 from nptcs.tables.laboratory.statistics import StatisticsTable
 from nptcs.tables.result_table import ReportSection
@@ -31,10 +31,10 @@ def tests_finding(results: Results) -> Finding:
     used = total - len(out)
     flagged = len(deviating - out)
     parts = [
-        Part(tr("as the standard asks"), used - flagged, "good"),
-        Part(tr("deviate from it"), flagged, "warn"),
-        Part(tr("left out by the sheet"), len(set(left_out) - failed), "soft"),
-        Part(tr("could not be read"), len(failed), "bad"),
+        Share(tr("as the standard asks"), used - flagged, "good"),
+        Share(tr("deviate from it"), flagged, "warn"),
+        Share(tr("left out by the sheet"), len(set(left_out) - failed), "soft"),
+        Share(tr("could not be read"), len(failed), "bad"),
     ]
     return Finding(
         _question(),
@@ -47,7 +47,7 @@ def tests_finding(results: Results) -> Finding:
         " ".join([*_scatter(results), _origin(results)]),
         "flags.csv, statistics.csv",
         ReportSection.SPECIMENS,
-        whole(parts, tr("Specimens used, deviating, left out and not read")),
+        bar_of_shares(parts, tr("Specimens used, deviating, left out and not read")),
         synthetic=results.any_synthetic,
     )
 

@@ -14,7 +14,7 @@ from nptcs.report.comparison.parts import TITLE, part_sheet
 from nptcs.report.workbook.build import FIXED_DATE, dated
 from nptcs.report.workbook.cells import FONT, LINK, WRAPPED, head_row, write_row, write_title
 from nptcs.report.workbook.layout import fit_heights, page_for_print
-from nptcs.report.workbook.table_sheets import write_table
+from nptcs.report.workbook.table_sheets import write_table_sheet
 from nptcs.runs.compare import ComparedRuns
 
 WIDTHS = {"A": 34, "B": 60, "C": 12, "D": 90}
@@ -35,7 +35,7 @@ def comparison_workbook(done: ComparedRuns) -> bytes:
     workbook = Workbook()
     _write_summary(workbook.active, done)
     for part in done.parts:
-        write_table(workbook.create_sheet(part.name), part_sheet(part, done.synthetic))
+        write_table_sheet(workbook.create_sheet(part.name), part_sheet(part, done.synthetic))
     workbook.properties.title, workbook.properties.creator = tr(TITLE), "nptcs"
     workbook.properties.description = f"A = {done.a}; B = {done.b}"
     stream = io.BytesIO()

@@ -16,12 +16,12 @@ from nptcs.report.tables.headings import words
 from nptcs.report.tables.names import in_words
 
 
-def what_differs(designs: Sequence[str]) -> list[str]:
+def design_names(designs: Sequence[str]) -> list[str]:
     r"""Name designs by the values that are not the same in all of them; all alike: by their place.
 
     Examples
     --------
-    >>> what_differs(["22 plates, angle_deg 0", "22 plates, angle_deg 8"])
+    >>> design_names(["22 plates, angle_deg 0", "22 plates, angle_deg 8"])
     ['A\xa00°', 'A\xa08°']
     """
     parts = [design.split(", ") for design in designs]
@@ -32,12 +32,12 @@ def what_differs(designs: Sequence[str]) -> list[str]:
     return [in_words(", ".join(one[place] for place in told), SYMBOLS) for one in parts]
 
 
-def in_lines(name: str) -> str:
+def design_in_lines(name: str) -> str:
     r"""Write a design with more than two values on several lines, two on each.
 
     Examples
     --------
-    >>> in_lines("13 plates, S 16.54 mm, T 1.2 mm")
+    >>> design_in_lines("13 plates, S 16.54 mm, T 1.2 mm")
     '13 plates, S 16.54 mm,\nT 1.2 mm'
     """
     parts = name.split(", ")
@@ -59,7 +59,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     first = designs.iloc[0]
     at = tr(" at {at}", at=first["at"]) if first["at"] else ""
     unit = f" [{first['unit']}]" if first["unit"] not in ("", "1") else ""
-    names = [in_lines(name) for name in what_differs(designs["design"].tolist())]
+    names = [design_in_lines(name) for name in design_names(designs["design"].tolist())]
     lines = max(name.count("\n") + 1 for name in names)
     figure, axes = panel(
         in_words(str(first["goal"]), {}),

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from nptcs.arrays import Array
 from nptcs.language import tr
-from nptcs.report.figures.specimens import NORMAL, thinned
+from nptcs.report.figures.specimens import NORMAL, evenly_spaced
 from nptcs.report.figures.style import DASHES, MARKERS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
 
@@ -56,7 +56,7 @@ def hyperelastic_fit(
     )
     parts = []
     for number, (specimen, curve) in enumerate(curves.items()):
-        shown = thinned(curve[curve["strain_axial"].between(low, end)])
+        shown = evenly_spaced(curve[curve["strain_axial"].between(low, end)])
         axes.plot(
             100 * shown["strain_axial"],
             shown["stress_mpa"],

@@ -86,7 +86,7 @@ class Moduli:
     sign: int = 1
 
 
-def thinned(curve: pd.DataFrame, axis: Axis = NORMAL) -> pd.DataFrame:
+def evenly_spaced(curve: pd.DataFrame, axis: Axis = NORMAL) -> pd.DataFrame:
     """Take evenly spaced readings with a strain, and the one of largest stress."""
     curve = curve[curve[axis.strain].notna()]
     if len(curve) <= DRAWN_POINTS:
@@ -130,7 +130,7 @@ def stress_strain(
     parts: list[pd.DataFrame] = []
     colours: dict[str, str] = {}
     for specimen, curve in curves.items():
-        drawn = thinned(curve, axis)
+        drawn = evenly_spaced(curve, axis)
         if drawn.empty:
             continue
         _draw_curve(axes, specimen, drawn, axis, colours, specimen in left_out)
@@ -252,7 +252,7 @@ def rubber_curves(
     parts = []
     for number, (rubber, tests) in enumerate(curves.items()):
         for place, (specimen, curve) in enumerate(tests.items()):
-            drawn = thinned(curve)
+            drawn = evenly_spaced(curve)
             axes.plot(
                 100 * drawn["strain_axial"],
                 drawn["stress_mpa"],

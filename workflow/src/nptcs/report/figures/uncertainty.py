@@ -32,7 +32,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
     synthetic : bool
         Whether the materials are synthetic.
     """
-    names = [in_lines(str(text)) for text in shares["quantities"]]
+    names = [inputs_in_lines(str(text)) for text in shares["quantities"]]
     lines = max(name.count("\n") + 1 for name in names)
     height = 1.3 + (0.15 + 0.13 * lines) * len(names)
     figure, axes = panel(title, tr("share of the variance [%]"), "", (4.3, height), BESIDE_LABELS)
@@ -79,12 +79,12 @@ def share_text(percent: float) -> str:
     return f"{percent:.1g}" if percent >= 0.01 else "< 0.01"
 
 
-def in_lines(quantities: str) -> str:
+def inputs_in_lines(quantities: str) -> str:
     """Write quantities and their standard deviations for a reader, each on a line of its own.
 
     Examples
     --------
-    >>> print(in_lines("e1_mpa ± 2.04e+03, nu12 ± 0.01"))
+    >>> print(inputs_in_lines("e1_mpa ± 2.04e+03, nu12 ± 0.01"))
     E1 ± 2040 MPa
     ν12 ± 0.01
     """

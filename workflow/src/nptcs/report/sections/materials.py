@@ -8,7 +8,7 @@ from functools import partial
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.calibrate.fit import Model
+from nptcs.calibrate.fit import HyperelasticModel
 from nptcs.calibrate.models import model_named
 from nptcs.language import tr
 from nptcs.report.blocks import Listing, PageBlock, Plot, Plots, Section
@@ -105,7 +105,7 @@ def _fit_plots_of(results: Results, rubber: RubberCard) -> list[Plot]:
     return plots
 
 
-def _stress(model: Model, mode: str, constants: Array, stretch: Array) -> Array:
+def _stress(model: HyperelasticModel, mode: str, constants: Array, stretch: Array) -> Array:
     return model.stress(mode, stretch, constants)
 
 

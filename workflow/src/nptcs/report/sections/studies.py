@@ -10,7 +10,7 @@ import pandas as pd
 from nptcs.config.studies.study import Factor, MeasuredRubber, Study
 from nptcs.language import tr, translatable
 from nptcs.report.blocks import Fact, Facts, PageBlock, Plot, Plots, Section, TableView, Text
-from nptcs.report.data import Results, SolverFacts
+from nptcs.report.data import Results, SolverDescription
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
@@ -135,7 +135,7 @@ def cases_section(results: Results, sheets: Sheets) -> Section:
     return Section(ReportSection.CASES, tr("Cases"), tuple(blocks))
 
 
-def _choices(facts: SolverFacts) -> str:
+def _choices(facts: SolverDescription) -> str:
     """Name the models that the solver's options choose."""
     sets = [
         ", ".join(f"{words(name)}: {tr(choice)}" for name, choice in chosen.items())

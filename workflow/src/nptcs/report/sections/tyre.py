@@ -149,7 +149,7 @@ def fiducial_cases(results: Results) -> list[str]:
     return list(mine["case_id"].unique())
 
 
-def not_assessed(responses: pd.DataFrame) -> list[str]:
+def not_assessed_sentence(responses: pd.DataFrame) -> list[str]:
     """Say how many responses have no value, and why, one sentence for each reason.
 
     Responses that the same number of tyres lack for the same reason are one sentence.
@@ -180,7 +180,7 @@ def _reason(notes: pd.Series) -> str:
 
 def _without_value(responses: pd.DataFrame) -> list[PageBlock]:
     """List the responses without a value; nothing where all have one."""
-    lines = tuple(not_assessed(responses))
+    lines = tuple(not_assessed_sentence(responses))
     return [Listing(tr("Not assessed"), lines, "warn")] if lines else []
 
 

@@ -28,9 +28,9 @@ LINKS = {
 def surface_words(name: str) -> str:
     """Write the name of a surface for a reader.
 
-    The name is as `nptcs.config.studies.surface.name_of` gives it. English names stay as they are,
-    because the configuration and ``nptcs design`` ask for them; a name of another form stays as it
-    is in every language.
+    The name is that of `nptcs.config.studies.surface.surface_name`. English names stay as they
+    are, because the configuration and ``nptcs design`` ask for them; a name of another form stays
+    as it is in every language.
 
     Examples
     --------

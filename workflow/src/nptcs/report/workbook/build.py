@@ -20,7 +20,7 @@ from nptcs.report.workbook.charts import CHARTS, DATA, write_charts
 from nptcs.report.workbook.layout import finish_table
 from nptcs.report.workbook.predictor import PREDICTOR, TERMS, write_predictor
 from nptcs.report.workbook.summary import IndexRow, index_row, write_summary
-from nptcs.report.workbook.table_sheets import sheet_name, write_table
+from nptcs.report.workbook.table_sheets import sheet_name, write_table_sheet
 
 FIXED_DATE = datetime(1980, 1, 1, tzinfo=UTC)
 """Date of a workbook whose run has none, and of the parts of the archive that a workbook is."""
@@ -75,7 +75,7 @@ def _written(results: Results) -> Workbook:
         name = sheet_name(sheet, workbook)
         tables.append(index_row(sheet, name))
         if sheet.in_workbook:
-            write_table(workbook.create_sheet(name), sheet)
+            write_table_sheet(workbook.create_sheet(name), sheet)
     _write_dictionary(workbook, results)
     own = [
         IndexRow(name, tr(says)) for name, says in OWN_SHEETS.items() if name in workbook.sheetnames

@@ -30,7 +30,7 @@ MOST_LINES = 7
 
 
 @dataclass(frozen=True)
-class Line:
+class ChartLine:
     """One line of a chart: its name, points of shape (m,) each, and whether it only guides."""
 
     name: str
@@ -47,7 +47,7 @@ class ChartData:
     ----------
     title, x_title, y_title : str
         The axes with their units.
-    lines : tuple of Line
+    lines : tuple of ChartLine
     source : str
         File that the lines are rows of.
     points : bool
@@ -59,7 +59,7 @@ class ChartData:
     title: str
     x_title: str
     y_title: str
-    lines: tuple[Line, ...]
+    lines: tuple[ChartLine, ...]
     source: str
     points: bool = False
     synthetic: bool = False
@@ -188,7 +188,7 @@ def _against_published(results: Results) -> Iterator[ChartData]:
             tr("Computed against published stiffness ({study})", study=study),
             tr("published [N/mm]"),
             tr("computed [N/mm]"),
-            (*lines[: MOST_LINES - 1], Line(tr("equal"), ends, ends, guide=True)),
+            (*lines[: MOST_LINES - 1], ChartLine(tr("equal"), ends, ends, guide=True)),
             "stiffness_against_published.csv",
             points=True,
             synthetic=results.table_is_synthetic(rows),
@@ -212,10 +212,10 @@ def _neutral_lines(results: Results) -> Iterator[ChartData]:
         )
 
 
-def _line(name: str, table: pd.DataFrame, x: str, y: str) -> Line:
+def _line(name: str, table: pd.DataFrame, x: str, y: str) -> ChartLine:
     """Take two columns, rows without either left out, at most `MOST_POINTS` of them."""
     kept = table[[x, y]].dropna()
     if len(kept) > MOST_POINTS:
         places = np.unique(np.linspace(0, len(kept) - 1, MOST_POINTS).round().astype(int))
         kept = kept.iloc[places]
-    return Line(name, kept[x].to_numpy(float), kept[y].to_numpy(float))
+    return ChartLine(name, kept[x].to_numpy(float), kept[y].to_numpy(float))

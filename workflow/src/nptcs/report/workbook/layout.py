@@ -40,9 +40,9 @@ def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
 def fit_widths(worksheet: Worksheet, header: int) -> None:
     """Make each column as wide as what it shows from its header on, and the header high enough."""
     lines = 1
-    for column in range(1, worksheet.max_column + 1):
-        cells = [worksheet.cell(row, column) for row in range(header, worksheet.max_row + 1)]
-        width = min(WIDEST, max(map(_width, cells)) + 2)
+    for column, cells in enumerate(worksheet.iter_cols(min_row=header), start=1):
+        widths = [_header_width(cells[0]), *map(_width, cells[1:])]
+        width = min(WIDEST, max(widths) + 2)
         worksheet.column_dimensions[get_column_letter(column)].width = width
         lines = max(lines, _lines(str(cells[0].value or ""), width - 1))
     worksheet.row_dimensions[header].height = LINE_HEIGHT * lines
@@ -96,12 +96,15 @@ def mark_synthetic(worksheet: Worksheet) -> None:
     worksheet.oddHeader.center.text = tr("SYNTHETIC DATA")
 
 
+def _header_width(cell: Cell) -> int:
+    """Return the length of the longest word of a header, which may wrap at spaces."""
+    return max((ceil(text_width(word)) for word in str(cell.value or "").split()), default=0)
+
+
 def _width(cell: Cell) -> int:
-    """Estimate the characters that a cell shows; headers may wrap at spaces."""
+    """Estimate the characters that a cell shows."""
     if cell.value is None:
         return 0
-    if cell.font.bold:
-        return max(ceil(text_width(part)) for part in str(cell.value).split())
     if cell.data_type == "n":
         return len(shown_number(float(cell.value), cell.number_format))
     return ceil(text_width(str(cell.value)))

@@ -37,7 +37,7 @@ def sheet_name(sheet: Sheet, workbook: Workbook) -> str:
     return name
 
 
-def write_table(worksheet: Worksheet, sheet: Sheet) -> None:
+def write_table_sheet(worksheet: Worksheet, sheet: Sheet) -> None:
     """Write one table: header with comments in the first row, then one row per record."""
     names = [str(name) for name in sheet.table.columns]
     headings = [heading(name, sheet.entry.headings) for name in names]

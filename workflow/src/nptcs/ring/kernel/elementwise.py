@@ -48,8 +48,10 @@ def band_strains(angle: Value, m: Value, d: Value) -> Value:
 
 
 @compilable
-def band_energy(c: Value, h: Value, angle: Value, length: Value, m: Value, d: Value) -> Value:
-    """Energy of an element, L (½ C_ij v_i v_j + ⅙ D_ijk v_i v_j v_k)."""
+def band_energy(
+    c: Value, h: Value, core: Value, angle: Value, length: Value, m: Value, d: Value
+) -> Value:
+    """Energy of an element, L (½ C_ij v_i v_j + ⅙ D_ijk v_i v_j v_k) less what the core takes."""
     e, q, shear, _, _ = band_strains(angle, m, d)
     v = (e, d[2], d[3], d[4])
     total = c[4, 4] * q * q + c[5, 5] * shear * shear + c[6, 6] * m[4] * m[4]
@@ -59,7 +61,47 @@ def band_energy(c: Value, h: Value, angle: Value, length: Value, m: Value, d: Va
             for k in range(ALONG):
                 stiff = stiff + h[i, j, k] * v[k] / 3.0
             total = total + stiff * v[i] * v[j]
-    return 0.5 * length * total
+    pull, give, _, _ = core_give(core, e, d)
+    return 0.5 * length * (total - give * pull * pull)
+
+
+@compilable
+def core_give(core: Value, e: Value, d: Value) -> Value:
+    """Pull of the wires on the core's thickness, and what the core gives to it.
+
+    Where the ring is bent, the outer wires are in tension and the inner ones in compression by the
+    same force, or the reverse: on a circle of curvature χ = 1/R - κf they press on the core, or
+    pull it apart, by χ times their force. With D = N_outer - N_inner, k the wires' stiffness and a
+    the core's compliance its faces move by δ = -a χ D/(1 + a k χ²), which lowers the energy by
+    ½ g D², g = a χ²/(1 + a k χ²).
+
+    Returns
+    -------
+    tuple
+        D, g, ∂g/∂κf and ∂²g/∂κf².
+    """
+    pull = core[0] * e + core[1] * d[2] + core[2] * d[3]
+    soft, held = core[3], core[3] * core[4]
+    turn = core[5] - d[3]
+    left = 1.0 / (1.0 + held * turn * turn)
+    give = soft * turn * turn * left
+    slope = -2.0 * soft * turn * left * left
+    curve = 2.0 * soft * (1.0 - 3.0 * held * turn * turn) * left * left * left
+    return pull, give, slope, curve
+
+
+@compilable
+def add_core_give(core: Value, e: Value, d: Value, stress: Value, stiff: Value) -> None:
+    """Add the derivatives of -½ g D² to those by (e, κs, κf, s')."""
+    pull, give, slope, curve = core_give(core, e, d)
+    for i in range(3):
+        stress[i] += -give * pull * core[i]
+        for j in range(3):
+            stiff[i, j] += -give * core[i] * core[j]
+        stiff[i, 2] += -slope * pull * core[i]
+        stiff[2, i] += -slope * pull * core[i]
+    stress[2] += -0.5 * slope * pull * pull
+    stiff[2, 2] += -0.5 * curve * pull * pull
 
 
 @compilable
@@ -88,6 +130,7 @@ def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: 
 def band(
     c: Value,
     h: Value,
+    core: Value,
     angle: Value,
     length: Value,
     m: Value,
@@ -104,12 +147,13 @@ def band(
     e, q, shear, tx, ty = band_strains(angle, m, d)
     nx, ny = ty, -tx
     along_tangent(c, h, e, d, stress, stiff)
+    add_core_give(core, e, d, stress, stiff)
     stretch = length * stress[0]
-    core = length * c[5, 5] * shear
+    sheared = length * c[5, 5] * shear
     # the core shears by q, too: its faces are the wires' axes, not their sections
-    across = length * c[4, 4] * q + core
-    force[2] += -core
-    force[3] += stretch * q - across * (1.0 + e) + core
+    across = length * c[4, 4] * q + sheared
+    force[2] += -sheared
+    force[3] += stretch * q - across * (1.0 + e) + sheared
     force[4] += length * c[6, 6] * m[4]
     force[5] += stretch * tx + across * nx
     force[6] += stretch * ty + across * ny

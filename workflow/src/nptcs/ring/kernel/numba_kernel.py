@@ -26,7 +26,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     """
 
     @njit(**OPTIONS)
-    def elements(stiffness, hardening, w, middle, length, u, rise, anchor, out):  # type: ignore[no-untyped-def]
+    def elements(stiffness, hardening, core, w, middle, length, u, rise, anchor, out):  # type: ignore[no-untyped-def]
         """Add all elements, and the ground where they touch it."""
         assert formulas != ""
         diagonal, upper, lower, force_out, slope_out, row_out = out
@@ -45,7 +45,17 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             force = np.zeros(VARIABLES)
             tangent = np.zeros((VARIABLES, VARIABLES))
             elementwise.band(
-                stiffness, hardening, middle[i], length[i], m, d, force, tangent, stress, stiff
+                stiffness,
+                hardening,
+                core,
+                middle[i],
+                length[i],
+                m,
+                d,
+                force,
+                tangent,
+                stress,
+                stiff,
             )
             y = elementwise.surface_point(w, middle[i], length[i], m, d)[1]
             if rise - w[OUTER] - y > 0.0:
@@ -162,6 +172,7 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     system.reaction_n, system.reaction_slope = _elements(
         ring.stiffness,
         ring.hardening,
+        ring.core,
         ring.dimensions,
         ring.middle,
         ring.length_mm,

@@ -25,6 +25,7 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     elementwise.band(
         ring.stiffness,
         ring.hardening,
+        ring.core,
         ring.middle,
         ring.length_mm,
         mean,

@@ -22,6 +22,9 @@ class Ring:
         C of the section.
     hardening : array (4, 4, 4)
         D of the section.
+    core : array (6,)
+        Pull of the wires on the core by (e, κs, κf), the core's compliance a, the wires'
+        stiffness k and the curvature 1/R (see `elementwise.core_give`).
     dimensions : array (13,)
         Constants of the section and the ground, places as in `elementwise`.
     theta, middle, length_mm : arrays (nodes,)
@@ -36,6 +39,7 @@ class Ring:
 
     stiffness: Array
     hardening: Array
+    core: Array
     dimensions: Array
     theta: Array
     middle: Array

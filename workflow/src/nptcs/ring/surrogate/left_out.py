@@ -11,7 +11,7 @@ from nptcs.arrays import Array
 from nptcs.config.solvers.ring import RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
-from nptcs.ring.solution import RingError, RingState, load
+from nptcs.ring.solution import RingError, RingState, press_through_loads
 from nptcs.ring.surrogate.model import SpokeSurrogate
 from nptcs.ring.surrogate.source import displacement_error_mm
 from nptcs.ring.tyre import RingTyre, ring_tyre
@@ -89,7 +89,7 @@ def _states(
 ) -> tuple[RingTyre, Sequence[RingState]] | None:
     built = ring_tyre(tyre, table, band_c10_mpa, options)
     try:
-        return built, load(built, LOADS_N)
+        return built, press_through_loads(built, LOADS_N)
     except RingError:
         return None
 

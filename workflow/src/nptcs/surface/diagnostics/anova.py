@@ -65,7 +65,7 @@ class AnovaRow:
     p_value: float = np.nan
 
 
-def noise_of(surface: Surface) -> Noise:
+def noise_of_replicates(surface: Surface) -> Noise:
     """Tell what equal cases of a surface say about the noise."""
     error, df = pure_error(surface.x, surface.y)
     if df == 0:
@@ -125,7 +125,7 @@ def _rest(surface: Surface, df: int) -> list[AnovaRow]:
     if error_df:
         lack, lack_df = max(sse - error, 0.0), df - error_df
         test = (np.nan, np.nan)
-        if lack_df and noise_of(surface) is Noise.REPLICATES:
+        if lack_df and noise_of_replicates(surface) is Noise.REPLICATES:
             test = _f_test(lack, lack_df, error / error_df, error_df)
         rows.append(AnovaRow("lack of fit", "rest", lack_df, lack, np.nan, *test))
         rows.append(AnovaRow("pure error", "rest", error_df, error))

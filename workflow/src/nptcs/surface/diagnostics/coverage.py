@@ -28,7 +28,7 @@ class Planned:
     Parameters
     ----------
     design : DataFrame
-        `nptcs.tables.tyres.cases.Design`.
+        `nptcs.tables.tyres.cases.DesignTable`.
     factors, solvers, terms : sequences of str
         As the configuration names them.
     least_cases : int

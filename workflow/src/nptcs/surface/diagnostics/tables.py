@@ -10,7 +10,7 @@ import pandas as pd
 
 from nptcs.arrays import Array
 from nptcs.config.studies.surface import Choice
-from nptcs.surface.diagnostics.anova import MEANING, anova, noise_of
+from nptcs.surface.diagnostics.anova import MEANING, anova, noise_of_replicates
 from nptcs.surface.diagnostics.influence import influence, term_tests
 from nptcs.surface.diagnostics.stationary import Direction, ridge_path, stationary_points
 from nptcs.surface.fit import Surface
@@ -144,7 +144,7 @@ def _each(surfaces: Surfaces) -> Iterator[tuple[dict[str, str], Surface]]:
 
 
 def _noise(surface: Surface) -> dict[str, str]:
-    noise = noise_of(surface)
+    noise = noise_of_replicates(surface)
     return {"noise": noise.value, "p_meaning": MEANING[noise]}
 
 

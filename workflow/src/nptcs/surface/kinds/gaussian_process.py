@@ -22,7 +22,7 @@ from nptcs.surface.kinds.linked import LinkedSurface
 from nptcs.surface.kinds.matern import MaternLikelihood
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
 
-Mean = Surface | LinkedSurface | Lamination
+MeanSurface = Surface | LinkedSurface | Lamination
 """Surfaces that can lie under a process: those that say their slopes by their coefficients."""
 
 NUGGET = 1e-8
@@ -111,7 +111,7 @@ class GaussianProcess:
     factor_names: tuple[str, ...]
     x: Array
     y: Array
-    mean: Mean | None
+    mean: MeanSurface | None
     theta: Array
     spread: Array
     outside = Outside.REFUSED
@@ -272,7 +272,7 @@ def fit_process(
     x: Array,
     y: Array,
     factors: tuple[str, ...],
-    fit_mean: Callable[[], Mean] | None = None,
+    fit_mean: Callable[[], MeanSurface] | None = None,
 ) -> GaussianProcess:
     """Fit a Gaussian process to points of shape (m, n) with responses of shape (m,).
 
@@ -307,7 +307,7 @@ def _fitted(
     factors: tuple[str, ...],
     x: Array,
     y: Array,
-    mean: Mean | None,
+    mean: MeanSurface | None,
     theta: Array | None = None,
     spread: Array | None = None,
 ) -> GaussianProcess:

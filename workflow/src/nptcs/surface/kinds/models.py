@@ -14,11 +14,11 @@ from nptcs.config.studies.surface import (
     PolynomialModel,
     SpokeProcessModel,
     SurfaceModel,
-    name_of,
+    surface_name,
 )
 from nptcs.errors import InputError
 from nptcs.surface.fit import Surface, fit_points
-from nptcs.surface.kinds.gaussian_process import GaussianProcess, Mean, fit_process
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, MeanSurface, fit_process
 from nptcs.surface.kinds.lamination import Lamination, fit_lamination
 from nptcs.surface.kinds.linked import LinkedSurface, fit_linked
 from nptcs.surface.kinds.selection import chosen_terms
@@ -56,10 +56,10 @@ class FitCases:
 def models_of(study: Study) -> dict[str, SurfaceModel]:
     """Name the surfaces of a study: the polynomial of its terms, then those that it lists."""
     first = [PolynomialModel(kind="polynomial")] if study.terms else []
-    return {name_of(model): model for model in [*first, *study.surfaces]}
+    return {surface_name(model): model for model in [*first, *study.surfaces]}
 
 
-def fit_model(model: SurfaceModel, cases: FitCases) -> ResponseSurface:
+def fit_surface(model: SurfaceModel, cases: FitCases) -> ResponseSurface:
     """Fit the surface that the configuration describes.
 
     Raises
@@ -107,7 +107,7 @@ def _process(model: GaussianProcessModel, cases: FitCases) -> GaussianProcess:
     return fit_process(cases.x, cases.y, tuple(cases.factors), fit_mean)
 
 
-def _mean(model: PolynomialModel | LaminationModel, cases: FitCases) -> Mean:
+def _mean(model: PolynomialModel | LaminationModel, cases: FitCases) -> MeanSurface:
     match model:
         case PolynomialModel():
             return _polynomial(model, cases)

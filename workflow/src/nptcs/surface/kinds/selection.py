@@ -18,7 +18,7 @@ Powers = tuple[int, ...]
 
 
 @dataclass(frozen=True)
-class Step:
+class SelectionStep:
     """One polynomial on the way of the choice.
 
     Parameters
@@ -49,7 +49,7 @@ def chosen_terms(polynomial: Polynomial, x: Array, y: Array, model: PolynomialMo
 
 def backward_steps(
     polynomial: Polynomial, x: Array, y: Array, choose: Choice, through_origin: bool = False
-) -> list[Step]:
+) -> list[SelectionStep]:
     """Drop one term after the other, always the one whose loss makes the criterion smallest.
 
     Only a term that no remaining one needs as its lower-order relative can go, so that every
@@ -68,7 +68,7 @@ def backward_steps(
 
     Returns
     -------
-    list of Step
+    list of SelectionStep
         From all terms down to one.
     """
     refuse_unusable(x, y, polynomial.factors, len(polynomial))
@@ -76,9 +76,9 @@ def backward_steps(
     coded = (x - centre) / half
     refuse_aliased(polynomial.matrix(coded), polynomial.names)
 
-    def step(exponents: tuple[Powers, ...], dropped: str) -> Step:
+    def step(exponents: tuple[Powers, ...], dropped: str) -> SelectionStep:
         matrix = Polynomial(polynomial.factors, exponents).matrix(coded)
-        return Step(exponents, dropped, *_criteria(matrix, y))
+        return SelectionStep(exponents, dropped, *_criteria(matrix, y))
 
     steps = [step(polynomial.exponents, "")]
     while candidates := _free_to_go(steps[-1].exponents, through_origin):

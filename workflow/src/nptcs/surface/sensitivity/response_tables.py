@@ -15,10 +15,10 @@ from nptcs.config.studies.sensitivity import Sensitivity
 from nptcs.errors import InputError
 from nptcs.surface.registry import FittedSurface, SurfaceRegistry
 from nptcs.surface.response_surface import box
-from nptcs.surface.sensitivity.sobol import inputs_of, sobol_indices
+from nptcs.surface.sensitivity.sobol import factor_distribution, sobol_indices
 from nptcs.surface.sensitivity.sobol_tables import variance_shares
 from nptcs.surface.sensitivity.ties import near_ties
-from nptcs.surface.study import RESPONSE, Fit, StudySurfaces
+from nptcs.surface.study import RESPONSE, StudySurfaces, SurfaceFit
 from nptcs.surface.tables import fit_measures
 from nptcs.tables.analysis.response_surfaces import ResponseImpact, ResponseSurfaces
 from nptcs.tables.analysis.sobol import MainEffects, SobolIndices
@@ -37,7 +37,7 @@ def response_surfaces(done: StudySurfaces) -> pd.DataFrame:
     return pd.DataFrame(rows, columns=list(ResponseSurfaces.to_schema().columns))
 
 
-def _row(done: StudySurfaces, fit: Fit) -> dict[str, object]:
+def _row(done: StudySurfaces, fit: SurfaceFit) -> dict[str, object]:
     surface, left_out = fit.surface, fit.left_out
     with np.errstate(divide="ignore"):
         percent = np.abs(100 * left_out.error / surface.y)
@@ -140,7 +140,9 @@ def _best(registry: SurfaceRegistry) -> Iterator[FittedSurface]:
 
 def _ranked(fitted: FittedSurface, settings: Sensitivity) -> list[dict[str, object]]:
     surface = fitted.surface
-    inputs = {name: inputs_of(name, *limits, None) for name, limits in fitted.box().items()}
+    inputs = {
+        name: factor_distribution(name, *limits, None) for name, limits in fitted.box().items()
+    }
     found = sobol_indices(surface.predict, inputs, settings.sobol, interactions=False)
     mean_size, mean = mean_slopes(fitted, settings.sobol.seed)
     ranks = (-found.total).argsort().argsort() + 1

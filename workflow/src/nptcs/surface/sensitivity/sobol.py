@@ -75,7 +75,7 @@ class Indices:
     samples: int
 
 
-def inputs_of(
+def factor_distribution(
     factor: str, low: float, high: float, given: Distribution | None
 ) -> FactorDistribution:
     """Return how a factor is sampled: uniform over its range, or as given, cut to the range.

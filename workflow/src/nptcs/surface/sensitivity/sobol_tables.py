@@ -14,7 +14,7 @@ from nptcs.surface.response_surface import ResponseSurface, box
 from nptcs.surface.sensitivity.sobol import (
     FactorDistribution,
     Indices,
-    inputs_of,
+    factor_distribution,
     main_effect,
     sobol_indices,
 )
@@ -102,7 +102,7 @@ def _inputs(
     distributions = settings.distributions if settings is not None else {}
     lower, upper = box(surface.x)
     return {
-        factor: inputs_of(factor, float(low), float(high), distributions.get(factor))
+        factor: factor_distribution(factor, float(low), float(high), distributions.get(factor))
         for factor, low, high in zip(surface.factors, lower, upper, strict=True)
     }
 

@@ -8,7 +8,7 @@ from pandera.typing.pandas import Series
 
 
 class Impact(pa.DataFrameModel):
-    """``impact.csv``: average gradient × range, ours and as printed in table 9."""
+    """``impact.csv``: average gradient × range, computed and published (table 9)."""
 
     solver: Series[str]
     study: Series[str]
@@ -40,10 +40,10 @@ class Impact(pa.DataFrameModel):
     rank: Series[pd.Int64Dtype] = pa.Field(
         nullable=True,
         ge=1,
-        description="By |impact|, among the solver's factors that have a printed value",
+        description="By |impact|, among the solver's factors that have a published value",
     )
     published_rank: Series[pd.Int64Dtype] = pa.Field(
-        nullable=True, ge=1, description="By the printed impact, among the same factors"
+        nullable=True, ge=1, description="By the published impact, among the same factors"
     )
 
     class Config:

@@ -17,7 +17,7 @@ class SurfaceTable(pa.DataFrameModel):
     coefficient_coded: Series[float] = pa.Field(description="N/mm, factors scaled to [-1, 1]")
     standard_error: Series[float] = pa.Field(ge=0, description="Of coefficient_natural")
     standard_error_coded: Series[float] = pa.Field(ge=0)
-    published_coefficient: Series[float] = pa.Field(nullable=True, description="As printed")
+    published_coefficient: Series[float] = pa.Field(nullable=True, description="As in table 6 or 8")
 
     class Config:
         """Exactly these columns."""

@@ -97,7 +97,7 @@ class Geometry(Strict):
     thickness_stations: int
 
 
-class Step(Strict):
+class ConditioningStep(Strict):
     """One step of signal conditioning."""
 
     name: str
@@ -126,7 +126,7 @@ class IngestRecord(Strict):
     failure_seen: bool = Field(
         False, description="A break was recorded: force lost, and no unloading"
     )
-    steps: tuple[Step, ...] = ()
+    steps: tuple[ConditioningStep, ...] = ()
     flags: tuple[str, ...] = Field((), description="What a reader of any result must know")
     made_from: str = Field(
         "", description="Hash of row, content of the files, profiles, settings and code"

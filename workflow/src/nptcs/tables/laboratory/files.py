@@ -27,7 +27,7 @@ class Files(pa.DataFrameModel):
     ``used``: read for an included specimen; ``left out``: read, its specimen is left out with
     the reason given; ``repeated``: its data are those of another specimen and are not counted
     again; ``not understood``: named, but its specimen failed with the reason given;
-    ``not named``: no row of the sheet names it; ``note``: a README, which none has to name;
+    ``not named``: no row of the sheet names it; ``note``: a README, which no row has to name;
     ``missing``: named, but not in the folder; ``sheet``: the specimen sheet itself.
     """
 

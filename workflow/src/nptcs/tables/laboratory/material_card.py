@@ -38,7 +38,7 @@ PUBLISHED_C10_MPA = {"rubber_75A": 1.18, "rubber_88A": 2.91, "rubber_92A": 4.77}
 """C10 within 15 % strain that section 2.2 of the paper prints, by the example's names."""
 
 
-class Quantity(Strict):
+class CardConstant(Strict):
     """One constant: its value, its uncertainty and its origin."""
 
     value: float
@@ -73,7 +73,7 @@ class PlyCard(Strict):
 
     name: str
     synthetic: bool = Field(description="True if any source specimen is synthetic")
-    constants: dict[str, Quantity] = Field(description="Keys: " + ", ".join(PLY_CONSTANTS))
+    constants: dict[str, CardConstant] = Field(description="Keys: " + ", ".join(PLY_CONSTANTS))
     covariance: Covariance | None = None
     checks: tuple[str, ...] = Field((), description="What the consistency checks found, in words")
 
@@ -88,7 +88,7 @@ class RubberCard(Strict):
     name: str
     synthetic: bool = Field(description="True if any source specimen is synthetic")
     model: str = Field("neo_hookean", description="Name of the hyperelastic model")
-    constants: dict[str, Quantity] = Field(description="For neo-Hookean: c10_mpa")
+    constants: dict[str, CardConstant] = Field(description="For neo-Hookean: c10_mpa")
     covariance: Covariance | None = None
     strain_range: tuple[float, float] = Field(description="Nominal strain range of the fit")
     fit_quality: dict[str, float] = Field(

@@ -35,7 +35,7 @@ class PublishedImpact(pa.DataFrameModel):
         coerce = True
 
 
-class RubberCases(pa.DataFrameModel):
+class PublishedRubberCases(pa.DataFrameModel):
     """Vertical stiffness of the rubber designs by finite elements (table 7)."""
 
     case: Series[int]
@@ -64,7 +64,7 @@ class PublishedSpokeStiffness(pa.DataFrameModel):
         coerce = True
 
 
-class LcaAgainstFemPrinted(pa.DataFrameModel):
+class PublishedLcaAgainstFem(pa.DataFrameModel):
     """The paper's load-bearing model against its finite elements (table 11)."""
 
     spoke_c10_mpa: Series[float] = pa.Field(gt=0, unique=True)
@@ -83,7 +83,7 @@ class LcaAgainstFemPrinted(pa.DataFrameModel):
         coerce = True
 
 
-class LoadErrors(pa.DataFrameModel):
+class PublishedLcaErrors(pa.DataFrameModel):
     """Largest error of the paper's model against its finite elements by load (section 4.3.2)."""
 
     load_n: Series[float] = pa.Field(gt=0, unique=True)

@@ -15,7 +15,7 @@ def realised_column(factor: str) -> str:
     return f"realised_{factor}"
 
 
-class Design(pa.DataFrameModel):
+class DesignTable(pa.DataFrameModel):
     """A design table: one row per case, then a column for each factor and each fixed value."""
 
     case_id: Series[str] = pa.Field(unique=True)

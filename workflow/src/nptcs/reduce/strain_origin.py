@@ -16,7 +16,7 @@ STEP = "strain origin"
 
 
 @dataclass(frozen=True)
-class Origin:
+class StrainOrigin:
     """Shift of the strains, and the standard error of the origin.
 
     Parameters
@@ -45,7 +45,7 @@ class Origin:
         return self.added.get("strain_axial", 0.0)
 
 
-def origin_of(record: IngestRecord) -> Origin | None:
+def strain_origin_of(record: IngestRecord) -> StrainOrigin | None:
     """Read the origin from an ingest record; None where none was found."""
     for step in record.steps:
         numbers = step.numbers
@@ -57,19 +57,19 @@ def origin_of(record: IngestRecord) -> Origin | None:
             }
             left = 0.0 if added else numbers.get("found", 0.0)
             random = float(np.hypot(numbers["standard_error"], left))
-            return Origin(added, random, numbers.get("model_error", 0.0))
+            return StrainOrigin(added, random, numbers.get("model_error", 0.0))
     return None
 
 
-def origins_of(records: Iterable[IngestRecord]) -> dict[str, Origin]:
+def strain_origins_of(records: Iterable[IngestRecord]) -> dict[str, StrainOrigin]:
     """Origins by specimen id, of those that have one."""
-    found = {record.specimen: origin_of(record) for record in records}
+    found = {record.specimen: strain_origin_of(record) for record in records}
     return {name: origin for name, origin in found.items() if origin is not None}
 
 
 def with_origin(
     rows: Sequence[Property],
-    origin: Origin,
+    origin: StrainOrigin,
     branch: Branch,
     sign: int,
     reduce: Callable[[Branch], Sequence[Property]],
@@ -80,7 +80,7 @@ def with_origin(
     ----------
     rows : sequence of Property
         As reduced.
-    origin : Origin
+    origin : StrainOrigin
         Of this specimen's strain.
     branch : Branch
         What they were reduced from, load positive.
