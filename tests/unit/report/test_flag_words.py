@@ -64,6 +64,9 @@ def test_a_stage_writes_each_sentence(sentence):
             "another remark; 未评估：没有横向应变",
         ),
         ("another remark", "another remark"),
+        ("of the contact's points", "接触各点中的最大值"),
+        ("radial, positive in tension", "径向，受拉为正"),
+        ("equal variances p = 0.82; equal means p = 0.38", "方差相等 p = 0.82; 均值相等 p = 0.38"),
         ("", ""),
     ],
 )

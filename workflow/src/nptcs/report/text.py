@@ -76,6 +76,8 @@ def text_width(text: str) -> float:
     >>> text_width("T 1.8 mm"), text_width("板厚 T")
     (8.0, 5.5)
     """
+    if text.isascii():
+        return float(len(text))
     return float(sum(WIDE if is_wide(character) else 1 for character in text))
 
 

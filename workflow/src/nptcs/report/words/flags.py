@@ -113,6 +113,8 @@ def _flag_text(flag: str, language: Language) -> str:
 
 def translated(text: str, sentences: Sequence[str]) -> str | None:
     """Write a text that was made from one of some sentences; None if it was not."""
+    if text in sentences:
+        return tr(text)
     for sentence in sentences:
         if found := pattern(sentence).fullmatch(text):
             values = {name: _value(value) for name, value in found.groupdict().items()}

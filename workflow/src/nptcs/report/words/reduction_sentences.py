@@ -110,10 +110,8 @@ SENTENCES = (
     translatable("strain counted from the set of {strain} that the earlier loadings left"),
     # notes on groups
     translatable("no B-basis: not above zero, n = {n} is too few for this scatter"),
-    translatable(
-        "standard deviation pooled over {count} groups, {free} degrees of freedom; equal "
-        "variances p = {p}"
-    ),
+    translatable("standard deviation pooled over {count} groups, {free} degrees of freedom"),
+    translatable("equal variances p = {p}"),
     translatable("equal means p = {p}"),
     translatable("the variances differ: do not pool"),
     translatable("the means differ: one mean for all is wrong"),

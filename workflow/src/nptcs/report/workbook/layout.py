@@ -50,12 +50,12 @@ def fit_widths(worksheet: Worksheet, header: int) -> None:
 
 def wrap_long_texts(worksheet: Worksheet, first: int) -> None:
     """Wrap the texts that are longer than the widest column, which print would cut off."""
-    for row in worksheet.iter_rows(min_row=first):
+    for number, row in enumerate(worksheet.iter_rows(min_row=first), start=first):
         long = [cell.data_type == "s" and text_width(str(cell.value)) > WIDEST for cell in row]
         if any(long):
             for cell, is_long in zip(row, long, strict=True):
                 cell.alignment = WRAPPED if is_long else TOP
-            fit_heights(worksheet, row[0].row, row[0].row)
+            fit_heights(worksheet, number, number)
 
 
 def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:

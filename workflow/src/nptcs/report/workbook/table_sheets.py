@@ -111,7 +111,10 @@ def allowed_values(contract: pa.Column) -> str:
             parts.append(f"{sign} {check.statistics[bound]:g}")
         elif check.name == "isin":
             parts.append(
-                ", ".join(str(one) or tr("(empty)") for one in check.statistics["allowed_values"])
+                ", ".join(
+                    str(column_words(str(contract.name), one)) or tr("(empty)")
+                    for one in check.statistics["allowed_values"]
+                )
             )
     if contract.nullable:
         parts.append(tr("may be empty"))
