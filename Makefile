@@ -1,13 +1,17 @@
-# Two commands do everything on a fresh machine with Python 3.11 or newer:
-#   make run    sets up .venv and runs the whole pipeline
-#   make test   sets up .venv and passes the tests
+# Three commands on a fresh machine with Python 3.11 or newer:
+#   make setup  sets up .venv
+#   make run    the same, and runs the whole pipeline
+#   make test   the same, and passes the tests
 PYTHON ?= python3
 JOBS ?= 2
 VENV := .venv
 BIN := $(VENV)/bin
 export PATH := $(CURDIR)/$(BIN):$(PATH)
 
-.PHONY: run joint test test-kernel lint format report docs docs-links clean
+.PHONY: setup run joint test test-kernel lint format report docs docs-links clean
+
+setup: $(VENV)/ready
+	@echo "ready; now: . $(BIN)/activate"
 
 run: $(VENV)/ready
 	snakemake -j$(JOBS)

@@ -68,6 +68,17 @@ def held(random: np.random.Generator, strain: Array, slope: float) -> Record:
     return np.append(slope * strain, slope * strain[-1] * fall), np.append(strain, still)
 
 
+def broken_and_returned(random: np.random.Generator, strain: Array, slope: float) -> Record:
+    """Break within one to four readings; then the machine returns at up to 100 times the speed."""
+    fall = np.linspace(1, random.uniform(0, 0.1), int(random.integers(1, 5)) + 1)[1:]
+    still = strain[-1] * (1 + 0.001 * np.arange(int(random.integers(0, 30))))
+    down = strain[-1] * np.linspace(1, 0, max(int(len(strain) / random.uniform(1, 100)), 2))[1:]
+    after = np.concatenate([np.full(len(fall), strain[-1]), still, down])
+    force = np.full(len(after), slope * strain[-1] * fall[-1])
+    force[: len(fall)] = slope * strain[-1] * fall
+    return np.append(slope * strain, force), np.append(strain, after)
+
+
 def _unload(random: np.random.Generator, strain: Array, slope: float, rate: float) -> Record:
     down = np.linspace(1, random.uniform(0, 0.3), max(int(len(strain) / rate), 5))[1:]
     hysteresis = 1 - random.uniform(0, 0.12) * 4 * down * (1 - down)
@@ -98,8 +109,30 @@ def unloaded_with_a_set(random: np.random.Generator, strain: Array, slope: float
 
 def returned_softened(random: np.random.Generator, strain: Array, slope: float) -> Record:
     """Return a filled rubber up to ten times as fast, with far less force on the way back."""
-    down = np.linspace(1, 0.0, max(int(len(strain) / random.uniform(1, 10)), 5))[1:]
-    left = random.uniform(0.0, 0.25)
+    return _soften(random, strain, slope, random.uniform(1, 10))
+
+
+def returned_softened_quickly(random: np.random.Generator, strain: Array, slope: float) -> Record:
+    """Return a filled rubber 10 to 100 times as fast."""
+    return _soften(random, strain, slope, random.uniform(10, 100))
+
+
+def softened_with_a_set(random: np.random.Generator, strain: Array, slope: float) -> Record:
+    """Yield, then return 10 to 100 times as fast, softened, with an eighth to half of a set."""
+    bent = strain[-1] / random.uniform(1, 3)
+    force, back = _soften(random, strain, slope, random.uniform(10, 100), random.uniform(0.12, 0.5))
+    return np.append(slope * bent * np.tanh(strain / bent), np.tanh(1) * force[len(strain) :]), back
+
+
+def _soften(
+    random: np.random.Generator,
+    strain: Array,
+    slope: float,
+    rate: float,
+    left: float | None = None,
+) -> Record:
+    down = np.linspace(1, 0.0, max(int(len(strain) / rate), 5))[1:]
+    left = random.uniform(0.0, 0.25) if left is None else left
     share = np.clip((down - left) / (1 - left), 0, None) ** random.uniform(1.5, 4)
     return np.append(slope * strain, slope * strain[-1] * share), np.append(
         strain, strain[-1] * down
@@ -119,6 +152,7 @@ BREAKS: tuple[Draw, ...] = (
     broken_over_readings,
     broken_gradually,
     broken_in_steps,
+    broken_and_returned,
 )
 STOPS: tuple[Draw, ...] = (
     stopped,
@@ -127,6 +161,8 @@ STOPS: tuple[Draw, ...] = (
     unloaded_quickly,
     unloaded_with_a_set,
     returned_softened,
+    returned_softened_quickly,
+    softened_with_a_set,
     cycled,
 )
 THRESHOLDS = (

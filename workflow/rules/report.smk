@@ -151,6 +151,7 @@ rule report:
         ),
     log:
         "results/logs/report.log",
+    threads: 4  # or as many as the run has: processes that draw figures
     params:
         job={
             **shown(),

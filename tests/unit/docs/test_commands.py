@@ -36,6 +36,7 @@ DEFAULT_STUDY = "needs the finished default study, ten minutes of finite element
 NOT_RUN = {
     "make run": "the run itself: .ci/run does it with the small study",
     "make test": "this test suite",
+    "make setup": "the environment of whoever reads",
     ". .venv/bin/activate": "the environment of whoever reads",
     "nptcs inspect raw_data/my_lab/T0-1_wdw.txt --write-profile "
     "config/formats/my-machine.yaml": "add-a-vendor-format.md runs it on a file that needs one",

@@ -221,7 +221,7 @@ def test_a_missing_unit_is_said(lab, profiles, tmp_path):
     [
         (("Time [s]", "Load [N]", "Zzz [%]"), "'Zzz' in %"),
         (("Time [s]", "Prüfkraft [kN]", "Quux [mm]"), "'Quux' in mm"),
-        (("Time [s]", "Load (ton)", "Strain [%]"), "'Load (ton)' in no unit"),
+        (("Time [s]", "Load (10 N)", "Strain [%]"), "'Load (10 N)' in no unit"),
     ],
 )
 def test_inspect_says_which_of_load_and_strain_it_did_not_read(

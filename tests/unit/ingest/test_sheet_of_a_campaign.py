@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import csv
 import io
 
 import numpy as np
@@ -12,7 +13,7 @@ from nptcs.config.materials.ingest import FileLimits, IngestSettings, limits_in
 from nptcs.errors import InputError
 from nptcs.ingest.check_files import check_files
 from nptcs.ingest.file_names import series_names, tokens
-from nptcs.ingest.fill_sheet import fill_text, parse_fill
+from nptcs.ingest.fill_sheet import fill_text, kept_cells, parse_fill, read_rows
 from nptcs.ingest.folder import is_there
 from nptcs.ingest.new_sheet import propose_sheet
 from nptcs.tables.laboratory.specimens import read_sheet
@@ -71,6 +72,22 @@ def test_what_is_filled_in_by_hand_stays():
     assert table["test"].tolist() == ["shear", "tension"]
     assert table["material"].tolist() == ["m", "m"]
     assert table["remarks"].tolist() == ["mine", "x"]
+
+
+def test_what_was_proposed_by_words_gives_way_to_what_is_stated():
+    proposed = "proposed by words, to be checked: test, orientation_deg"
+    text = (
+        "specimen,test,orientation_deg,width_mm,force_file,remarks\n"
+        f'A_1,tension,0,25.1,A_1.csv,"{proposed}; fill in material"\n'
+    )
+    fills = [parse_fill("A: orientation_deg=90 material=m width_mm=25")]
+    (row,) = csv.DictReader(io.StringIO(fill_text(text, fills)))
+    assert (row["orientation_deg"], row["material"], row["width_mm"]) == ("90", "m", "25.1")
+    assert row["remarks"] == "proposed by words, to be checked: test"
+    assert kept_cells(read_rows(text)[2], fills) == [
+        "A_1: width_mm stays 25.1, not 25; change it in the sheet"
+    ]
+    assert kept_cells(read_rows(text)[2], [parse_fill("A: width_mm=25.1")]) == []
 
 
 @pytest.mark.parametrize(

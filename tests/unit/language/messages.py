@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import ast
+import csv
 import re
 from collections.abc import Iterator
 from pathlib import Path
@@ -71,9 +72,11 @@ def closed_texts() -> Iterator[str]:
     """Yield the texts that the report gives to `tr` from lists elsewhere in the package."""
     for table in TABLES.values():
         yield from (table.title, table.source)
-        for column in table.contract.to_schema().columns:
+        for column, field in table.contract.to_schema().columns.items():
             written = heading(column, table.headings)
             yield from (written.name, written.unit)
+            if field.description:
+                yield field.description
     for entry in (value for value in vars(entries).values() if isinstance(value, entries.Entry)):
         yield from (entry.title, entry.source, entry.file)
         yield from (part for head in entry.headings.values() for part in (head.name, head.unit))
@@ -91,6 +94,14 @@ def closed_texts() -> Iterator[str]:
                 one = Heading(side.name[:-2], side.unit)
             yield from (one.name, one.unit)
     yield from texts_of_configurations()
+    yield from texts_of_the_example()
+
+
+def texts_of_the_example() -> Iterator[str]:
+    """Yield what the sheet of the example says in words of its specimens."""
+    with (ROOT.parents[2] / "raw_data/example/specimens.csv").open(encoding="utf-8") as sheet:
+        for row in csv.DictReader(sheet):
+            yield from filter(None, (row["reason"], row["remarks"]))
 
 
 def texts_of_configurations() -> Iterator[str]:

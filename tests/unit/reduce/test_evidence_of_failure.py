@@ -86,6 +86,36 @@ def test_a_quick_return_of_a_laminate_that_yielded_is_no_failure(
     bench.assert_not_assessed(table, bench.need_failure, "no failure seen")
 
 
+@pytest.mark.parametrize("rows_of_return", [6, 10, 25])
+@pytest.mark.parametrize(("power", "left"), [(2.0, 0.0), (3.5, 0.0), (2.5, 0.2)])
+def test_a_quick_return_of_a_softened_specimen_is_no_failure(
+    bench: Any, run: Make, tmp_path: Path, rows_of_return: int, power: float, left: float
+) -> None:
+    # a filled rubber or a foam: on the way back the force is gone long before the strain
+    down = np.linspace(1, 0, rows_of_return + 1)[1:]
+    strain = 0.012 * np.concatenate([np.linspace(0, 1, 900), down])
+    share = np.clip((down - left) / (1 - left), 0, None) ** power
+    force = bench.laminate(0.012) * np.concatenate([np.linspace(0, 1, 900), share])
+    name = bench.export(tmp_path, np.arange(len(strain)) * 0.1, force, strain)
+    table, _, _ = run(tmp_path, force_file=name)
+    bench.assert_not_assessed(table, bench.need_failure, "softened specimen")
+
+
+@pytest.mark.parametrize("rows_of_return", [6, 10, 25])
+@pytest.mark.parametrize("readings", [1, 3])
+def test_a_break_before_the_machine_returns_is_failure(
+    bench: Any, run: Make, tmp_path: Path, rows_of_return: int, readings: int
+) -> None:
+    down = 0.012 * np.linspace(1, 0, rows_of_return + 1)[1:]
+    strain = np.concatenate([np.linspace(0, 0.012, 900), np.full(readings + 2, 0.012), down])
+    force = bench.laminate(strain)
+    force[900:] = bench.laminate(0.012) * 0.02
+    force[900 : 900 + readings] = bench.laminate(0.012) * np.linspace(0.6, 0.05, readings)
+    name = bench.export(tmp_path, np.arange(len(strain)) * 0.1, force, strain)
+    table, _, _ = run(tmp_path, force_file=name)
+    assert table.loc["strength", "value"] == pytest.approx(1500, rel=1e-3)
+
+
 def test_relaxation_at_a_held_strain_is_no_failure(bench: Any, run: Make, tmp_path: Path) -> None:
     up = np.linspace(0, 0.0035, 200)
     strain = np.concatenate([up, np.full(300, 0.0035)])

@@ -1,9 +1,11 @@
 """The report in Chinese: no word of the report's own stays English, no number is another one."""
 
+import io
 import re
 from dataclasses import replace
 from gettext import NullTranslations
 
+import openpyxl
 import pytest
 from matplotlib.figure import Figure
 
@@ -13,6 +15,7 @@ from nptcs.language.translate import _translations
 from nptcs.report.figures.style import panel, styled, to_svg
 from nptcs.report.html import render_report
 from nptcs.report.text import text_width, wrapped
+from nptcs.report.workbook.build import build_workbook
 
 KEPT = re.compile(
     r"[\W\d_]*|.*[\u4e00-\u9fff].*|A title.*|[^ ]*/[^ ]*\.\w+|[^ ]*\.csv.*|[a-z]+(_[a-z]+)+"
@@ -57,6 +60,19 @@ def test_every_text_of_the_page_has_a_translation(chinese, results, recorder):
     english = render_report(results)
     cells = re.compile(r'data-n="([^"]*)"')
     assert cells.findall(page) == cells.findall(english)
+
+
+def test_the_cells_of_the_workbook_are_chinese_but_for_names(chinese):
+    workbook = openpyxl.load_workbook(io.BytesIO(build_workbook(chinese)))
+    english = re.compile(r"(?:[a-z][a-z'-]+[,;:]? +){3}[a-z]")
+    texts = {
+        text
+        for sheet in workbook
+        for cell in (cell for row in sheet.iter_rows() for cell in row)
+        for text in (cell.value, cell.comment and cell.comment.text)
+        if isinstance(text, str) and english.search(text.split("\n")[0])
+    }
+    assert texts == set()
 
 
 def test_a_recorder_sees_a_text_without_a_translation(recorder):

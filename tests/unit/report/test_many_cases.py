@@ -4,13 +4,14 @@ import numpy as np
 import pandas as pd
 import pytest
 
+from nptcs.report.drawing import csv_of
 from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.published_stiffness import parity
 from nptcs.report.figures.residuals import residual_quantiles, residuals_over_value
 from nptcs.report.figures.style import MOST_MARKS, data_of, sampled, to_svg
 from nptcs.report.figures.surface import STIFFNESS, contours
 from nptcs.report.figures.tyre import load_displacement
-from nptcs.report.plots import csv_of, packed
+from nptcs.report.plots import packed
 from nptcs.report.svg import compact
 from nptcs.surface.fit import fit_points
 from nptcs.terms import parse

@@ -92,7 +92,7 @@ def test_a_folded_table_opens_on_demand_and_says_how_long_it_is():
 
 @pytest.mark.parametrize(("shown", "open_", "folded"), [(None, 3, 0), (2, 2, 1), (0, 0, 3)])
 def test_further_figures_open_on_demand(shown, open_, folded):
-    plots = tuple(Plot("<svg/>", f"words {n}", f"figure{n}") for n in range(3))
+    plots = tuple(Plot(lambda: ("<svg/>", ""), f"words {n}", f"figure{n}") for n in range(3))
     before, _, after = written(Plots("a caption", plots, shown)).partition("<details")
     assert (before.count("<svg/>"), after.count("<svg/>")) == (open_, folded)
     assert "a caption" in before

@@ -11,8 +11,9 @@ import pytest
 from chromium import CHROMIUM, MISSING, browser
 from PIL import Image
 
+from nptcs.report.drawing import csv_of
 from nptcs.report.html import render_report
-from nptcs.report.plots import csv_of, packed
+from nptcs.report.plots import packed
 from nptcs.report.svg import VARIABLES
 from nptcs.tables.published.lca_validation import LcaValidation
 

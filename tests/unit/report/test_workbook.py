@@ -17,6 +17,7 @@ from nptcs.report.tables.entries import design_entry, result_entry
 from nptcs.report.tables.sheets import Sheet, sheets_of
 from nptcs.report.workbook.build import build_workbook
 from nptcs.report.workbook.chart_data import charts_of
+from nptcs.report.workbook.layout import LINE_HEIGHT, WIDEST, finish_table
 from nptcs.report.workbook.number_formats import format_of_column, format_of_number, shown_number
 from nptcs.runs.identity import identify
 from nptcs.tables.catalogue import TABLES
@@ -168,6 +169,20 @@ def test_every_sheet_is_set_for_print(workbook):
         assert sheet.page_setup.orientation == "landscape", sheet.title
         assert sheet.print_area, sheet.title
     assert workbook["cases"].print_title_rows == "$1:$1"
+
+
+def test_a_long_text_wraps_in_a_row_that_is_high_enough():
+    sheet = openpyxl.Workbook().active
+    text = "ASTM D6641, from the curve, least squares up to the peak. " * 5
+    for row in (["name", "rule"], ["short", "one line"], ["long", text], ["中文", "弦线" * 80]):
+        sheet.append(row)
+    finish_table(sheet)
+    assert sheet["B2"].alignment.wrap_text is None
+    assert sheet["B3"].alignment.wrap_text
+    assert sheet["A3"].alignment.vertical == "top"
+    assert sheet.column_dimensions["B"].width == WIDEST
+    assert sheet.row_dimensions[3].height == 5 * LINE_HEIGHT
+    assert sheet.row_dimensions[4].height == 5 * LINE_HEIGHT  # a Chinese character is 1.75 wide
 
 
 def test_it_names_its_run(results, content):

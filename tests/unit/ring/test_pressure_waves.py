@@ -1,5 +1,7 @@
 """Settlement of the layers under waves of pressure, and the ring that is matched to it."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.linalg import expm
@@ -7,10 +9,11 @@ from scipy.linalg import expm
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.pressure_waves import (
     HALF_WAVES,
-    FlatRing,
     RubberLayer,
     WireSheet,
+    drift,
     matched_thickening,
+    missing_drift,
     settlement,
 )
 from nptcs.ring.rubber import Rubber
@@ -104,9 +107,7 @@ def test_incompressible_rubber_needs_next_to_no_match():
 def test_the_quadratic_is_the_settlement_of_the_changed_ring():
     ring, _, _ = flat_ring(10.0)
     least, linear, square = ring.settlement(WAVE)
-    changed = FlatRing(
-        ring.stiffness, ring.thickening + [0, 0, 0.7], ring.compliance_mm_per_mpa, ring.width_mm
-    )
+    changed = replace(ring, thickening=ring.thickening + [0, 0, 0.7])
     expected = changed.settlement(WAVE)[0]
     np.testing.assert_allclose(least + 0.7 * linear + 0.49 * square, expected, rtol=1e-10)
 
@@ -116,3 +117,30 @@ def test_long_waves_bend_the_ring_as_the_layers():
     ring, layers, _ = flat_ring(np.inf)
     wave = np.pi / np.array([300.0, 600.0])
     assert ring.settlement(wave)[0] == pytest.approx(settlement(layers, wave), rel=1e-3)
+
+
+@pytest.mark.parametrize("ratio", [10.0, np.inf])
+def test_short_waves_of_shear_drift_as_a_half_space(ratio):
+    rubber = Rubber(5.0, ratio)
+    wave = np.pi / np.array([1.5, 2.5])
+    # plane strain (Johnson, Contact Mechanics): 2 (1 - ν²)/(E q) = (1 - ν)/(G q)
+    poisson = rubber.contraction / (1 + rubber.contraction)
+    expected = (1 - poisson) / (rubber.shear_mpa * wave)
+    found = drift([RIGID, RubberLayer(rubber, 20.0)], wave)
+    np.testing.assert_allclose(found, expected, rtol=1e-4)
+
+
+def test_long_waves_of_shear_shear_the_tread_evenly():
+    rubber = Rubber(5.0, 10.0)
+    (found,) = drift([RIGID, RubberLayer(rubber, 10.0)], np.array([np.pi / 5000.0]))
+    assert found == pytest.approx(10.0 / rubber.shear_mpa, rel=1e-3)
+
+
+def test_the_ring_lacks_a_quarter_of_the_tread_s_shear_in_long_waves():
+    ring, layers, _ = flat_ring(10.0)
+    wave = np.array([np.pi / 2000.0])
+    missing = drift(layers, wave) - ring.drift(wave)
+    quarter = ring.surface_mm / 4.0 / (2.0 * 5.0)
+    assert missing[0] == pytest.approx(quarter, rel=0.05)
+    ring, layers, depth = flat_ring(10.0)
+    assert 0.5 * quarter < missing_drift(ring, layers, depth) < 0.8 * quarter

@@ -51,6 +51,7 @@ class BentBar:
 
     def words(self) -> str:
         """Say how the bar was held: points, span, loading span, span to thickness."""
-        rollers = f", loading span {self.loading_span_mm:g} mm" if self.loading_span_mm else ""
-        ratio = self.span_mm / self.thickness_mm
-        return f"{self.points} points, span {self.span_mm:g} mm{rollers}, L/h {ratio:.3g}"
+        parts = [f"{self.points} points", f"span {self.span_mm:g} mm"]
+        if self.loading_span_mm:
+            parts.append(f"loading span {self.loading_span_mm:g} mm")
+        return ", ".join([*parts, f"L/h {self.span_mm / self.thickness_mm:.3g}"])

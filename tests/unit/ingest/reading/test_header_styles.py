@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from nptcs.errors import InputError
-from nptcs.ingest.reading.units import split_unit
+from nptcs.ingest.reading.unit_in_name import split_unit
 
 E_MPA = 100_000.0
 TIME = np.arange(0, 60, 0.5)

@@ -46,14 +46,14 @@ def instabilities(model: HyperelasticModel, constants: Array, largest_strain: fl
     """
     found = []
     for words, mode in PATHS.items():
-        for direction, end in (
-            ("tension", 1 + largest_strain),
-            ("compression", 1 / (1 + largest_strain)),
+        for path, end in (
+            (f"{words} tension", 1 + largest_strain),
+            (f"{words} compression", 1 / (1 + largest_strain)),
         ):
             stretch = np.linspace(1.0, end, STEPS)
             l1, l2, _ = stretches(mode, stretch)
             lowest = np.linalg.eigvalsh(model.tangent(l1, l2, constants))[..., 0]
             if (lowest <= 0).any():
                 first = stretch[int(np.argmax(lowest <= 0))] - 1
-                found.append(f"{words} {direction} from strain {first:.3g}")
+                found.append(f"{path} from strain {first:.3g}")
     return found

@@ -104,15 +104,15 @@ def check_reciprocity(measured: Mapping[str, CardConstant], nu21: pd.Series) -> 
     words = f"reciprocity nu12/E1 = nu21/E2 sets nu21 = {expected:.4g}"
     if nu21.empty:
         return f"{words}; nu21 was not measured"
-    words += f"; measured {nu21.mean():.4g} on {len(nu21)} specimens"
+    found = f"measured {nu21.mean():.4g} on {len(nu21)} specimens"
     errors = [q.standard_error for q in (e1, e2, nu12)]
     if len(nu21) < 2 or None in errors:
-        return f"{words} (no standard error to judge the difference by)"
+        return f"{words}; {found} (no standard error to judge the difference by)"
     relative = [(q.standard_error or 0.0) / q.value for q in (e1, e2, nu12)]
     own = float(nu21.std(ddof=1)) / np.sqrt(len(nu21))
     distance = (nu21.mean() - expected) / np.hypot(own, expected * np.linalg.norm(relative))
     verdict = "agrees" if abs(distance) <= LARGEST_DISTANCE else "warning: does not agree"
-    return f"{words}: {verdict} ({distance:+.1f} standard errors)"
+    return f"{words}; {found}: {verdict} ({distance:+.1f} standard errors)"
 
 
 def _require_positive_definite(values: Mapping[str, float], material: str) -> None:

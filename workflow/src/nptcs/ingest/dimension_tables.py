@@ -15,7 +15,8 @@ from nptcs.errors import InputError
 from nptcs.ingest.file_names import tokens
 from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
-from nptcs.ingest.reading.units import factor, split_unit
+from nptcs.ingest.reading.unit_in_name import split_unit
+from nptcs.ingest.reading.units import factor
 
 _SPECIMEN = re.compile(
     r"^(sample|specimen|probe|proben|prob|id|no|nr|n°|name|éprouvette|eprouvette|muestra|probeta|"

@@ -11,7 +11,7 @@ from typing import Literal
 from nptcs.config.materials.ingest import FileLimits
 from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.head_units import add_units_of_head
-from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
+from nptcs.ingest.reading.columns.names import ACROSS, LOADS, STRAINS
 from nptcs.ingest.reading.columns.quantities import NEEDS, Test, unit_of
 from nptcs.ingest.reading.columns.words import may_be
 from nptcs.ingest.reading.continued_tables import tests_of
@@ -19,6 +19,7 @@ from nptcs.ingest.reading.opened_file import OpenedFile, open_file
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile
 from nptcs.ingest.reading.raw_file import header_labels, matching, sources_of
 from nptcs.ingest.reading.text.dialect import Dialect
+from nptcs.ingest.reading.unit_in_name import factor_in_name
 from nptcs.ingest.reading.units import DIMENSION, FACTORS, factor
 
 ROWS_SHOWN = 3
@@ -94,6 +95,8 @@ class Inspection:
                 unit_of(quantity, column, self.profile, stated, self.opened.path, 0)
             except InputError as error:
                 return f"{error.message} ('{column.name}')"
+            if quantity in (*LOADS, *STRAINS) and (found := factor_in_name(column.name)):
+                return f"the name '{column.name}' holds a factor, '{found}': state it in the sheet"
         return ""
 
 

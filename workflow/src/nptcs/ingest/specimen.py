@@ -14,7 +14,7 @@ from nptcs.errors import InputError
 from nptcs.ingest.conditioning.across import settle_transverse
 from nptcs.ingest.conditioning.declared_test import require_declared_test
 from nptcs.ingest.conditioning.excursions import empty_excursions, empty_in_table
-from nptcs.ingest.conditioning.factors import apply_factors
+from nptcs.ingest.conditioning.factors import apply_factors, refuse_scaled_names
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
 from nptcs.ingest.conditioning.saturation import cut_saturated
@@ -106,10 +106,11 @@ def ingest_specimen(
     """
     tables = read_specimen_tables(specimen, Path(folder), profiles, settings.limits)
     load, strain = tables[0], tables[-1]
+    refuse_scaled_names(tables, specimen)
     digest, sketch = data_digest(tables), data_sketch(tables)
     factors = apply_factors(tables, specimen)
     signals = _pair(tables, specimen, settings)
-    signals.flags += factors
+    signals.flags += [*factors, *(doubt for table in tables for doubt in table.doubts)]
     for table, name in zip(tables, (specimen.force_file, specimen.strain_file), strict=False):
         require_declared_test(signals, specimen, table, name)
     mark_dead(signals, settings.missing_values)

@@ -26,6 +26,11 @@ _FEWEST_UP, _FEWEST_DOWN = 20, 2
 _WAY_BACK = 5
 _LATE = 1
 """Readings by which a strain may lag behind its force."""
+STEADY, RETURNED, LEFT = 4.0, 0.6, 0.05
+"""A machine returns at one speed, within this factor; the strain goes back by the second share in
+all, and by at least the third until the force is gone: a softened rubber has lost its force long
+before its strain is back."""
+LIKE_BOTH = "a break, or a machine that returns with a softened specimen"
 TOO_FEW = "so few readings that a break and a return of the machine look alike"
 """Words for such a fall."""
 
@@ -75,6 +80,8 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     back = change < -0.02 and rows >= UNLOADING_ROWS
     along = unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
+    if not along and ratio >= ABRUPT and _returns(force, strain, near, start):
+        return Failure(seen=False, words=f"{fell} and the strain returns at one speed: {LIKE_BOTH}")
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
     if not along and ratio >= ABRUPT and max(_given_back(force, strain, near, start)) < TOO_LITTLE:
@@ -171,6 +178,31 @@ def _given_back(force: Array, strain: Array, near: int, start: int) -> tuple[flo
         back = before - float(later.min()) if len(later) else float("nan")
         shares.append(back * steepest / float(force[near] - rest[row]))
     return (shares[0], shares[1]) if np.isfinite(shares).all() else nothing
+
+
+def _returns(force: Array, strain: Array, near: int, start: int) -> bool:
+    """Tell whether the strain goes back at one speed, from the fall of the force to near its start.
+
+    Between a reading above and one below 15 % of the force at least one must lie: a break takes
+    hardly longer, and its strain stands still until the machine returns, or springs back at once.
+    """
+    up = strain[start : near + 1]
+    rest = force[near:]
+    gone = np.flatnonzero(rest < 0.15 * rest[0])
+    if not len(gone) or gone[0] < 2 or not np.isfinite(up).any():
+        return False
+    fall = int(gone[0])
+    later = strain[near : near + _WAY_BACK * fall + 1]
+    if not np.isfinite(later).all():
+        return False
+    gained = float(later[0] - np.nanmin(up))
+    back = (later[0] - later) / gained if gained > 0 else np.zeros(len(later))
+    end = int(np.argmax(back >= 0.95 * back.max()))
+    if back[fall] < LEFT or back.max() < RETURNED or end < 2:  # at once: it springs back
+        return False
+    # the reading after which the force falls may be half a step before the machine turns
+    speeds = back[fall] / (fall - 0.5), (back[end] - back[fall]) / max(end - fall, 1)
+    return end <= fall or 1 / STEADY <= speeds[1] / speeds[0] <= STEADY
 
 
 def _onset(force: Array, start: int, peak: int) -> int:

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 import ast
 import gc
+import importlib
 import multiprocessing
 import os
 import runpy
@@ -32,6 +33,19 @@ from typing import Any
 
 GRACE_S = 2.0
 """Time that a job has to leave in order when the host has ended."""
+
+AT_FIRST_USE: Mapping[str, tuple[str, ...]] = {
+    "pandera": (
+        "pandera.backends.pandas.register",
+        "pandera.backends.pandas.builtin_checks",
+        "pandera.backends.pandas.builtin_hypotheses",
+        "pandera.api.geopandas.container",
+    ),
+    "pandas": ("pandas.io.formats.csvs", "pandas.io.formats.string"),
+    "nptcs": ("snakemake.io",),
+}
+"""What is imported only when a library is first used, as every script uses it: to check a table, to
+write it, and to read what Snakemake gives a script. Otherwise each fork would import it again."""
 
 
 def serve(channel: Connection) -> None:
@@ -87,6 +101,11 @@ def import_for(script: str) -> None:
                 code = compile(ast.Module([statement], []), script, "exec", dont_inherit=True)
                 with suppress(Exception):
                     exec(code, {})
+    for library, modules in AT_FIRST_USE.items():
+        if library in sys.modules:
+            for module in modules:
+                with suppress(ImportError):
+                    importlib.import_module(module)
 
 
 def run(script: str, environment: Mapping[str, str]) -> None:

@@ -113,6 +113,6 @@ def chord_rule(title: str, method: str) -> str:
     return f"{title} chord, {method}"
 
 
-def strain_range(low: float, high: float, symbol: str = "strain") -> str:
+def strain_range(low: float, high: float) -> str:
     """Words for a nominal range in the column ``range``."""
-    return f"{symbol} {low:g} to {high:g}"
+    return f"strain {low:g} to {high:g}"

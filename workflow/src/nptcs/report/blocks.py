@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Literal, assert_never
 
@@ -68,23 +69,31 @@ class Plot:
 
     Parameters
     ----------
-    svg : str
-        The figure, with words for those who cannot see it.
+    written : callable
+        Returns the figure as SVG, with words for those who cannot see it, and the numbers that it
+        shows: CSV, deflated, in base64, empty where it carries none. It waits until it is drawn.
     alt : str
         These words.
     name : str
         Name of its file, without ending.
-    data : str
-        The numbers that it shows: CSV, deflated, in base64; empty where it carries none.
     synthetic : bool
         Whether it shows synthetic data.
     """
 
-    svg: str
+    written: Callable[[], tuple[str, str]]
     alt: str
     name: str
-    data: str = ""
     synthetic: bool = False
+
+    @property
+    def svg(self) -> str:
+        """The figure, with its words."""
+        return self.written()[0]
+
+    @property
+    def data(self) -> str:
+        """The numbers that it shows."""
+        return self.written()[1]
 
 
 @dataclass(frozen=True)

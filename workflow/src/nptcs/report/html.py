@@ -12,6 +12,7 @@ from nptcs.report.data import Results
 from nptcs.report.figures.theme import theme_css
 from nptcs.report.logo import logo_uri
 from nptcs.report.page_templates import clear_template_errors, page_environment
+from nptcs.report.plots import finish_figures
 from nptcs.report.sections.plan import build_sections
 from nptcs.report.sections.summary import summary_blocks
 from nptcs.report.tables.sheets import sheets_of
@@ -55,6 +56,7 @@ def _page(results: Results) -> str:
         figure_style=_resource("figures.css"),
         figure_script=_resource("figures.js"),
     )
+    finish_figures()
     with clear_template_errors(templates):
         return page_environment(templates).get_template("report.html.j2").render(content)
 

@@ -19,7 +19,6 @@ from pathlib import Path
 from typing import ParamSpec
 
 import matplotlib as mpl
-import pandas as pd
 from markupsafe import escape
 from matplotlib.figure import Figure
 
@@ -28,12 +27,9 @@ from nptcs.files import read_sealed, write_sealed
 from nptcs.language import catalogue_digest, current_language
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
-from nptcs.report.figures.style import data_of, to_svg
-from nptcs.report.svg import compact
+from nptcs.report.drawing import Drawers, Drawn, drawn
 
 KIND = "Figure"
-DIGITS = 6
-"""Significant digits of the numbers that a figure carries."""
 
 P = ParamSpec("P")
 
@@ -45,24 +41,44 @@ class KeptFigures:
     ----------
     folder : Path
         Is made if it does not exist.
+    drawers : Drawers
+        They draw what is not kept.
     """
 
-    def __init__(self, folder: Path) -> None:
+    def __init__(self, folder: Path, drawers: Drawers) -> None:
         self.folder = folder
+        self.drawers = drawers
         self.used: set[str] = set()
+        self.started: dict[str, Callable[[], Drawn]] = {}
 
-    def read(self, key: str) -> tuple[str, str] | None:
-        """Return the SVG and the CSV text kept under a key; None if there is none that is whole."""
+    def get(
+        self, key: str, draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs
+    ) -> Callable[[], Drawn]:
+        """Return a function that gives a figure: as it is kept, or as it is drawn from now on."""
+        if (kept := self.read(key)) is not None:
+            return lambda: kept
+        if key not in self.started:
+            self.started[key] = self.drawers.start(draw, *args, **kwargs)
+        return self.started[key]
+
+    def finish(self) -> None:
+        """Wait for the figures that are being drawn, and keep them."""
+        for key, made in self.started.items():
+            self.write(key, made())
+        self.started.clear()
+
+    def read(self, key: str) -> Drawn | None:
+        """Return the figure that is kept under a key; None if there is none that is whole."""
         self.used.add(f"{key}.json")
         try:
             kept = read_sealed(self.folder / f"{key}.json", KIND)
-            return str(kept["svg"]), str(kept["csv"])
+            return Drawn(str(kept["svg"]), str(kept["csv"]))
         except (OSError, InputError, KeyError):
             return None
 
-    def write(self, key: str, svg: str, csv: str) -> None:
+    def write(self, key: str, figure: Drawn) -> None:
         """Keep a figure."""
-        write_sealed(self.folder / f"{key}.json", {"svg": svg, "csv": csv}, KIND)
+        write_sealed(self.folder / f"{key}.json", figure._asdict(), KIND)
 
     def drop_unused(self) -> None:
         """Remove the figures that were not asked for."""
@@ -75,21 +91,38 @@ _KEPT: ContextVar[KeptFigures | None] = ContextVar("kept figures", default=None)
 
 
 @contextmanager
-def kept_figures(folder: str | Path) -> Iterator[None]:
-    """Take figures from a folder, and keep in it those that are drawn, while the block runs."""
-    kept = KeptFigures(Path(folder))
+def kept_figures(folder: str | Path, processes: int = 1) -> Iterator[None]:
+    """Take figures from a folder, and keep in it those that are drawn, while the block runs.
+
+    Parameters
+    ----------
+    folder : path
+        Is made if it does not exist.
+    processes : int
+        That draw at the same time.
+    """
+    drawers = Drawers(processes)
+    kept = KeptFigures(Path(folder), drawers)
     token = _KEPT.set(kept)
     try:
         yield
     finally:
         _KEPT.reset(token)
+        drawers.close()
     kept.drop_unused()
+
+
+def finish_figures() -> None:
+    """Wait for the figures of the page that other processes draw."""
+    kept = _KEPT.get()
+    if kept is not None:
+        kept.finish()
 
 
 def plot(
     alt: str, synthetic: bool, draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs
 ) -> Plot:
-    """Draw a figure, or take it from those that are kept, and write it for the page.
+    """Let a figure be drawn, or take it from those that are kept, and write it for the page.
 
     Parameters
     ----------
@@ -102,18 +135,24 @@ def plot(
     *args, **kwargs
         Its arguments.
     """
+    words = f"{alt} (synthetic data)" if synthetic else alt
+    figure = _figure(draw, *args, **kwargs)
+
+    @cache
+    def written() -> tuple[str, str]:
+        return labelled(figure().svg, words), packed(figure().csv)
+
+    return Plot(written, alt, file_name(alt), synthetic)
+
+
+def _figure(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> Callable[[], Drawn]:
+    """Return a function that gives a figure, which is kept, being drawn, or drawn here."""
     kept = _KEPT.get()
     key = None if kept is None else figure_key(draw, *args, **kwargs)
-    found = None if kept is None or key is None else kept.read(key)
-    if found is None:
-        figure = draw(*args, **kwargs)
-        data = data_of(figure)
-        found = compact(to_svg(figure)), "" if data is None else csv_of(data)
-        if kept is not None and key is not None:
-            kept.write(key, *found)
-    svg, csv = found
-    words = f"{alt} (synthetic data)" if synthetic else alt
-    return Plot(labelled(svg, words), alt, file_name(alt), packed(csv), synthetic)
+    if kept is not None and key is not None:
+        return kept.get(key, draw, *args, **kwargs)
+    made = drawn(draw, *args, **kwargs)
+    return lambda: made
 
 
 def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> str | None:
@@ -132,11 +171,6 @@ def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> 
 def _code_of(module: str) -> str:
     """Hash the code that draws a figure, with its words."""
     return code_hash(module, __name__, words=True)
-
-
-def csv_of(data: pd.DataFrame) -> str:
-    """Write the numbers of a figure as CSV text, to `DIGITS` significant digits."""
-    return data.to_csv(index=False, float_format=f"%.{DIGITS}g", lineterminator="\n")
 
 
 def packed(csv: str) -> str:

@@ -11,15 +11,13 @@ import pandas as pd
 
 from nptcs.language import tr
 from nptcs.report.blocks import LONG, Cell, TableView
+from nptcs.report.tables.column_words import column_words
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.names import in_symbols, in_words
 from nptcs.report.tables.row_classes import RowClass, no_row
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.text import DIGITS, number_text, rounded
-from nptcs.report.words.flags import flag_text
-from nptcs.report.words.messages import message_text
-from nptcs.report.words.surfaces import surface_words
 
 FEWER_DIGITS = {
     "standard_error": 3,
@@ -44,15 +42,8 @@ PERCENTS = ("difference_percent", "change_percent")
 """Endings of the names of further columns that get three digits."""
 
 
-TERMS = ("dropped", "form", "source", "term")
+TERMS = ("dropped", "form", "not_fitted", "source", "term")
 """Columns that hold terms of polynomials: the page writes them with the factors' symbols."""
-
-WORDS = frozenset(
-    {"status", "origin", "include", "synthetic", "result", "confirmation", "group", "kind", "test"}
-    | {"scope", "reported_statistic", "region", "goal_met", "drucker_stable", "outside_the_box"}
-    | {"failed", "values_used", "model", "beyond_uncertainty", "data", "path", "area_rule"}
-)
-"""Columns that hold words of closed sets: the page writes them in its own language."""
 
 UNCERTAIN_BY = {
     "standard_error": ("value",),
@@ -62,22 +53,11 @@ UNCERTAIN_BY = {
 }
 """Uncertainty, and columns that are written to the second significant digit of it."""
 
-FLAGS = ("flag", "flags", "not_assessed", "notes", "standard_error_rule")
-"""Columns that hold flags."""
-
-MESSAGES = ("message", "note", "not_fitted", "reason", "remarks")
-"""Columns that hold messages of stages."""
-
-SAID = ("rule", "source")
-"""Columns that hold names, and sentences of stages around them."""
-
-SURFACE = "surface"
-"""Column that holds names of surfaces."""
-
 WITH_NAMES = frozenset(
     {
         *("design", "factor", "factors", "goal", "goals", "held", "near_tie_with", "partner"),
         *("point", "property", "properties", "quantities", "realised_factors", "response", "rule"),
+        "level_out_not_fitted",
     }
 )
 """Columns that hold names of factors, properties, responses and rules, alone or in a text."""
@@ -141,7 +121,7 @@ def table_view(
         len(table),
         tuple(column.name for column in shown),
         notes=tuple(
-            f"{heading(name, entry.headings).name}: {_word(name, table[name].iloc[0])}"
+            f"{heading(name, entry.headings).name}: {column_words(name, table[name].iloc[0])}"
             for name in shared
         ),
     )
@@ -180,7 +160,7 @@ def _written(column: _Column, record: Mapping[str, object], entry: Entry) -> Cel
     if column.name in (*WITH_NAMES, *TERMS) and not column.is_number:
         return _named(column.name, value, entry)
     error = record.get(column.error)
-    return _cell(_word(column.name, value), column.digits, column.is_number, error)
+    return _cell(column_words(column.name, value), column.digits, column.is_number, error)
 
 
 def on_page(table: pd.DataFrame, mark: RowClass) -> pd.DataFrame:
@@ -221,19 +201,6 @@ def sheet_view(
     )
 
 
-def _word(column: str, value: object) -> object:
-    """Write a word of a closed set in the language of the run; other values stay as they are."""
-    if not isinstance(value, str):
-        return value
-    if column in FLAGS:
-        return flag_text(value)
-    if column in MESSAGES:
-        return message_text(value)
-    if column == SURFACE:
-        return surface_words(value)
-    return tr(value) if column in WORDS else value
-
-
 def _is_numeric(column: pd.Series) -> bool:
     """Tell whether a column holds numbers, and no truth values."""
     types = pd.api.types
@@ -260,9 +227,9 @@ def _error_column(name: str, table: pd.DataFrame) -> str:
 
 def _named(column: str, value: object, entry: Entry) -> Cell:
     """Write a text with the names that people use; the names in the file come on hover."""
-    text = "" if value is None or value is pd.NA else str(value)
+    text = "" if value is None or value is pd.NA else str(column_words(column, value))
     write = in_symbols if column in TERMS else in_words
-    words_of_it = write(message_text(text) if column in SAID else text, entry.factors)
+    words_of_it = write(text, entry.factors)
     return Cell(words_of_it, name_in_file="" if words_of_it == text else text)
 
 

@@ -27,13 +27,14 @@ AT_LOAD = {
 OF_CONTACT = {"contact_length_mm", "largest_pressure_mpa", "mean_pressure_mpa"}
 # what it reports of the most loaded spokes, solved again
 PLATE = "at the plates' faces, element centres"
+PLATE_MEAN = "at the plates' faces, element means"
 RUBBER = "at the integration points of the most loaded spokes"
 IN_SPOKES = {
     "plate_largest_mises_mpa": ("plate_largest_mises", "MPa", f"in plane, {PLATE}"),
     "plate_largest_mean_mises_mpa": (
         "plate_largest_mean_mises",
         "MPa",
-        "in plane, at the plates' faces, element means",
+        f"in plane, {PLATE_MEAN}",
     ),
     "plate_largest_along_mpa": ("plate_largest_along_fibres", "MPa", f"σ1 {PLATE}"),
     "plate_smallest_along_mpa": ("plate_smallest_along_fibres", "MPa", f"σ1 {PLATE}"),
@@ -49,7 +50,7 @@ IN_SPOKES = {
 }
 MARGINS = {
     "plate_factor_maximum_stress": ("maximum stress", maximum_stress_factor),
-    "plate_factor_tsai_wu": ("Tsai–Wu, F12 = -½ √(F11 F22)", tsai_wu_factor),
+    "plate_factor_tsai_wu": ("Tsai–Wu with F12 = -½ √(F11 F22)", tsai_wu_factor),
 }
 STRESSES = ["along_mpa", "across_mpa", "shear_mpa"]
 

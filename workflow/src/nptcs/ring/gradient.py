@@ -16,7 +16,7 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.ring.kernel import elementwise, numpy_kernel
-from nptcs.ring.kernel.elementwise import OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
 from nptcs.ring.kernel.system import System
 from nptcs.ring.solution import RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre
@@ -193,7 +193,7 @@ class _Contact:
             ring.dimensions, depth, x - state.anchor_before
         )
         touching = (pressure > 0.0).astype(float)
-        stiff = tyre.contact.tangential_mpa_per_mm
+        stiff = ring.dimensions[SLIP_STIFF]
         area = tyre.areas_mm2()
         return cls(
             by_x, by_y, area * slide * touching, touching, touching * slide / stiff, cross / stiff

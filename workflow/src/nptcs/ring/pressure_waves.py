@@ -1,4 +1,4 @@
-"""How the layers of the ring settle under waves of pressure, and the ring's tread matched to it.
+"""How the ring's layers give way under waves of pressure and shear, and the tread matched to it.
 
 Under a pressure cos(qx) on its surface, a flat strip of rubber layers and wires settles by a
 closed form of plane elasticity. A ring that thins under the pressure right below each place
@@ -6,8 +6,13 @@ settles too much where the pressure varies over lengths like the tread's depth: 
 a short contact carries part of it, because a tread whose thickness varies along it is sheared.
 To the first order this takes from what a shift s of the surface thickens the tread: 1 - G/2λ
 of it is left (λ of Lamé), less for shorter waves. The coefficient of this thickening is
-therefore chosen so that the ring settles as the layers do, under waves from six depths down to
-two thirds of one.
+therefore chosen so that the ring settles as the layers do, under half waves from six depths down to
+0.7 of one.
+
+Under a shear sin(qx) of the ground the tread's surface moves along. The shape f of the ring's
+shear has no strain at the surface, where a shear of the ground asks for one: the ring moves too
+little by surface/4G if the wave is long, by half of that if it is as short as the tread is deep. A
+compliance in series with the ground's gives it back, the mean over the same waves.
 
 A layer's state is (U, V, T, S): displacement along (sin qx) and outwards (cos qx), shear stress
 (sin qx) and stress across (cos qx), MPa. With the moduli of `Rubber`,
@@ -93,13 +98,32 @@ def settlement(layers: Sequence[RubberLayer | WireSheet], wave: Array) -> Array:
     wave : array (waves,)
         q, 1/mm.
     """
+    found: Array = -_surface(layers, wave, [0.0, -1.0])[:, 1]
+    return found
+
+
+def drift(layers: Sequence[RubberLayer | WireSheet], wave: Array) -> Array:
+    """Displacement (waves,) of the outer surface along itself under a shear sin(qx), mm per MPa.
+
+    Parameters
+    ----------
+    layers, wave
+        As in `settlement`.
+    """
+    found: Array = _surface(layers, wave, [1.0, 0.0])[:, 0]
+    return found
+
+
+def _surface(
+    layers: Sequence[RubberLayer | WireSheet], wave: Array, stress: Sequence[float]
+) -> Array:
+    """(U, V) of the outer surface (waves, 2) under the stresses (T, S) there."""
     whole = np.tile(np.eye(STATES), (len(wave), 1, 1))
     for layer in layers:
         whole = layer.transfer(wave) @ whole
-    pressed = np.zeros((len(wave), 2, 1))
-    pressed[:, 1] = -1.0
-    inner = np.linalg.solve(whole[:, 2:, :2], pressed)
-    found: Array = -(whole[:, 1:2, :2] @ inner)[:, 0, 0]
+    given = np.tile(np.asarray(stress)[:, None], (len(wave), 1, 1))
+    inner = np.linalg.solve(whole[:, 2:, :2], given)
+    found: Array = (whole[:, :2, :2] @ inner)[:, :, 0]
     return found
 
 
@@ -111,6 +135,8 @@ class FlatRing:
     thickening: Array
     compliance_mm_per_mpa: float
     width_mm: float
+    half_distance_mm: float
+    surface_mm: float
 
     def settlement(self, wave: Array) -> tuple[Array, Array, Array]:
         """Settlement of the surface under a pressure cos(qx), a quadratic in its thickening by s'.
@@ -126,20 +152,51 @@ class FlatRing:
         -------
         a, b, c : arrays (waves,)
         """
-        # amplitudes: displacement outwards (cos), ψ, θ, s and displacement along (sin)
-        by = np.zeros((len(wave), 7, 5))
-        by[:, 0, 4] = by[:, 1, 2] = by[:, 2, 1] = by[:, 3, 3] = wave
-        by[:, 4, 0], by[:, 4, 1] = -wave, -1.0
-        by[:, 5, 0], by[:, 5, 2] = -wave, -1.0
-        by[:, 6, 3] = 1.0
-        stiff = by.swapaxes(1, 2) @ self.stiffness @ by
         # the surface's place by the amplitudes, and by them times a change of the thickening
         lift = np.zeros((len(wave), 5, 2))
         lift[:, 0, 0] = 1.0
         lift[:, [2, 1, 3], 0] = self.thickening * wave[:, None]
         lift[:, 3, 1] = wave
-        both = self.width_mm * lift.swapaxes(1, 2) @ np.linalg.solve(stiff, lift)
+        both = self.width_mm * lift.swapaxes(1, 2) @ np.linalg.solve(self._stiffness(wave), lift)
         return both[:, 0, 0] + self.compliance_mm_per_mpa, 2.0 * both[:, 0, 1], both[:, 1, 1]
+
+    def drift(self, wave: Array) -> Array:
+        """Displacement (waves,) of the surface along itself under a shear sin(qx), mm per MPa.
+
+        To the first order it is u + s - c θ - surface ψ, u the displacement along the ring.
+        """
+        lift = np.zeros((len(wave), 5, 1))
+        lift[:, 1:, 0] = -self.surface_mm, -self.half_distance_mm, 1.0, 1.0
+        solved = np.linalg.solve(self._stiffness(wave), lift)
+        found: Array = self.width_mm * (lift.swapaxes(1, 2) @ solved)[:, 0, 0]
+        return found
+
+    def _stiffness(self, wave: Array) -> Array:
+        """Stiffness (waves, 5, 5) of the amplitudes of a wave.
+
+        Displacement outwards (cos), ψ, θ, s and displacement along (sin).
+        """
+        by = np.zeros((len(wave), 7, 5))
+        by[:, 0, 4] = by[:, 1, 2] = by[:, 2, 1] = by[:, 3, 3] = wave
+        by[:, 4, 0], by[:, 4, 1] = -wave, -1.0
+        by[:, 5, 0], by[:, 5, 2] = -wave, -1.0
+        by[:, 6, 3] = 1.0
+        found: Array = by.swapaxes(1, 2) @ self.stiffness @ by
+        return found
+
+
+def missing_drift(
+    ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float
+) -> float:
+    """Mean over `HALF_WAVES` of what the layers' surface drifts more than the ring's, mm per MPa.
+
+    Parameters
+    ----------
+    ring, layers, depth_mm
+        As in `matched_thickening`.
+    """
+    wave = np.pi / (HALF_WAVES * depth_mm)
+    return float(np.mean(drift(layers, wave) - ring.drift(wave)))
 
 
 def matched_thickening(

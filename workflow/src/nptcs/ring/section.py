@@ -21,7 +21,13 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.ring.pressure_waves import FlatRing, RubberLayer, WireSheet, matched_thickening
+from nptcs.ring.pressure_waves import (
+    FlatRing,
+    RubberLayer,
+    WireSheet,
+    matched_thickening,
+    missing_drift,
+)
 from nptcs.ring.rubber import Rubber
 
 STRAINS = 7
@@ -59,6 +65,8 @@ class RingSection:
         Growth of the tread's thickness by κs and κf (mm²) and by s' (mm).
     compliance_mm_per_mpa : float
         Thinning of tread and band under the pressure of the ground; 0 for incompressible rubber.
+    shear_compliance_mm_per_mpa : float
+        What a shear of the ground moves the tread's surface more than the shape f does.
     """
 
     radius_mm: float
@@ -71,6 +79,7 @@ class RingSection:
     core: Array
     thickening: Array
     compliance_mm_per_mpa: float
+    shear_compliance_mm_per_mpa: float
 
     @property
     def outer_radius_mm(self) -> float:
@@ -122,16 +131,24 @@ def ring_section(
     squeezed += tread.through_compliance_per_mpa * (surface - cover)
     flat, _, flat_thickening = _assembled(tyre, band, tread, depths, np.inf)
     width = tyre.tread_width_mm
-    change = matched_thickening(
-        FlatRing(flat, flat_thickening, squeezed, width),
-        _strip(tyre, band, tread, depths),
-        2.0 * half + surface,
-    )
+    flat_ring = FlatRing(flat, flat_thickening, squeezed, width, half, surface)
+    strip = _strip(tyre, band, tread, depths)
+    change = matched_thickening(flat_ring, strip, 2.0 * half + surface)
     stiffness, hardening, thickening = _assembled(tyre, band, tread, depths, radius)
     thickening[2] += change
     core = _core_under_wires(tyre, band, half - row, half, radius)
     return RingSection(
-        radius, half, surface, cover, width, stiffness, hardening, core, thickening, squeezed
+        radius,
+        half,
+        surface,
+        cover,
+        width,
+        stiffness,
+        hardening,
+        core,
+        thickening,
+        squeezed,
+        missing_drift(flat_ring, strip, 2.0 * half + surface),
     )
 
 

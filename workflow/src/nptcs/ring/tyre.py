@@ -77,7 +77,7 @@ class RingTyre:
         Off the ground it forgets: there it rests where it is.
         """
         x, pressure, shear = self.traction(u, rise_mm, anchor)
-        rest = np.where(pressure > 0.0, shear / self.contact.tangential_mpa_per_mm, 0.0)
+        rest = np.where(pressure > 0.0, shear / self.ring.dimensions[elementwise.SLIP_STIFF], 0.0)
         placed: Array = x - rest
         return placed
 
@@ -188,7 +188,9 @@ def _arrays(
     w[elementwise.GROW_SECTION : elementwise.GROW_SHEAR + 1] = section.thickening
     w[elementwise.STIFF] = contact.penalty_mpa_per_mm
     w[elementwise.SMOOTH] = contact.smoothing_mm
-    w[elementwise.SLIP_STIFF] = contact.tangential_mpa_per_mm
+    # the tread's own compliance is in series with that of the ground
+    slip = 1.0 / contact.tangential_mpa_per_mm + section.shear_compliance_mm_per_mpa
+    w[elementwise.SLIP_STIFF] = 1.0 / slip
     w[elementwise.FRICTION] = contact.friction
     w[elementwise.COMPLIANCE] = section.compliance_mm_per_mpa
     return Ring(

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import sys
 from collections.abc import Iterable
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, cast
 
@@ -12,6 +14,11 @@ from pandera.errors import SchemaError, SchemaErrors
 
 from nptcs.errors import InputError
 from nptcs.files import atomic_path
+
+if find_spec("geopandas") is None:
+    # pandera tries to import it for each column that it checks, and Python would look for it each
+    # time in all folders of modules; None says that there is none
+    sys.modules.setdefault("geopandas", None)  # type: ignore[arg-type]
 
 
 def write_table(path: str | Path, table: pd.DataFrame, contract: type[pa.DataFrameModel]) -> None:

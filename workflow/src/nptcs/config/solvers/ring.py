@@ -22,7 +22,7 @@ class RingElements(Strict):
 
     elements_per_pitch: int = Field(2, ge=1, description="Elements between two spokes' feet")
     refinement: int = Field(
-        3, ge=1, description="How many times as many there are near the contact"
+        5, ge=1, description="How many times as many there are near the contact"
     )
     refined_deg: float = Field(
         12.0, ge=0, le=180, description="Up to this angle from the middle of the contact"

@@ -114,9 +114,10 @@ _STRAIN_WORD = re.compile(
 
 
 def flag_unread_strains(signals: Signals, table: RawFile, source: str) -> None:
-    """Flag columns named after a strain that were not read, where only travel was.
+    """Flag columns that may be a strain and were not read, where only travel was.
 
-    So is a column named after a transverse one where no transverse strain was read.
+    A word in the name says so, or a unit of strain or length under no name of a travel. A column
+    named after a transverse strain is flagged where no transverse strain was read.
     """
     read = {name for quantity, name in table.columns.items() if quantity in table.values}
     if not {"strain_transverse", "extension_transverse", "strain_yy"} & set(table.values):
@@ -129,11 +130,10 @@ def flag_unread_strains(signals: Signals, table: RawFile, source: str) -> None:
     if source not in ("crosshead", NO_STRAIN):
         return
     named = [n for n in table.names if n not in read and _STRAIN_WORD.search(n.casefold())]
-    unread = [name for name in named if not OVER_LENGTH.search(name.casefold())]
+    unread = [repr(name) for name in named if not OVER_LENGTH.search(name.casefold())]
+    unread += [words for words in table.unread if not words.startswith(tuple(unread))]
     if unread:
-        signals.flags.append(
-            f"not read as a strain: {', '.join(map(repr, unread))} (a profile can name it)"
-        )
+        signals.flags.append(f"not read as a strain: {', '.join(unread)} (a profile can name it)")
 
 
 def _single(

@@ -15,6 +15,7 @@ from nptcs.ingest.reading.columns.head_units import add_units_of_head
 from nptcs.ingest.reading.columns.labels import LabelValue, read_labels
 from nptcs.ingest.reading.columns.names import ACROSS, STRAINS
 from nptcs.ingest.reading.columns.quantities import Test, choose_test, unit_of
+from nptcs.ingest.reading.columns.words import may_be_gauge
 from nptcs.ingest.reading.continued_tables import tests_of
 from nptcs.ingest.reading.opened_file import HEAD_LINES, OpenedFile, open_file, refuse_larger
 from nptcs.ingest.reading.profiles import PLAIN, FormatProfile, normalise
@@ -40,8 +41,12 @@ class RawFile:
         Quantity → column name and unit as found.
     head, names : tuple of str
         Lines above the names; all names of the table, also of columns that are not used.
+    unread : tuple of str
+        Columns that were not read and may be a strain or an extension, with their units.
     assumed : tuple of str
         Quantities without a unit that were taken as dimensionless.
+    notes, doubts : tuple of str
+        How the file was read; what was assumed, which is flagged with every result.
     """
 
     path: Path
@@ -61,8 +66,10 @@ class RawFile:
     labels: dict[str, LabelValue] = field(default_factory=dict)
     head: tuple[str, ...] = ()
     names: tuple[str, ...] = ()
+    unread: tuple[str, ...] = ()
     assumed: tuple[str, ...] = ()
     notes: tuple[str, ...] = ()
+    doubts: tuple[str, ...] = ()
 
     @property
     def rows(self) -> int:
@@ -139,7 +146,7 @@ def read_raw(
                 errors.append(error)
         tables = found or tables
     if not tables:
-        raise errors[0]
+        raise errors[len(fitting)]  # with the names of PLAIN, too
     if len({_reading(table) for table in tables}) > 1:
         names = ", ".join(table.profile.name for table in tables)
         raise InputError(
@@ -234,9 +241,18 @@ def _read(
         labels=header_labels(test, profile, dialect),
         head=head_lines(test),
         names=tuple(column.name for column in found_table.columns if column.name),
+        unread=_unread(test),
         assumed=assumed,
+        doubts=tuple(dict.fromkeys(found_table.doubts)),
         notes=(*reasons, *opened.notes, *found_table.notes, *notes),
     )
+
+
+def _unread(test: Test) -> tuple[str, ...]:
+    """Columns that are not read and may be a strain or an extension, with their units."""
+    read = list(test.quantities.values())
+    free = [column for column in test.found_table.columns if column.name and column not in read]
+    return tuple(f"'{column.name}' in {column.unit}" for column in free if may_be_gauge(column))
 
 
 def _values(

@@ -7,7 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from nptcs.ingest.reading.profiles import normalise
-from nptcs.ingest.reading.units import is_unit, split_unit
+from nptcs.ingest.reading.unit_in_name import NO_UNIT, split_unit
+from nptcs.ingest.reading.units import is_unit
 
 SMALLEST_TABLE = 5
 """Rows that a table must have to be a test."""
@@ -25,7 +26,8 @@ _TEST_NUMBER = re.compile(r"\d+ *[_-] *\d+")
 class Column:
     """One column: its position from 0, its name and unit as found, the group above it.
 
-    `clock` says that its cells are times of day.
+    `clock` says that its cells are times of day; `unit_of_name` is the unit in its name where a row
+    of units states another one.
     """
 
     position: int
@@ -33,11 +35,15 @@ class Column:
     unit: str | None = None
     group: str = ""
     clock: bool = False
+    unit_of_name: str | None = None
 
 
 @dataclass
 class FoundTable:
-    """One table: the rows [first, last) of the file (from 0) and its columns."""
+    """One table: the rows [first, last) of the file (from 0) and its columns.
+
+    `notes` say how it was read, `doubts` what was assumed and is flagged with every result.
+    """
 
     first: int
     last: int
@@ -46,6 +52,7 @@ class FoundTable:
     names_row: int | None = None
     part: str = ""
     notes: list[str] = field(default_factory=list)
+    doubts: list[str] = field(default_factory=list)
     rows_of_data: list[int] = field(default_factory=list)
     unnamed_at_end: int = 0
     broken: list[int] = field(default_factory=list)
@@ -89,8 +96,11 @@ def describe_columns(
         own = _cell(rows[0][1], position - shift) if rows and groups else ""
         text = _cell(names, position - shift) or own
         name, unit = split_unit(text)
-        unit = _cell(units, position - shift) or unit
-        found_table.columns.append(Column(position, name, unit, _cell(groups, position - shift)))
+        stated = _cell(units, position - shift) or unit
+        column = Column(position, name, stated, _cell(groups, position - shift))
+        if unit != stated and (unit or "").casefold() not in NO_UNIT:  # 'Ext. 1 (Strain)' above %
+            column.unit_of_name = unit
+        found_table.columns.append(column)
 
 
 def _cell(cells: Sequence[str], position: int) -> str:

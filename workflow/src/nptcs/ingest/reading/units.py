@@ -81,6 +81,15 @@ FACTORS: dict[str, dict[str, float]] = {
         "kp": 9.80665,
         "kg": 9.80665,
         "tf": 9806.65,
+        **dict.fromkeys(
+            ("tonne", "tonnes", "metric ton", "metric tons", "吨", "吨力", "тонн"), 9806.65
+        ),
+        **dict.fromkeys(("US ton", "short ton", "short tons"), 2e3 * _POUND),
+        **dict.fromkeys(("UK ton", "long ton", "long tons"), 2240 * _POUND),
+        **dict.fromkeys(("kgs", "kg.f", "kilogram", "kilograms", "kilogram-force"), 9.80665),
+        **dict.fromkeys(("gmf", "grams", "gram-force"), 9.80665e-3),
+        **dict.fromkeys(("lbs.", "lb.", "lbf.", "pound-force", "pounds-force"), _POUND),
+        "klbs": 1e3 * _POUND,
         "牛": 1,
         "牛顿": 1,
         "千牛": 1e3,
@@ -184,6 +193,8 @@ FACTORS: dict[str, dict[str, float]] = {
         "micro strain": 1e-6,
         "µstr": 1e-6,
         "um/um": 1,
+        "um/mm": 1e-3,
+        "µm/mm": 1e-3,
         "µm/µm": 1,
         "prozent": 1e-2,
         "‰": 1e-3,
@@ -256,6 +267,9 @@ OTHER_UNITS = frozenset(
 VOLTS = frozenset(["V", "mV", "mV/V"])
 """Units of a raw signal, which is a quantity only with the calibration of its sensor."""
 
+TONS = frozenset(["ton", "tons", "tonf", "ton-f", "ton force"])
+"""Units of force that mean another force in each country, in small letters."""
+
 DIMENSION = {
     "time": "time",
     "force": "force",
@@ -280,29 +294,12 @@ DIMENSION = {
 }
 """Quantity → dimension; the quantities are all that ingest knows."""
 
-_BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)|（([^（）]*)）|<([^<>]*)>")
-_TAIL = re.compile(r"^(.*[^\s/,])(?:\s*/\s*|\s+in\s+|\s+[-–—:]\s+|,\s*|_|\.)(\S+)$")
-_WORD_BEHIND = re.compile(r"^(.*[^\s,])\s+(\S+)$")
-_UNIT_IN_WORDS = (
-    (re.compile(r"(?i)^(?:%|percent(?:age)?|pct\.?)[ _]+(?P<name>\D.*)$"), "%"),
-    (re.compile(r"(?i)^(?P<name>.*)\bmicro-?(?:strains?\b)$"), "microstrain"),
-    (re.compile(r"(?i)^(?P<name>.*(?:force|load|kraft|last))kn$"), "kN"),
-)
-"""Names that say their unit in words: ``% strain``, ``Percentage Strain``, ``Microstrain``."""
-
-
-_UNCLOSED = re.compile(r"^([^\[(（]+)[\[(（]([^\])）]+)$")
-"""A name whose end was cut off: ``Kraft [kN``."""
-_WRITTEN_TOGETHER = re.compile(r"(?<=[a-z])(?=(?:[A-Z][a-z]*|KN|MPa|GPa)$)")
+BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)|（([^（）]*)）|<([^<>]*)>")
 _POWER_OF_TEN = re.compile(
     r"(?i)(?:[x×*·]? ?10 ?(?:\^|e|\*\*)? ?|1?e)[-\u2212] ?0?(?P<power>[36])"
     r"(?: (?:m/m|strain|mm/mm|ε))?"
 )
 """A strain in thousandths or millionths: ``×10-6``, ``1e-6``, ``10^-3``."""
-_NO_UNIT = frozenset(["-", "1", "strain", "abs", "pound", "d", "g", "me", "e-6", "e-3"])
-"""Units that behind a name are a part of it, unless in brackets."""
-_WORDS = frozenset(["k", "v", "j", "h", "m", "min", "in", "minutes"])
-"""The same of a word or letter behind a blank: ``Force min``, ``Load in``."""
 
 
 def usual_units(dimension: str) -> str:
@@ -317,7 +314,7 @@ _SHORT, _SHOWN = 5, 10
 def clean_unit(text: str) -> str:
     """Strip brackets and quotes, and write the micro sign and small variants one way."""
     text = unicodedata.normalize("NFC", text).strip().strip('"').strip()
-    bracketed = _BRACKETS.fullmatch(text)
+    bracketed = BRACKETS.fullmatch(text)
     if bracketed:
         text = next(group for group in bracketed.groups() if group is not None).strip()
     wide = unicodedata.normalize("NFKC", text) if not text.isascii() else text
@@ -346,7 +343,9 @@ def find_unit(dimension: str, text: str) -> str | None:
 def is_unit(text: str) -> bool:
     """Tell whether `text` is a unit of any dimension, also of one that ingest does not use."""
     unit = clean_unit(text)
-    return unit in OTHER_UNITS or any(find_unit(dimension, unit) for dimension in FACTORS)
+    if unit in OTHER_UNITS or unit.casefold() in TONS:
+        return True
+    return any(find_unit(dimension, unit) for dimension in FACTORS)
 
 
 def factor(quantity: str, unit: str) -> float | None:
@@ -354,42 +353,3 @@ def factor(quantity: str, unit: str) -> float | None:
     dimension = DIMENSION[quantity]
     found = find_unit(dimension, unit)
     return None if found is None else FACTORS[dimension][found]
-
-
-@lru_cache(maxsize=4096)
-def split_unit(name: str) -> tuple[str, str | None]:
-    """Split ``Force [kN]``, ``Kraft / kN``, ``F/N``, ``force_n``, ``Load N`` into name and unit.
-
-    Returns
-    -------
-    name : str
-        The name without its unit.
-    unit : str or None
-        None if the name carries no unit.
-    """
-    for match in _BRACKETS.finditer(name):
-        inner = clean_unit(match.group(0))
-        if is_unit(inner) or (match.group(1) and not inner.isdigit()):
-            rest = f"{name[: match.start()].rstrip()} {name[match.end() :].lstrip()}".strip()
-            return rest, inner
-    for pattern, unit in _UNIT_IN_WORDS:
-        found = pattern.match(name.strip())
-        if found:
-            return found["name"].strip() or "strain", unit
-    if is_unit(name) and not name.strip().isalpha():
-        return name.strip(), None
-    if (unclosed := _UNCLOSED.match(name.strip())) and is_unit(unclosed.group(2)):
-        return unclosed.group(1).strip(), clean_unit(unclosed.group(2))
-    ways = [(_TAIL, _NO_UNIT), (_WORD_BEHIND, _NO_UNIT | _WORDS)]
-    if "/" in name.strip().rpartition(" ")[2]:
-        ways.reverse()  # 'Strain 1 mm/mm' ends with one unit, not with two
-    for pattern, words in ways:
-        tail = pattern.match(name.strip())
-        if tail and is_unit(tail.group(2)) and tail.group(2).casefold() not in words:
-            return tail.group(1), clean_unit(tail.group(2))
-    if _WRITTEN_TOGETHER.search(name):
-        apart = split_unit(_WRITTEN_TOGETHER.sub("_", name))  # ForceKN, StrainPct
-        # 'LoadkN' may be in kN: the letter before a unit must not make it another one
-        longer = apart[1] and is_unit(f"{apart[0][-1:]}{apart[1]}")
-        return apart if apart[1] and not longer else (name.strip(), None)
-    return name.strip(), None

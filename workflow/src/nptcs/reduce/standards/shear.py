@@ -35,7 +35,7 @@ def reduce_shear(branch: Branch, rules: ShearRules, evidence: Evidence) -> list[
     """
     gamma, tau = shear_curve(branch.rows)
     chord_words = chord_rule(rules.title, rules.chord_method)
-    nominal = strain_range(*rules.chord_range, symbol="shear strain")
+    nominal = f"shear {strain_range(*rules.chord_range)}"
     if not len(gamma):
         names = {"shear_modulus": "MPa", "offset_shear_strength": "MPa", "shear_strength": "MPa"}
         rows = [missing(name, unit, rules.title, NO_STRAIN) for name, unit in names.items()]

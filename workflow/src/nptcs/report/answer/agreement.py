@@ -36,9 +36,9 @@ def agreement_finding(results: Results) -> Finding:
     solver = leading_solver(study, list(mine["solver"]))
     row = mine[mine["solver"] == solver].iloc[0]
     words = tr(
-        "At {count} cases of the study {study} that {solver} was not calibrated on, its stiffness "
-        "differs from the published one by {mean} % on average and by {largest} % at most "
-        "({case}).",
+        "At {count} cases of the study “{study}” that {solver} was not calibrated on, its "
+        "stiffness differs from the published one by {mean} % on average and by {largest} % at "
+        "most ({case}).",
         count=row["compared"],
         study=study.name,
         solver=solver,

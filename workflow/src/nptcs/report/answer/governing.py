@@ -119,7 +119,7 @@ def _shares(results: Results, solver: str) -> list[str]:
 
 def _share(study: Study, row: pd.Series) -> str:
     return tr(
-        "Within the study {study}, {factor} causes {share} % of the variance (Sobol index, "
+        "Within the study “{study}”, {factor} causes {share} % of the variance (Sobol index, "
         "± {error}).",
         study=study.name,
         factor=factor_labels(study)[str(row["factor"])].label,

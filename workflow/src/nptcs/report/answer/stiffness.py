@@ -66,7 +66,7 @@ def _with_uncertainty(results: Results, study: Study, rows: Mapping[str, Row]) -
     solver = leading_solver(study, list(rows))
     row = rows[solver]
     words = tr(
-        "Reference design of the study {study}: {design}. ± is one standard deviation from "
+        "Reference design of the study “{study}”: {design}. ± is one standard deviation from "
         "materials, tolerances and surface; {percent} % of the distribution lies between {low} "
         "and {high} {unit}. Solver {solver}.",
         study=study.name,
@@ -128,7 +128,7 @@ def _without_uncertainty(results: Results, study: Study, solved: pd.DataFrame) -
         _question(),
         tr("{value} at {load} N", value=value, load=f"{study.load_n:g}"),
         tr(
-            "The reference design of the study {study} ({design}) was solved with {solver}. How "
+            "The reference design of the study “{study}” ({design}) was solved with {solver}. How "
             "uncertain its stiffness is was not assessed.",
             study=study.name,
             design=in_words(design, factor_headings([study])),
@@ -159,7 +159,7 @@ def _over_all_cases(results: Results) -> Finding:
             _question(),
             tr("{low} to {high} N/mm at {load} N", low=low, high=high, load=f"{study.load_n:g}"),
             tr(
-                "Over {count} solved cases of the study {study}, solver {solver}. {why}, so that "
+                "Over {count} solved cases of the study “{study}”, solver {solver}. {why}, so that "
                 "no single stiffness is given and its uncertainty was not assessed.",
                 count=len(mine),
                 study=study.name,

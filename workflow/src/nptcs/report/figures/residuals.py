@@ -1,4 +1,4 @@
-"""Figures of what a polynomial leaves of its cases: over its value, and against a normal."""
+"""Figures of a polynomial's residuals: over its value, and against a normal."""
 
 from __future__ import annotations
 

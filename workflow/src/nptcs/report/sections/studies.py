@@ -235,7 +235,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots), shown=first))
     if residuals := _residual_plots(results, study):
         words_of_residuals = tr(
-            "{title}: what the polynomial leaves of its cases, over its value (marks "
+            "{title}: residuals of the polynomial at its cases, over its value (marks "
             "grow with the leverage) and against a normal distribution. The results "
             "of a solver have no noise: a pattern is what the polynomial cannot "
             "follow.",

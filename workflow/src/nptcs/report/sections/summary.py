@@ -32,7 +32,7 @@ def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
     ]
     blocks.append(Findings(findings(results)))
     if flags := flag_lines(results):
-        lead = tr("What the tests deviate in, and what they could not give")
+        lead = tr("Where the tests deviate from their standards, and what they could not give")
         blocks.append(Listing(lead, flags, "warn"))
     if remarks := _remarks(results):
         blocks.append(Listing(tr("Worth knowing"), remarks, "warn"))

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.sheets import Sheet
@@ -19,7 +20,13 @@ def dictionary_table(sheets: Sequence[Sheet]) -> pd.DataFrame:
         for column in map(str, sheet.table.columns):
             written = heading(column, sheet.entry.headings)
             rows.append(
-                (sheet.entry.sheet, written.name, written.unit, column, meanings.get(column, ""))
+                (
+                    sheet.entry.sheet,
+                    written.name,
+                    written.unit,
+                    column,
+                    tr(meanings.get(column, "")),
+                )
             )
     return pd.DataFrame(rows, columns=["sheet", "column", "unit", "name_in_file", "meaning"])
 

@@ -46,9 +46,20 @@ def in_words(text: str, labels: Mapping[str, Heading]) -> str:
     >>> in_words("e1_mpa ± 2.04e+03", {})
     'E1\xa0± 2040\xa0MPa'
     """
+    return NAME.sub(lambda found: _in_words(found, labels), phrases(text))
+
+
+def phrases(text: str) -> str:
+    """Write the words around the names of a design or a goal in the language of the run.
+
+    Examples
+    --------
+    >>> phrases("secant_stiffness at 5000 N")
+    'secant_stiffness at 5000 N'
+    """
     for phrase, words in PHRASES.items():
         text = phrase.sub(partial(_phrase, words), text)
-    return NAME.sub(lambda found: _in_words(found, labels), text)
+    return text
 
 
 def in_symbols(text: str, labels: Mapping[str, Heading]) -> str:

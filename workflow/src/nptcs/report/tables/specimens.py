@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pandas as pd
 
+from nptcs.language import tr
 from nptcs.report.data import Results
+from nptcs.report.words.flags import flag_text
 
 _SHEET_NUMBERS = (
     "orientation_deg",
@@ -68,7 +70,7 @@ def conditioning_table(results: Results) -> pd.DataFrame:
                 "format": ", ".join(dict.fromkeys(file.format for file in record.files)),
                 "strain_source": record.strain_source,
                 "steps": "; ".join(
-                    f"{step.name}: {step.changed or 'no change'}"
+                    f"{tr(step.name)}: {flag_text(step.changed) or tr('no change')}"
                     for step in record.steps
                     if step.on
                 ),

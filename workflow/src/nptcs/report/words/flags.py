@@ -11,7 +11,10 @@ import re
 from collections.abc import Sequence
 from functools import cache
 
-from nptcs.language import tr, translatable
+from nptcs.language import ENGLISH, Language, current_language, tr, translatable
+from nptcs.report.words.analysis_sentences import SENTENCES as ANALYSIS
+from nptcs.report.words.conditioning_sentences import SENTENCES as CONDITIONING
+from nptcs.report.words.reduction_sentences import SENTENCES as REDUCTION
 
 SENTENCES = (
     translatable("crosshead strain: the compliance of machine and grips is in it"),
@@ -34,10 +37,6 @@ SENTENCES = (
     translatable("{frames} of {total} frames have no strain"),
     translatable("preload and toe not corrected: {reason}"),
     translatable("slack or long toe: strain {strain} before loading was cut"),
-    translatable("not assessed: the curve reaches {reached}"),
-    translatable("not assessed: no transverse strain"),
-    translatable("not assessed: the curve ends before strain {strain}"),
-    translatable("not assessed: the standard defines no offset strength"),
     translatable("the solver does not report it"),
     translatable("the solver does not report the plates' volume"),
     translatable("no spoke was solved again at its motion in the tyre"),
@@ -68,32 +67,48 @@ SENTENCES = (
     translatable("effect of the rubbers not assessed: no study of this solver varies them"),
     translatable("effect of the rubbers not assessed: their study varies other factors too"),
     translatable("ordinary least squares in coded units, solved cases only"),
-    translatable(
-        "{model}, least squares on nominal stress, strain {low} to {high}, weights: "
-        "{weights}, {points} points of {count} specimens; standard error: {rule}"
-    ),
     translatable("assumed equal to {other}"),
     translatable("assumed value"),
-    translatable("not assessed: {names}"),
+    translatable("not assessed: {reason}"),
+    *REDUCTION,
+    *ANALYSIS,
+    *CONDITIONING,
 )
 """The sentences, as the stages write them; ``{…}`` stands for what differs."""
+
+JOINTS = (" | ", "; ")
+"""What stands between several sentences: rules of several tests, then sentences of one rule."""
 
 SPAN = re.compile(r"^(?P<low>[-+.\de]+) to (?P<high>[-+.\de]+)(?P<unit>.*)$", re.DOTALL)
 """The lowest and the highest number of flags that are collected into one."""
 
 
 def flag_text(flag: str) -> str:
-    """Write a flag, or several that are joined by semicolons, in the language of the run.
+    """Write a sentence of a stage, or several that are joined, in the language of the run.
+
+    A text that no sentence makes is looked up whole, so that a user's own words stay as they are.
 
     Examples
     --------
     >>> flag_text("not assessed: no transverse strain")
     'not assessed: no transverse strain'
     """
+    language = current_language()
+    return flag if language == ENGLISH else _flag_text(flag, language)
+
+
+@cache
+def _flag_text(flag: str, language: Language) -> str:
+    """Write a flag in the current language, which is named so that each has its own answer."""
     if (written := translated(flag, SENTENCES)) is not None:
         return written
-    first, semicolon, rest = flag.partition("; ")
-    return f"{flag_text(first)}; {flag_text(rest)}" if semicolon else flag
+    for mark in JOINTS:
+        first, found, rest = flag.partition(mark)
+        if found:
+            return f"{_flag_text(first, language)}{mark}{_flag_text(rest, language)}"
+    place, colon, sentence = flag.partition(": ")
+    known = tr(flag)
+    return f"{place}: {_flag_text(sentence, language)}" if colon and known == flag else known
 
 
 def translated(text: str, sentences: Sequence[str]) -> str | None:
@@ -116,13 +131,16 @@ def pattern(sentence: str) -> re.Pattern[str]:
     """
     parts = re.split(r"\{(\w+)\}", sentence)
     text = "".join(
-        f"(?P<{part}>[^;]+?)" if place % 2 else re.escape(part) for place, part in enumerate(parts)
+        f"(?P<{part}>[^;|]+?)" if place % 2 else re.escape(part) for place, part in enumerate(parts)
     )
     return re.compile(text)
 
 
 def _value(text: str) -> str:
-    """Write what a sentence holds: a span of numbers, a sentence, a term, or as it is."""
+    """Write what a sentence holds: a sentence, a span of numbers, a list of terms, or as it is."""
+    if " " in text and (written := translated(text, SENTENCES)) is not None:
+        return written
     if span := SPAN.fullmatch(text):
         return tr("{low} to {high}", low=span["low"], high=span["high"]) + span["unit"]
-    return (translated(text, SENTENCES) if " " in text else None) or tr(text)
+    first, comma, rest = text.partition(", ")
+    return f"{_value(first)}, {_value(rest)}" if comma else tr(text)

@@ -6,7 +6,9 @@ joins them. Each part is translated where its sentence is known, and stays as it
 
 from __future__ import annotations
 
-from nptcs.language import tr, translatable
+from functools import cache
+
+from nptcs.language import ENGLISH, Language, current_language, tr, translatable
 from nptcs.report.words.flags import flag_text, translated
 from nptcs.report.words.specimen_messages import SENTENCES as SPECIMENS
 
@@ -160,6 +162,13 @@ def message_text(message: str) -> str:
     >>> message_text("plate_001: must be positive (value: -1.0). Remedy: give a number above zero")
     'plate_001: must be positive (value: -1.0). Remedy: give a number above zero'
     """
+    language = current_language()
+    return message if language == ENGLISH else _message_text(message, language)
+
+
+@cache
+def _message_text(message: str, language: Language) -> str:
+    """Write a message in the current language, which is named so that each has its own answer."""
     head, remedy_follows, remedy = message.partition(REMEDY)
     head, value_follows, value = head.partition(VALUE)
     text = _with_place(head)

@@ -43,8 +43,8 @@ def build_workbook(results: Results) -> bytes:
     """Write all results as one XLSX file.
 
     Numbers are stored to 16 significant digits and shown with the digits that their unit and size
-    ask for. Titles, headings and sentences are in the language of the run; names of sheets and the
-    words in cells of tables are those of the CSV files. The same results give the same bytes.
+    ask for. Titles, headings and sentences are in the language of the run; names of sheets, columns
+    and things are those of the CSV files. The same results give the same bytes.
 
     Parameters
     ----------

@@ -13,6 +13,8 @@ from openpyxl.cell.cell import ILLEGAL_CHARACTERS_RE
 from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.language import tr
+
 HEADER = PatternFill("solid", start_color="DCE6EF")
 SYNTHETIC = PatternFill("solid", start_color="FFD699")
 INPUT = PatternFill("solid", start_color="FFF8DC")
@@ -33,7 +35,7 @@ def write(cell: Cell, value: Any) -> None:
     if value is None or value is pd.NA or (isinstance(value, float) and math.isnan(value)):
         return
     if isinstance(value, bool | np.bool_):
-        cell.value = "yes" if value else "no"
+        cell.value = tr("yes") if value else tr("no")
     elif isinstance(value, int | np.integer):
         cell.value = int(value)
     elif isinstance(value, float | np.floating) and math.isfinite(value):

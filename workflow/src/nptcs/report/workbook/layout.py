@@ -3,18 +3,23 @@
 from __future__ import annotations
 
 from math import ceil
-from textwrap import wrap
 
 from openpyxl.cell import Cell
-from openpyxl.styles import Font, PatternFill
+from openpyxl.styles import Alignment, Font, PatternFill
 from openpyxl.utils import get_column_letter
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.language import tr
+from nptcs.report.text import text_width, wrapped
 from nptcs.report.workbook.cells import FONT, HEADER, SYNTHETIC, WRAPPED
 from nptcs.report.workbook.number_formats import shown_number
 
 WIDEST = 60
 LINE_HEIGHT = 15.0
+MOST_LINES = 27
+"""Lines of the highest row that a spreadsheet can show (409 points)."""
+
+TOP = Alignment(vertical="top")
 PAGE_WIDTH = 330.0
 """Characters across a page below which a table is still readable: about 5 points high."""
 
@@ -26,6 +31,7 @@ def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
     worksheet.freeze_panes = worksheet.cell(2, 2)
     worksheet.auto_filter.ref = worksheet.dimensions
     fit_widths(worksheet, 1)
+    wrap_long_texts(worksheet, 2)
     page_for_print(worksheet, header=1)
     if fill is SYNTHETIC:
         mark_synthetic(worksheet)
@@ -34,12 +40,22 @@ def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
 def fit_widths(worksheet: Worksheet, header: int) -> None:
     """Make each column as wide as what it shows from its header on, and the header high enough."""
     lines = 1
-    for column in range(1, worksheet.max_column + 1):
-        cells = [worksheet.cell(row, column) for row in range(header, worksheet.max_row + 1)]
-        width = min(WIDEST, max(map(_width, cells)) + 2)
+    for column, cells in enumerate(worksheet.iter_cols(min_row=header), start=1):
+        widths = [_header_width(cells[0]), *map(_width, cells[1:])]
+        width = min(WIDEST, max(widths) + 2)
         worksheet.column_dimensions[get_column_letter(column)].width = width
-        lines = max(lines, len(wrap(str(cells[0].value or ""), width - 1)))
+        lines = max(lines, _lines(str(cells[0].value or ""), width - 1))
     worksheet.row_dimensions[header].height = LINE_HEIGHT * lines
+
+
+def wrap_long_texts(worksheet: Worksheet, first: int) -> None:
+    """Wrap the texts that are longer than the widest column, which print would cut off."""
+    for row in worksheet.iter_rows(min_row=first):
+        long = [cell.data_type == "s" and text_width(str(cell.value)) > WIDEST for cell in row]
+        if any(long):
+            for cell, is_long in zip(row, long, strict=True):
+                cell.alignment = WRAPPED if is_long else TOP
+            fit_heights(worksheet, row[0].row, row[0].row)
 
 
 def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
@@ -49,8 +65,8 @@ def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
         for cell in row:
             if cell.value is not None and cell.alignment.wrap_text:
                 width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
-                lines = max(lines, len(wrap(str(cell.value), width)))
-        worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * lines
+                lines = max(lines, _lines(str(cell.value), width))
+        worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * min(lines, MOST_LINES)
 
 
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:
@@ -77,15 +93,24 @@ def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> 
 def mark_synthetic(worksheet: Worksheet) -> None:
     """Say on the tab and on each printed page that a sheet rests on synthetic data."""
     worksheet.sheet_properties.tabColor = "FFD699"
-    worksheet.oddHeader.center.text = "SYNTHETIC DATA"
+    worksheet.oddHeader.center.text = tr("SYNTHETIC DATA")
+
+
+def _header_width(cell: Cell) -> int:
+    """Return the length of the longest word of a header, which may wrap at spaces."""
+    return max((ceil(text_width(word)) for word in str(cell.value or "").split()), default=0)
 
 
 def _width(cell: Cell) -> int:
-    """Estimate the characters that a cell shows; headers may wrap at spaces."""
+    """Estimate the characters that a cell shows."""
     if cell.value is None:
         return 0
-    if cell.font.bold:
-        return max(len(part) for part in str(cell.value).split())
     if cell.data_type == "n":
         return len(shown_number(float(cell.value), cell.number_format))
-    return len(str(cell.value))
+    return ceil(text_width(str(cell.value)))
+
+
+def _lines(text: str, width: int) -> int:
+    """Count the lines of a text in a column; a word longer than a line is broken."""
+    lines = [line for part in text.splitlines() for line in wrapped(part, width).splitlines()]
+    return sum(max(1, ceil(text_width(line) / width)) for line in lines)

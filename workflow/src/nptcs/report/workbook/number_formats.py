@@ -103,7 +103,13 @@ def format_of_number(value: float) -> str:
     if not -5 <= exponent <= 9:
         return SCIENTIFIC
     decimals = max(0, DIGITS - 1 - exponent)
-    return _fixed(min(decimals, _exact_decimals(np.array([abs(value)]), decimals)))
+    size = abs(value)
+    exact = (
+        least
+        for least in range(decimals)
+        if abs(round(size * 10.0**least) / 10.0**least - size) <= 1e-12 * size
+    )
+    return _fixed(next(exact, decimals))
 
 
 def shown_number(value: float, number_format: str) -> str:

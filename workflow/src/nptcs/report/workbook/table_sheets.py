@@ -12,6 +12,7 @@ from openpyxl.comments import Comment
 from openpyxl.worksheet.worksheet import Worksheet
 
 from nptcs.language import tr
+from nptcs.report.tables.column_words import column_words
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.workbook.cells import FILLS, HEADER, SYNTHETIC, write, write_row
@@ -51,7 +52,7 @@ def write_table_sheet(worksheet: Worksheet, sheet: Sheet) -> None:
         fill = FILLS.get(sheet.mark({str(key): value for key, value in record.items()}))
         for column, (name, shown) in enumerate(zip(names, formats, strict=True), start=1):
             cell = worksheet.cell(row, column)
-            write(cell, record[name])
+            write(cell, column_words(name, record[name]))
             if cell.data_type == "n" and cell.value is not None:
                 cell.number_format = shown or format_of_number(float(cell.value))
             if fill:
@@ -81,7 +82,7 @@ def heading_comment(sheet: Sheet, column: str, contract: pa.Column | None) -> st
     contract : pandera Column, optional
         What the contract of the table says of it.
     """
-    lines = [contract.description or ""] if contract is not None else []
+    lines = [tr(contract.description or "")] if contract is not None else []
     if contract is not None and (allowed := allowed_values(contract)):
         lines.append(tr("Allowed: {allowed}", allowed=allowed))
     if found := found_values(sheet.table[column]):

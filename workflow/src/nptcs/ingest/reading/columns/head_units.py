@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 
 from nptcs.ingest.reading.columns.quantities import Test
+from nptcs.ingest.reading.columns.tons import settle_tons
 from nptcs.ingest.reading.profiles import normalise
 from nptcs.ingest.reading.units import clean_unit, is_unit
 
@@ -45,6 +46,7 @@ def add_units_of_head(test: Test) -> None:
         if unit := stated.get(normalise(column.name)):
             column.unit = unit
             found_table.notes.append(f"column '{column.name}': unit {unit} by the head")
+    settle_tons(found_table)
 
 
 def _take_row(test: Test, row: int) -> None:

@@ -7,7 +7,8 @@ from dataclasses import dataclass
 
 from nptcs.ingest.reading.profiles import FormatProfile, name_matches
 from nptcs.ingest.reading.text.dialect import Dialect
-from nptcs.ingest.reading.units import clean_unit, factor, is_unit, split_unit
+from nptcs.ingest.reading.unit_in_name import split_unit
+from nptcs.ingest.reading.units import clean_unit, factor, is_unit
 
 
 @dataclass(frozen=True)

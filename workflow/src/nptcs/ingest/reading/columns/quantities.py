@@ -5,9 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
+from typing import Literal
 
 from nptcs.errors import InputError
 from nptcs.ingest.reading.columns.names import LOADS, STRAINS, by_unit, map_columns
+from nptcs.ingest.reading.columns.tons import is_ton, settle_tons
+from nptcs.ingest.reading.columns.words import may_be
 from nptcs.ingest.reading.profiles import (
     UNITLESS,
     FormatProfile,
@@ -16,7 +19,14 @@ from nptcs.ingest.reading.profiles import (
 )
 from nptcs.ingest.reading.table_columns import Column, FoundTable, repeated_columns
 from nptcs.ingest.reading.text.cells import CellSource
-from nptcs.ingest.reading.units import DIMENSION, FACTORS, VOLTS, find_unit, usual_units
+from nptcs.ingest.reading.units import (
+    DIMENSION,
+    FACTORS,
+    VOLTS,
+    factor,
+    find_unit,
+    usual_units,
+)
 from nptcs.tables.laboratory.curves import Role
 
 NEEDS: dict[Role, tuple[tuple[str, ...], ...]] = {
@@ -60,6 +70,7 @@ def tests_in(
     """
     found: list[Test] = []
     for found_table in found_tables:
+        settle_tons(found_table)
         label = found_table.part if not source.part else source.part
         if source.part and len(found_tables) > 1:
             label = f"{source.part}/{found_table.part}"
@@ -177,14 +188,33 @@ def _nothing(tests: Sequence[Test], role: Role, path: Path, profile: FormatProfi
         )
     missing = [needed for needed in NEEDS[role] if not set(needed) & set(largest.quantities)]
     wanted = " and ".join("one of " + ", ".join(needed) for needed in missing)
-    found = ", ".join(f"'{name}'" for name in names)
+    found = ", ".join(_with_unit(column) for column in largest.found_table.columns if column.name)
     row = largest.found_table.names_row
     return InputError(
-        f"no column for {wanted} by profile '{profile.name}'; columns: {found}",
+        f"no column for {wanted} by profile '{profile.name}'; columns: {found}"
+        + _candidates(largest, missing),
         "name another profile in the sheet, or write one: nptcs inspect FILE --write-profile",
         path,
         None if row is None else row + 1,
     )
+
+
+def _with_unit(column: Column) -> str:
+    return f"'{column.name}' in {column.unit}" if column.unit else f"'{column.name}'"
+
+
+def _candidates(test: Test, missing: Sequence[tuple[str, ...]]) -> str:
+    """Name the columns that may be what is missing, and why none of them was taken."""
+    read = list(test.quantities.values())
+    free = [column for column in test.found_table.columns if column not in read and column.name]
+    words = ""
+    for needed in missing:
+        kind: Literal["load", "strain"] = "load" if needed == LOADS else "strain"
+        if fitting := [column for column in free if may_be(kind, column)]:
+            several = len(fitting) > 1 and all(column.unit for column in fitting)
+            why = "several may be it" if several else "may be it, but its unit is not known"
+            words += f"; {', '.join(_with_unit(column) for column in fitting)}: {why}"
+    return words
 
 
 def unit_of(
@@ -220,6 +250,8 @@ def unit_of(
             column.name,
         )
     known = find_unit(DIMENSION[quantity], unit)
+    if not wrong:
+        _require_one_unit(quantity, column, unit, path, line)
     if known is None and quantity == "displacement" and unit in VOLTS:
         note = f"column '{column.name}' in {unit} is not a travel without its calibration: left out"
         return unit, float("nan"), note
@@ -233,3 +265,28 @@ def unit_of(
             value=unit,
         )
     return known, FACTORS[DIMENSION[quantity]][known], note
+
+
+def _require_one_unit(quantity: str, column: Column, unit: str, path: Path, line: int) -> None:
+    """Refuse a ton that may be one of several, and two units in name and row of units."""
+    if DIMENSION[quantity] == "force" and is_ton(unit):
+        raise InputError(
+            "which ton is meant is not known: metric 9806.65 N, US 8896.44 N or UK 9964.02 N",
+            "state 'tf', 'US ton' or 'UK ton' in a profile under 'wrong_units', and name the "
+            "profile in the sheet",
+            path,
+            line,
+            column.name,
+            value=unit,
+        )
+    stated, named = factor(quantity, unit), factor(quantity, column.unit_of_name or unit)
+    if None not in (stated, named) and stated != named:
+        raise InputError(
+            f"two units for {quantity}: {column.unit_of_name} in its name, {unit} in the row of "
+            "units",
+            "state the right one in a profile under 'wrong_units', and name the profile in the "
+            "sheet",
+            path,
+            line,
+            column.name,
+        )

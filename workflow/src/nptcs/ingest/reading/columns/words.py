@@ -32,8 +32,11 @@ _SENSOR = (
     r"extensom|estens(?:im|om|\.|\b)|ekstens|экстенз|тензом|feindehn|ansetz|aufnehmer|\bclip\b|引伸"
     r"|变形|變形|変形|伸び計|伸び計|신율계|신장계|prutahom|extenzom"
     r"|ekstansom|nyulasmer|töjningsgiv|virtual|video|laser|primary ext|axial ext"
-    r"|\bga[u]?ge (?:disp|ext)"
+    r"|\bga[u]?ge (?:disp|ext)|\bextn?\b|\bextens?\b"
+    r"|^(?:e ?\d\d?|ext ?\d\d?|le|cod|ave ?\d?)(?= \|)"
 )
+_SHORT_STRAIN = r"^e ?\d{0,2}(?= \|)|\bext(?:n|ens|ension)?\b"
+"""Short names that are a strain in a unit of strain only: ``E1 (%)``, ``Extension-1 (%)``."""
 _OVER_LENGTH = r"\((?:extension|displacement|crosshead|stroke|position)\)"
 """Behind a strain: it is travel over a length."""
 
@@ -67,13 +70,15 @@ _RULES = (
     _Rule("strain_xx", re.compile(rf"{_IN_PLANE}(?:xx|x)\b")),
     _Rule("strain_yy", re.compile(rf"{_IN_PLANE}(?:yy|y)\b")),
     _Rule("strain", re.compile(_STRAIN), re.compile(f"{_OTHER_FACE.pattern}|{_OVER_LENGTH}")),
+    _Rule("strain", re.compile(_SHORT_STRAIN), re.compile(f"{_OTHER_FACE.pattern}|{_OVER_LENGTH}")),
     _Rule("strain_transverse", ACROSS),
     _Rule("extension", re.compile(_SENSOR), _OTHER_FACE),
     _Rule("extension_transverse", ACROSS),
     _Rule(
         "displacement",
         re.compile(
-            r"displ|travel|cross ?head|stroke|position|weg\b|hub\b|travers|piston|kolben|actuator"
+            r"displ|travel|\bpos\b|verform|deform|\bdl\b|delta l\b"
+            r"|cross ?head|stroke|position|weg\b|hub\b|travers|piston|kolben|actuator"
             r"|\bram\b|lvdt|distance|extension|elong|allung|alarg|deplac|spostam|corsa|course"
             r"|carrera|desplaz|desloc|curso|posuv|перемещ|ход|位移|変位|ストローク|行程|변위|스트로크|横梁|uzama|pricnik|verplaats|slag\b|f[øö]rskj|forskyv"
             r"|siirtym|elmozdul|przemieszcz"
@@ -152,10 +157,17 @@ def _fitting(rule: _Rule, columns: Sequence[Column]) -> Column | None:
     return named[0] if len(named) == 1 else None
 
 
+_NUMBER_BEHIND = re.compile(r"(?<=[^\W\d_])(?=\d)")
+
+
 def _full(column: Column) -> str:
-    """Name with the label above it (names may take two rows), without accents and with them."""
+    """Name with the label above it (names may take two rows), in three ways of writing.
+
+    Without accents, with them, and with a number at the end of a word apart (``Estens1``).
+    """
     name = f"{column.group} {column.name}"
-    return f"{normalise(name)} | {name.casefold()}"
+    apart = _NUMBER_BEHIND.sub(" ", normalise(name))
+    return f"{normalise(name)} | {name.casefold()} | {apart}"
 
 
 def _in_unit(column: Column, quantity: Quantity) -> bool:
@@ -179,3 +191,20 @@ def may_be(kind: Literal["load", "strain"], column: Column) -> bool:
     units = () if kind == "load" else ("strain", "length")
     in_unit = any(column.unit and find_unit(unit, column.unit) for unit in units)
     return in_unit or any(rule.words.search(_full(column)) for rule in rules)
+
+
+_TRAVEL_WORDS = re.compile(
+    r"displ|travel|travers|cross ?head|stroke|position|\bpos\b|weg\b|piston|kolben|actuator|course"
+    r"|corsa|carrera|desloc|curso|ход|перемещ|位移|変位|ストローク|行程|横梁"
+)
+
+
+def may_be_gauge(column: Column) -> bool:
+    """Tell whether a column that was not read may be what a gauge on the specimen measured.
+
+    It is in a unit of strain or length, and its name is not that of a travel.
+    """
+    in_unit = any(column.unit and find_unit(unit, column.unit) for unit in ("strain", "length"))
+    full = _full(column)
+    across = ACROSS.search(full) or _TRAVEL_WORDS.search(full)
+    return in_unit and is_reading(column) and not column.clock and not across

@@ -1,0 +1,110 @@
+"""Figures drawn as SVG and CSV text, in other processes while this one goes on with the page.
+
+What comes in is a plotting function with its arguments, what goes out is a function that returns
+the texts and waits for them where they are not ready. Which figures are kept from an earlier report
+does not belong here (`nptcs.report.plots`).
+"""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import sys
+import threading
+from collections.abc import Callable
+from concurrent.futures import ProcessPoolExecutor
+from multiprocessing.process import BaseProcess
+from typing import Any, NamedTuple
+
+import pandas as pd
+from matplotlib.figure import Figure
+
+from nptcs.language import Language, current_language, language
+from nptcs.report.figures.style import data_of, to_svg
+from nptcs.report.svg import compact
+
+DIGITS = 6
+"""Significant digits of the numbers that a figure carries."""
+
+
+class Drawn(NamedTuple):
+    """A figure as text.
+
+    Parameters
+    ----------
+    svg : str
+        For the page, without words for those who cannot see it.
+    csv : str
+        The numbers that it shows; empty where it carries none.
+    """
+
+    svg: str
+    csv: str
+
+
+def drawn(draw: Callable[..., Figure], *args: Any, **kwargs: Any) -> Drawn:
+    """Draw a figure and write it as text."""
+    figure = draw(*args, **kwargs)
+    data = data_of(figure)
+    return Drawn(compact(to_svg(figure)), "" if data is None else csv_of(data))
+
+
+def csv_of(data: pd.DataFrame) -> str:
+    """Write the numbers of a figure as CSV text, to `DIGITS` significant digits."""
+    return data.to_csv(index=False, float_format=f"%.{DIGITS}g", lineterminator="\n")
+
+
+class Drawers:
+    """Processes that draw figures: forks of this one, made when the first figure is asked for.
+
+    Parameters
+    ----------
+    processes : int
+        With one, and on a system other than Linux, figures are drawn in this process.
+    """
+
+    def __init__(self, processes: int) -> None:
+        self._processes = processes if sys.platform == "linux" else 1
+        self._pool: ProcessPoolExecutor | None = None
+
+    def start(self, draw: Callable[..., Figure], *args: Any, **kwargs: Any) -> Callable[[], Drawn]:
+        """Let a figure be drawn; what is returned waits for it.
+
+        Parameters
+        ----------
+        draw : callable
+            A plotting function of `nptcs.report.figures`.
+        *args, **kwargs
+            Its arguments; with several processes, they and it can be pickled.
+        """
+        if self._processes < 2:
+            made = drawn(draw, *args, **kwargs)
+            return lambda: made
+        if self._pool is None:
+            self._pool = ProcessPoolExecutor(
+                self._processes, multiprocessing.get_context("fork"), _end_with_parent
+            )
+        return self._pool.submit(_drawn_in, current_language(), draw, args, kwargs).result
+
+    def close(self) -> None:
+        """Let the processes end."""
+        if self._pool is not None:
+            self._pool.shutdown(cancel_futures=True)
+
+
+def _drawn_in(words: Language, draw: Callable[..., Figure], args: Any, kwargs: Any) -> Drawn:
+    """Draw a figure in the language of the page."""
+    with language(words):
+        return drawn(draw, *args, **kwargs)
+
+
+def _end_with_parent() -> None:
+    """End this process when the one that it draws for is gone, however that ended."""
+    parent = multiprocessing.parent_process()
+    if parent is not None:
+        threading.Thread(target=_end_after, args=(parent,), daemon=True).start()
+
+
+def _end_after(parent: BaseProcess) -> None:
+    parent.join()
+    os._exit(1)
