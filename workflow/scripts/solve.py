@@ -17,11 +17,8 @@ def solve(job: dict[str, Any], store: str, records: str, design: str, **more) ->
     constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
     # time limits and cache places are in the configuration alone: as params they would rerun it
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
-    given = (
-        {**job, "options": options},
-        read_table(design, DesignTable),
-        next(iter(constants), None),
-    )
+    cases, ply = read_table(design, DesignTable), next(iter(constants), None)
+    given = {**job, "options": options}, cases, ply
     done = solve_batch(*given, RecordStore(store), more["cores"], more["tokens"], more["log"])
     note_ends(records, done)
     write_records(records, done)

@@ -16,11 +16,8 @@ from nptcs.tables.tyres.cases import DesignTable
 def solve(job: dict[str, Any], store: str, results: str, design: str, **more) -> None:
     constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
-    given = (
-        {**job, "options": options},
-        read_table(design, DesignTable),
-        next(iter(constants), None),
-    )
+    cases, ply = read_table(design, DesignTable), next(iter(constants), None)
+    given = {**job, "options": options}, cases, ply
     table, again = solve_bulk(*given, store, more["cores"], more["tokens"], more["log"])
     if again:
         try_again(results)
