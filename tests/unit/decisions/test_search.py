@@ -96,6 +96,7 @@ def test_goals_in_conflict_are_named_with_the_nearest_design(source):
     assert len(found.found.designs.x) == 1
     alone = decide(decision(targets=["K=900±3"]), source)
     assert "out of reach even alone: secant_stiffness at 5000 N = 900 ± 3" in alone.why
+    assert ": at best 0; alone, at best: " in alone.why
     # the nearest is the stiffest of all: most plates, thickest, along the spoke
     np.testing.assert_allclose(alone.design(0)["thickness_mm"], 2.4)
     assert alone.design(0)["angle_deg"] == 0

@@ -43,7 +43,7 @@ def test_the_index_names_every_page():
 NAMED_FILE = re.compile(r"`([\w/.-]+\.(?:py|smk|j2))`")
 FILES = [
     f"/{file.relative_to(ROOT)}"
-    for part in ("benchmarks", "docs", "tests", "workflow")
+    for part in ("benchmarks", "docs", "recipe", "tests", "workflow")
     for file in (ROOT / part).rglob("*.*")
 ]
 OWN_FILES = [page for page in PAGES if not page.name.startswith("add-")]

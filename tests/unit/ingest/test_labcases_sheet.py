@@ -330,3 +330,17 @@ def test_the_lock_of_an_open_document_is_no_data(lab, profiles, tmp_path):
     lab.write(tmp_path / "a.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": 100 * STRAIN})
     shutil.copy(tmp_path / "a.csv", tmp_path / "~$a.csv")
     assert [row["force_file"] for row in propose_sheet(tmp_path, profiles).rows] == ["a.csv"]
+
+
+@pytest.mark.parametrize(("unit", "word"), [("[N]", ""), ("", "'Load') is not known"), ("[V]", "")])
+def test_a_camera_file_with_the_force_of_the_machine_is_a_test_of_its_own(
+    lab, profiles, tmp_path, unit, word
+):
+    lab.write(tmp_path / "m_2.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": STRAIN})
+    columns = {f"Load {unit}".strip(): FORCE, "exx": STRAIN, "eyy": -0.3 * STRAIN}
+    lab.write(tmp_path / "a_1.csv", columns)
+    table, proposal = proposed(tmp_path, profiles)
+    if unit == "[N]":
+        assert set(table["force_file"]) == {"a_1.csv", "m_2.csv"}
+    else:
+        assert word in proposal.left["a_1.csv"]

@@ -210,7 +210,7 @@ REFUSED = {
     "only a largest value": (export({"Time [s]": TIME, "Peak Load [N]": FORCE,
                                      "Strain [%]": PERCENT}), "no column for one of force"),
     "a ton of some country": (export({"Time [s]": TIME, "Force [ton]": FORCE,
-                                      "Strain [%]": PERCENT}), "not a unit of force"),
+                                      "Strain [%]": PERCENT}), "which ton is meant"),
     "a gauge with its sign turned": (export(PULL | {"Strain [%]": -PERCENT}), "falls while"),
     "a stretch in percent": (export(PULL | {"Stretch [%]": 100 + PERCENT}),
                              "not a unit of stretch"),

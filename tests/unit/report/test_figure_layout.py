@@ -70,7 +70,7 @@ def drawn(monkeypatch):
         figures.append((faults(figure), data_of(figure), figure))
         return "<svg/>"
 
-    monkeypatch.setattr("nptcs.report.plots.to_svg", styled(keep))
+    monkeypatch.setattr("nptcs.report.drawing.to_svg", styled(keep))
     return figures
 
 

@@ -208,7 +208,7 @@ def test_measured_specimens_are_not_called_synthetic(measured):
 
 
 def test_flags_stand_above_the_sections(results, monkeypatch):
-    monkeypatch.setattr("nptcs.report.plots.compact", lambda svg: "<svg ></svg>")
+    monkeypatch.setattr("nptcs.report.drawing.compact", lambda svg: "<svg ></svg>")
     page = render_report(with_tables(results, flags=[FLAG]))
     text = re.sub(r'<span class="nb">(.*?)</span>', r"\1", page)
     assert text.index("failure after 0.95 to 0.98 min (T0-1, T0-2)") < text.index(

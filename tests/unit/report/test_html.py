@@ -61,7 +61,7 @@ def page(html):
 @pytest.fixture
 def undrawn(monkeypatch):
     """Build all figures, but do not draw them, which takes most of the time."""
-    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.drawing.to_svg", lambda figure: "<svg/>")
 
 
 @pytest.fixture

@@ -41,7 +41,7 @@ class Sound(pa.DataFrameModel):
 
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch):
-    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.drawing.to_svg", lambda figure: "<svg/>")
 
 
 def catalogued(monkeypatch, **changes):

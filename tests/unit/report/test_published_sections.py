@@ -47,7 +47,7 @@ SOLVERS = ["fe_tyre_paper", "lca"]
 
 @pytest.fixture(autouse=True)
 def undrawn(monkeypatch):
-    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.drawing.to_svg", lambda figure: "<svg/>")
 
 
 def labelled(figure):

@@ -139,7 +139,7 @@ def solved(compared):
 
 
 def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypatch):
-    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.drawing.to_svg", lambda figure: "<svg/>")
     section = tyre_section(solved, sheets_of(solved))
     words = " ".join(block.text for block in section.blocks if isinstance(block, Text))
     assert "89.5 MPa" in words
@@ -162,7 +162,7 @@ def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypat
 
 
 def test_the_fiducial_plates_are_drawn_beside_the_most_stressed_ones(solved, monkeypatch):
-    monkeypatch.setattr("nptcs.report.plots.to_svg", lambda figure: "<svg/>")
+    monkeypatch.setattr("nptcs.report.drawing.to_svg", lambda figure: "<svg/>")
     stress = solved.table(PlateStress)
     larger = stress.assign(
         mises_mpa=stress["mises_mpa"] * np.where(stress["case_id"] == "plate_001", 2.0, 1.0)

@@ -7,7 +7,8 @@ import pytest
 from nptcs.errors import InputError
 from nptcs.files import atomic_path
 from nptcs.tables.analysis.impact import Impact
-from nptcs.tables.io import empty_table, read_table, write_table
+from nptcs.tables.io import empty_table, read_alike, read_table, write_table
+from nptcs.tables.laboratory.curves import CURVE_COLUMNS, Curve
 from nptcs.tables.problems import Problems, problems_table
 
 
@@ -93,3 +94,30 @@ def test_an_interrupted_write_leaves_the_old_file_alone(tmp_path):
         write_half()
     assert target.read_text() == "old"
     assert list(tmp_path.iterdir()) == [target]
+
+
+@pytest.fixture
+def curve_files(tmp_path):
+    """Two curves: whole numbers and no second strain in the one, fractions in the other."""
+    whole = pd.DataFrame({name: [0.0, 1.0] for name in CURVE_COLUMNS})
+    whole["strain_axial_back"] = np.nan
+    write_table(tmp_path / "T0-1.csv", whole, Curve)
+    write_table(tmp_path / "T0-2.csv", whole + 1 / 3, Curve)
+    write_table(tmp_path / "T0-3.csv", empty_table(Curve), Curve)
+    return [tmp_path / f"T0-{number}.csv" for number in (1, 2, 3)]
+
+
+def test_tables_that_are_checked_at_once_are_those_that_are_checked_one_by_one(curve_files):
+    at_once = read_alike(curve_files, Curve)
+    for table, file in zip(at_once, curve_files, strict=True):
+        pd.testing.assert_frame_equal(table, read_table(file, Curve), check_exact=True)
+
+
+@pytest.mark.parametrize(("column", "line"), [("force_n", 3), ("strain_axial", None)])
+def test_the_broken_one_of_several_tables_is_named(curve_files, column, line):
+    table = read_table(curve_files[1], Curve)
+    broken = table.drop(columns=column) if line is None else table.assign(**{column: [1.0, np.nan]})
+    broken.to_csv(curve_files[1], index=False)
+    with pytest.raises(InputError) as raised:
+        read_alike(curve_files, Curve)
+    assert (raised.value.file, raised.value.line) == (str(curve_files[1]), line)

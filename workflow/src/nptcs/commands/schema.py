@@ -80,6 +80,17 @@ def reference_text() -> str:
     return "\n".join(lines)
 
 
+KINDS = {
+    "string[python]": "text",
+    "float64": "number",
+    "int64": "whole number",
+    "Int64": "whole number",
+    "bool": "True or False",
+    "boolean": "True or False",
+}
+"""What a column holds, in words, by pandera's name of its type."""
+
+
 def tables_text() -> str:
     """Return the page that describes each result table and its columns."""
     from nptcs.tables.catalogue import TABLES
@@ -101,7 +112,7 @@ def tables_text() -> str:
         for name, column in schema.columns.items():
             empty = "yes" if column.nullable else "no"
             meaning = (column.description or "").replace("|", "\\|")
-            lines.append(f"| `{name}` | {column.dtype} | {empty} | {meaning} |")
+            lines.append(f"| `{name}` | {KINDS[str(column.dtype)]} | {empty} | {meaning} |")
         lines.append("")
     return "\n".join(lines)
 

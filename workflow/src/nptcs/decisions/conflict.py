@@ -22,22 +22,20 @@ def conflict_words(problem: DesignProblem, found: SearchResult, probability: flo
     Returns
     -------
     str
-        Sentences for a table and the terminal.
+        One line for a table and the terminal.
     """
     each = np.vstack([found.candidates.probabilities, found.designs.probabilities])
     goals = problem.must_hold
     together = float(at_least_all(each).max())
-    sentences = [
-        f"no design meets all goals with probability {probability:g}: at best {together:.2g}"
-    ]
+    parts = [f"no design meets all goals with probability {probability:g}: at best {together:.2g}"]
     best = each.max(axis=0)
     alone = [f"'{goal}' with {p:.2g}" for goal, p in zip(goals, best, strict=True)]
-    sentences.append(f"alone, at best: {', '.join(alone)}")
+    parts.append(f"alone, at best: {', '.join(alone)}")
     if unreachable := [str(g) for g, p in zip(goals, best, strict=True) if p < probability]:
-        sentences.append(f"out of reach even alone: {'; '.join(unreachable)}")
-        return ". ".join(sentences)
+        parts.append(f"out of reach even alone: {' and '.join(unreachable)}")
+        return "; ".join(parts)
     for place, goal in enumerate(goals):
         others = float(at_least_all(np.delete(each, place, axis=1)).max())
         if len(goals) > 1 and others >= probability:
-            sentences.append(f"without '{goal}' the others are met with {others:.2g}: it conflicts")
-    return ". ".join(sentences)
+            parts.append(f"without '{goal}' the others are met with {others:.2g}: it conflicts")
+    return "; ".join(parts)

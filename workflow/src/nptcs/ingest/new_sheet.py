@@ -4,9 +4,8 @@ from __future__ import annotations
 
 import csv
 import io
-import re
 from collections import Counter
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath
 
@@ -24,12 +23,14 @@ from nptcs.ingest.file_names import (
 )
 from nptcs.ingest.folder import is_note, raw_files
 from nptcs.ingest.inspect import Inspection, inspect_file
-from nptcs.ingest.pair_files import add_dimensions, pair_cameras
+from nptcs.ingest.kinds_of_files import is_camera, is_field, is_summary
+from nptcs.ingest.pair_files import NO_MACHINE, add_dimensions, pair_cameras
 from nptcs.ingest.reading.columns.labels import LabelValue
 from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.columns.quantities import Test
 from nptcs.ingest.reading.profiles import FormatProfile
 from nptcs.ingest.reading.raw_file import head_lines, header_labels
+from nptcs.ingest.reading.units import VOLTS
 from nptcs.ingest.runs_of_pieces import mark_runs
 from nptcs.ingest.strain_fields import FEWEST_FRAMES
 from nptcs.mechanical_tests import TestType
@@ -38,11 +39,6 @@ from nptcs.tables.laboratory.specimens import COLUMNS
 __all__ = ["Proposal", "propose_sheet", "specimen_id"]
 
 _DIMENSIONS = {"width": "width_mm", "thickness": "thickness_mm", "gauge_length": "gauge_length_mm"}
-_SUMMARY = re.compile(
-    r"(?i)summar|result|ergebnis|hit.?list|statisti|report|protokoll|r[ée]sum|resultad|risultat|"
-    r"overview|übersicht|bericht|evaluat|auswertung|notes?\b|notiz"
-)
-_ROWS_OF_A_SUMMARY = 40
 
 
 @dataclass
@@ -97,11 +93,15 @@ class Proposal:
 
 @dataclass
 class _Found:
-    """What the files of a folder hold: tests with a force, strains alone, dimensions."""
+    """What the files of a folder hold: tests with a force, strains alone, dimensions.
+
+    `with_force` are strain files that hold a copy of the machine's force.
+    """
 
     tests: list[tuple[str, Test, Inspection, bool]] = field(default_factory=list)
     copies: dict[str, str] = field(default_factory=dict)
     strains: list[str] = field(default_factory=list)
+    with_force: dict[str, tuple[Test, Inspection]] = field(default_factory=dict)
     dimensions: list[Dimensions] = field(default_factory=list)
 
 
@@ -137,6 +137,7 @@ def propose_sheet(
             first = found.copies[row["force_file"]]
             row |= {"include": "no", "reason": f"the same bytes as {first}"}
     proposal.left |= pair_cameras(proposal.rows, found.strains)
+    _add_cameras_alone(found, proposal)
     add_dimensions(proposal.rows, found.dimensions)
     names = {
         number: (row["specimen"], row["force_file"]) for number, row in enumerate(proposal.rows)
@@ -147,10 +148,27 @@ def propose_sheet(
     for number in names:
         _remark(proposal.rows[number], proposal)
     if not proposal.rows:
+        why = "".join(f"; {name}: {reason}" for name, reason in list(proposal.left.items())[:1])
         raise InputError(
-            "no file holds a test", "look at one file with: nptcs inspect FILE", folder
+            f"no file holds a test{why}", "look at one file with: nptcs inspect FILE", folder
         )
     return proposal
+
+
+def _add_cameras_alone(found: _Found, proposal: Proposal) -> None:
+    """Propose a camera's file that holds a force as a test where no machine's file goes with it."""
+    for name, (test, inspection) in found.with_force.items():
+        force = test.quantities.get("force")
+        if proposal.left.get(name) != NO_MACHINE or force is None:
+            continue
+        if force.unit and force.unit not in VOLTS:
+            del proposal.left[name]
+            proposal.rows.append(_row(name, test, inspection, several=False))
+        else:
+            proposal.left[name] = (
+                f"{NO_MACHINE}, and the unit of its own force ('{force.name}') is not known: state "
+                "it in a profile, and name file and profile in the sheet"
+            )
 
 
 def _look(
@@ -170,7 +188,7 @@ def _look(
         except InputError as error:
             proposal.left[name] = error.message
             continue
-        if sizes[family(name)] >= FEWEST_FRAMES and _is_field(inspection):
+        if sizes[family(name)] >= FEWEST_FRAMES and is_field(inspection):
             frames.add(family(name))
             found.strains.append(str(PurePosixPath(name).parent))
             continue
@@ -179,14 +197,6 @@ def _look(
             found.copies[name] = first
         _sort(name, path, inspection, profiles, found, proposal, limits)
     return found
-
-
-def _is_field(inspection: Inspection) -> bool:
-    """Tell whether a file holds the points of one frame: places, and strains at them."""
-    return any(
-        {"x", "y"} & set(test.quantities) and {"strain_xx", "strain_yy"} & set(test.quantities)
-        for test in inspection.tests
-    )
 
 
 def _sort(
@@ -202,12 +212,14 @@ def _sort(
     loaded = [test for test in inspection.tests if set(LOADS) & set(test.quantities)]
     loaded = [test for test in loaded if _has_strain_or_travel(test)] or loaded
     dimensions = [] if loaded else read_dimensions(name, path, profiles, limits)
-    if any(_is_camera(test) for test in inspection.tests):
+    if cameras := [test for test in inspection.tests if is_camera(test)]:
         found.strains.append(name)
+        if loaded and len(cameras) == 1:
+            found.with_force[name] = cameras[0], inspection
     elif dimensions:
         found.dimensions += dimensions
         proposal.left[name] = f"a table of dimensions of {len(dimensions)} specimens"
-    elif loaded and _is_summary(name, loaded):
+    elif loaded and is_summary(name, loaded):
         proposal.left[name] = "a summary of results by its name and size, not a test"
     elif loaded:
         found.tests += [(name, test, inspection, len(loaded) > 1) for test in loaded]
@@ -223,18 +235,6 @@ def _sort(
 
 def _has_strain_or_travel(test: Test) -> bool:
     return bool({*STRAINS, "displacement"} & set(test.quantities))
-
-
-def _is_camera(test: Test) -> bool:
-    """Tell whether a table is a camera's: in-plane strains, with or without an analog force."""
-    return bool({"strain_xx", "strain_yy"} & set(test.quantities)) and "displacement" not in (
-        test.quantities
-    )
-
-
-def _is_summary(name: str, tests: Sequence[Test]) -> bool:
-    longest = max(len(test.found_table.rows_of_data) for test in tests)
-    return bool(_SUMMARY.search(name)) and longest < _ROWS_OF_A_SUMMARY
 
 
 def _row(name: str, test: Test, inspection: Inspection, several: bool) -> dict[str, str]:

@@ -10,6 +10,9 @@ from nptcs.ingest.dimension_tables import Dimensions
 from nptcs.ingest.file_names import specimen_id, tokens
 from nptcs.ingest.runs_of_pieces import piece_of
 
+NO_MACHINE = "strains without a force file of the same specimen"
+"""Reason for a strain file that no machine file belongs to."""
+
 
 def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict[str, str]:
     """Give each strain file to the one machine file of the same specimen.
@@ -39,7 +42,7 @@ def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict
             files = ", ".join(rows[number]["force_file"] for number in near[:3])
             left[name] = f"strains that fit {len(near)} force files by name: {files}"
             if not near:
-                left[name] = "strains without a force file of the same specimen"
+                left[name] = NO_MACHINE
     for name, number in chosen.items():
         rivals = [other for other, place in chosen.items() if place == number]
         if len(rivals) == 1:

@@ -17,6 +17,7 @@ from nptcs.ingest.conditioning.excursions import empty_excursions, empty_in_tabl
 from nptcs.ingest.conditioning.factors import apply_factors, refuse_scaled_names
 from nptcs.ingest.conditioning.pairing import pair
 from nptcs.ingest.conditioning.plausible import check_labels, check_machine_area, check_physics
+from nptcs.ingest.conditioning.rescaled import cut_rescaled
 from nptcs.ingest.conditioning.saturation import cut_saturated
 from nptcs.ingest.conditioning.sensors import empty_after_removal, empty_lost_channels
 from nptcs.ingest.conditioning.signals import Signals
@@ -138,6 +139,7 @@ def ingest_specimen(
     settle_transverse(signals, specimen, strain.columns)
     flag_tare(signals)
     cut_saturated(signals)
+    cut_rescaled(signals, source)
     zero_force(signals, settings.force_zero)
     signals.values["stress"] = signals.values["force"] / specimen.force_per_stress_mm2
     cut_end(signals, settings.end_of_test)

@@ -30,7 +30,6 @@ STEADY, RETURNED, LEFT = 4.0, 0.6, 0.05
 """A machine returns at one speed, within this factor; the strain goes back by the second share in
 all, and by at least the third until the force is gone: a softened rubber has lost its force long
 before its strain is back."""
-LIKE_BOTH = "a break, or a machine that returns with a softened specimen"
 TOO_FEW = "so few readings that a break and a return of the machine look alike"
 """Words for such a fall."""
 
@@ -80,8 +79,12 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
     back = change < -0.02 and rows >= UNLOADING_ROWS
     along = unloads_along(force, strain, near, start, time_s)
     fell = f"the force falls by {100 * drop:.3g} % of its largest value"
-    if not along and ratio >= ABRUPT and _returns(force, strain, near, start):
-        return Failure(seen=False, words=f"{fell} and the strain returns at one speed: {LIKE_BOTH}")
+    if not along and ratio >= ABRUPT and returns_at_one_speed(force, strain, near, start):
+        return Failure(
+            seen=False,
+            words=f"{fell} and the strain returns at one speed: a break, or a machine that returns "
+            "with a softened specimen",
+        )
     if not along and (ratio >= SNAP or (ratio >= ABRUPT and not back)):
         return Failure(seen=True, words=f"{fell}, abruptly")
     if not along and ratio >= ABRUPT and max(_given_back(force, strain, near, start)) < TOO_LITTLE:
@@ -180,11 +183,18 @@ def _given_back(force: Array, strain: Array, near: int, start: int) -> tuple[flo
     return (shares[0], shares[1]) if np.isfinite(shares).all() else nothing
 
 
-def _returns(force: Array, strain: Array, near: int, start: int) -> bool:
-    """Tell whether the strain goes back at one speed, from the fall of the force to near its start.
+def returns_at_one_speed(force: Array, strain: Array, near: int, start: int) -> bool:
+    """Whether the strain goes back at one speed, from the fall of the force to near its start.
 
     Between a reading above and one below 15 % of the force at least one must lie: a break takes
     hardly longer, and its strain stands still until the machine returns, or springs back at once.
+
+    Parameters
+    ----------
+    force, strain : ndarray, shape (n,)
+        Positive in the direction of the test; the strain may hold NaN, which tell nothing.
+    near, start : int
+        Last reading before the fall; first reading of the loading.
     """
     up = strain[start : near + 1]
     rest = force[near:]
@@ -202,7 +212,7 @@ def _returns(force: Array, strain: Array, near: int, start: int) -> bool:
         return False
     # the reading after which the force falls may be half a step before the machine turns
     speeds = back[fall] / (fall - 0.5), (back[end] - back[fall]) / max(end - fall, 1)
-    return end <= fall or 1 / STEADY <= speeds[1] / speeds[0] <= STEADY
+    return bool(end <= fall or 1 / STEADY <= speeds[1] / speeds[0] <= STEADY)
 
 
 def _onset(force: Array, start: int, peak: int) -> int:

@@ -13,7 +13,6 @@ import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from multiprocessing.process import BaseProcess
 from typing import Any, NamedTuple
 
 import pandas as pd
@@ -100,11 +99,11 @@ def _drawn_in(words: Language, draw: Callable[..., Figure], args: Any, kwargs: A
 
 def _end_with_parent() -> None:
     """End this process when the one that it draws for is gone, however that ended."""
+    threading.Thread(target=_wait_for_parent, daemon=True).start()
+
+
+def _wait_for_parent() -> None:
     parent = multiprocessing.parent_process()
     if parent is not None:
-        threading.Thread(target=_end_after, args=(parent,), daemon=True).start()
-
-
-def _end_after(parent: BaseProcess) -> None:
-    parent.join()
-    os._exit(1)
+        parent.join()
+        os._exit(1)

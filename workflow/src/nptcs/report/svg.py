@@ -13,6 +13,7 @@ from dataclasses import dataclass, replace
 from itertools import groupby
 from xml.etree import ElementTree
 
+import numpy as np
 from markupsafe import escape
 
 from nptcs.report.figures.theme import LIGHT
@@ -153,10 +154,13 @@ def _leaf(
         place = f'href="{name}" x="{short(x)}" y="{short(y)}"'
         yield Leaf("use", _attributes(look), place, axis=axis)
         return
-    moved = [
-        replace(stroke, points=tuple(points + [x / 100, y / 100] for points in stroke.points))
-        for stroke in strokes
-    ]
+    moved = strokes
+    if x or y:
+        shift = np.array([x / 100, y / 100])
+        moved = [
+            replace(stroke, points=tuple(points + shift for points in stroke.points))
+            for stroke in strokes
+        ]
     low, high = extent(moved)
     look = _unclipped(look, ids, tuple(100 * low), tuple(100 * high))
     yield Leaf("path", _attributes(look), axis=axis, strokes=tuple(map(thinned, moved)))

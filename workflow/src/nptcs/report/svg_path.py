@@ -14,6 +14,7 @@ SEEN_PT = 0.07
 """A polyline may leave the drawn one by this much (points): a tenth of a pixel."""
 
 COMMAND = re.compile(r"([MLCQZz])([^MLCQZz]*)")
+NO_POINTS = np.empty((0, 2))
 NUMBERS_OF = {"M": 2, "L": 2, "Q": 4, "C": 6}
 
 
@@ -95,40 +96,45 @@ def distance(points: Array, start: Array, end: Array) -> Array:
 
 def write_path(strokes: list[Stroke]) -> str:
     """Write a path with relative commands and hundredths of a point."""
-    text = ""
+    parts: list[str] = []
     for stroke in strokes:
-        here = np.zeros(2, dtype=int)
-        before = ""
+        cents = np.rint(100 * np.concatenate([NO_POINTS, *stroke.points])).astype(int).tolist()
+        here, before, done = [0, 0], "", 0
         for command, points in zip(stroke.commands, stroke.points, strict=True):
-            cents = np.rint(100 * points).astype(int)
+            rows = cents[done : done + len(points)]
+            done += len(points)
             if command == "M":
-                text, before = text + "M" + _numbers(cents.ravel()), "M"
+                part, before = "M" + _numbers([cent for row in rows for cent in row]), "M"
             elif command == "L":
-                text, before = _line(text, cents[-1] - here, before)
+                part, before = _line(rows[-1][0] - here[0], rows[-1][1] - here[1], before)
             else:
-                text, before = text + command.lower() + _numbers((cents - here).ravel()), command
-            here = cents[-1]
-        text += "z" * stroke.closed
-    return text
+                steps = [
+                    cent - start for row in rows for cent, start in zip(row, here, strict=True)
+                ]
+                part, before = command.lower() + _numbers(steps), command
+            parts.append(part)
+            here = rows[-1]
+        parts.append("z" * stroke.closed)
+    return "".join(parts)
 
 
-def _line(text: str, step: Array, before: str) -> tuple[str, str]:
-    """Add a straight step, without its command where the last one goes on."""
-    if step[1] == 0 and step[0] != 0:
-        return text + "h" + _numbers(step[:1]), "h"
-    if step[0] == 0 and step[1] != 0:
-        return text + "v" + _numbers(step[1:]), "v"
-    numbers = _numbers(step)
+def _line(x: int, y: int, before: str) -> tuple[str, str]:
+    """Write a straight step, without its command where the last one goes on."""
+    if y == 0 and x != 0:
+        return "h" + short(x), "h"
+    if x == 0 and y != 0:
+        return "v" + short(y), "v"
+    numbers = _numbers([x, y])
     if before != "l":
-        return text + "l" + numbers, "l"
-    return text + ("" if numbers.startswith("-") else " ") + numbers, "l"
+        return "l" + numbers, "l"
+    return ("" if numbers.startswith("-") else " ") + numbers, "l"
 
 
-def _numbers(cents: Array) -> str:
+def _numbers(cents: list[int]) -> str:
     """Write hundredths as numbers, with a blank only where two would run together."""
     text = ""
     for cent in cents:
-        number = short(int(cent))
+        number = short(cent)
         text += number if not text or number.startswith("-") else " " + number
     return text
 

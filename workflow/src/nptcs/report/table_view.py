@@ -209,7 +209,9 @@ def _is_numeric(column: pd.Series) -> bool:
 
 def _is_empty(column: pd.Series) -> bool:
     """Tell whether a column of a table with rows has no value at all."""
-    return len(column) > 0 and bool((column.isna() | (column == "")).all())
+    if not len(column) or not (pd.isna(column.iloc[0]) or column.iloc[0] == ""):
+        return False
+    return bool((column.isna() | (column == "")).all())
 
 
 def _is_one_text(column: pd.Series) -> bool:

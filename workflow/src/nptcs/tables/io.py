@@ -8,6 +8,7 @@ from importlib.util import find_spec
 from pathlib import Path
 from typing import Any, cast
 
+import numpy as np
 import pandas as pd
 import pandera.pandas as pa
 from pandera.errors import SchemaError, SchemaErrors
@@ -52,6 +53,11 @@ def read_table(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataFr
     InputError
         For a missing file, a missing column or a value outside the contract.
     """
+    return check(_as_written(path, contract), contract, str(path))
+
+
+def _as_written(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataFrame:
+    """Read a CSV table, texts as texts, without checking it."""
     if not Path(path).is_file():
         raise InputError("this table does not exist", file=path, remedy="run snakemake again")
     text_columns = {
@@ -63,7 +69,37 @@ def read_table(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataFr
     for name in text_columns:
         if name in table:
             table[name] = table[name].fillna("")
-    return check(table, contract, str(path))
+    return table
+
+
+def read_alike(
+    paths: Iterable[str | Path], contract: type[pa.DataFrameModel]
+) -> list[pd.DataFrame]:
+    """Read tables of one contract that asks the same of each row, and check them all at once.
+
+    Parameters
+    ----------
+    paths : iterable of path
+    contract : type
+        Without rules that concern several rows.
+
+    Raises
+    ------
+    InputError
+        As `read_table`.
+    """
+    files = list(paths)
+    written = [_as_written(path, contract) for path in files]
+    if len({tuple(table.columns) for table in written}) == 1:
+        try:
+            checked = contract.validate(pd.concat(written, ignore_index=True), lazy=False)
+        except (SchemaError, SchemaErrors):
+            pass  # the table by itself says which file and line it is
+        else:
+            ends = np.cumsum([len(table) for table in written])[:-1]
+            parts = zip([0, *ends], [*ends, len(checked)], strict=True)
+            return [checked.iloc[start:end].reset_index(drop=True) for start, end in parts]
+    return [check(table, contract, str(path)) for table, path in zip(written, files, strict=True)]
 
 
 def read_tables(paths: Iterable[str | Path], contract: type[pa.DataFrameModel]) -> pd.DataFrame:

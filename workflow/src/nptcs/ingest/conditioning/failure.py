@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.loading.failure import unloads_along
+from nptcs.loading.failure import returns_at_one_speed, unloads_along
 
 _SUDDEN_SHARE = 0.01
 _FEWEST_SUDDEN = 3
@@ -53,7 +53,7 @@ def failure_row(
             return None
         end = peak + int(fallen[0])
         begin = peak + int(np.flatnonzero(load[peak:end] >= 0.95 * load[peak])[-1])
-        back = stretch is not None and unloads_along(load, np.abs(stretch), begin, start, time)
+        back = stretch is not None and _goes_back(load, np.abs(stretch), begin, start, time)
         if not back and _is_failure(stretch, begin, end, peak):
             return int(rows[end])
         # to the end of the unloading: what is left of it is not a fall of its own
@@ -61,6 +61,13 @@ def failure_row(
         while start + 1 < len(load) and load[start + 1] <= load[start]:
             start += 1
     return None
+
+
+def _goes_back(load: Array, stretch: Array, begin: int, start: int, time_s: Array | None) -> bool:
+    """Tell an unloading, elastic or of a specimen that softened, however fast."""
+    return unloads_along(load, stretch, begin, start, time_s) or returns_at_one_speed(
+        load, stretch, begin, start
+    )
 
 
 def _is_failure(stretch: Array | None, begin: int, end: int, peak: int) -> bool:

@@ -22,6 +22,7 @@ SENTENCES = (
     translatable("loading of one sign"),
     translatable("excursions"),
     # what they changed
+    translatable("leaps from {force} N: {rows} rows cut"),
     translatable("stands still at {force} N: {rows} rows cut"),
     translatable("by the force in {file} (one of the files has no time)"),
     translatable("peak force from {file}"),
@@ -66,6 +67,20 @@ SENTENCES = (
     translatable(
         "load cell saturated: the force stands still at {force} N while the specimen is "
         "stretched; cut from there, so that neither strength nor failure is known"
+    ),
+    translatable(
+        "the force leaps from {before} to {after} N while the strain goes on, and then grows "
+        "as stiffly as before: the load cell was probably set to zero again; cut from there, "
+        "so that neither strength nor failure is known"
+    ),
+    translatable(
+        "the force leaps from {before} to {after} N while the strain goes on, and then grows "
+        "at {factor} times that scale: its range was probably switched; cut from there, so "
+        "that neither strength nor failure is known"
+    ),
+    translatable(
+        "column '{name}' in {unit}: read in metric tons (9806.65 N), since the other columns "
+        "are metric"
     ),
     translatable("{count} wild readings emptied: {names}"),
     translatable("readings that leap away and back emptied: {names}"),

@@ -82,6 +82,10 @@ SENTENCES = (
     translatable("unloaded: force and strain go back together"),
     translatable("force and strain go back together in {readings}"),
     translatable("so few readings that a break and a return of the machine look alike"),
+    translatable(
+        "{fall} and the strain returns at one speed: a break, or a machine that returns with "
+        "a softened specimen"
+    ),
     translatable("{fall}, slowly, and no strain tells whether by unloading"),
     translatable("the force falls by {share} % of its largest value"),
     translatable("the force relaxes at a held strain"),

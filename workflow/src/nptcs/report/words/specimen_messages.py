@@ -68,6 +68,14 @@ SENTENCES = (
     translatable("'{name}' fits several columns for {quantity}: {choices}"),
     translatable("table has {found} columns, profile '{profile}' names {count}"),
     translatable("correct columns_in_order"),
+    translatable(
+        "no column for {wanted} by profile '{profile}'; columns: {found}; several may be it: "
+        "{names}"
+    ),
+    translatable(
+        "no column for {wanted} by profile '{profile}'; columns: {found}; {names} may be it, "
+        "but its unit is not known"
+    ),
     translatable("no column for {wanted} by profile '{profile}'; columns: {found}"),
     translatable(
         "name another profile in the sheet, or write one: nptcs inspect FILE --write-profile"
@@ -81,6 +89,22 @@ SENTENCES = (
     translatable("no unit for {quantity}"),
     translatable(
         "state it in a profile under 'units' ({choices}) and name the profile in the sheet"
+    ),
+    translatable(
+        "the column's name holds a factor, '{factor}': whether the readings still have to be "
+        "multiplied by it cannot be told"
+    ),
+    translatable(
+        "write the factor of the readings as {key} in the sheet, 1 if they are right as they are"
+    ),
+    translatable("which ton is meant is not known: metric 9806.65 N, US 8896.44 N or UK 9964.02 N"),
+    translatable(
+        "state 'tf', 'US ton' or 'UK ton' in a profile under 'wrong_units', and name the "
+        "profile in the sheet"
+    ),
+    translatable("two units for {quantity}: {named} in its name, {stated} in the row of units"),
+    translatable(
+        "state the right one in a profile under 'wrong_units', and name the profile in the sheet"
     ),
     translatable("not a unit of {quantity}"),
     translatable("state the right one in a profile under 'wrong_units': {choices}"),

@@ -13,7 +13,7 @@ from pydantic import Field
 
 from nptcs.config.base import Strict
 from nptcs.errors import InputError
-from nptcs.tables.io import read_table
+from nptcs.tables.io import read_alike
 
 CURVE_COLUMNS = (
     "time_s",
@@ -60,7 +60,11 @@ def read_curves(paths: Iterable[str | Path]) -> dict[str, pd.DataFrame]:
     InputError
         As `nptcs.tables.io.read_table`.
     """
-    return {Path(path).name.removesuffix(".csv"): read_table(path, Curve) for path in paths}
+    files = [Path(path) for path in paths]
+    curves = read_alike(files, Curve)
+    return {
+        file.name.removesuffix(".csv"): curve for file, curve in zip(files, curves, strict=True)
+    }
 
 
 Role = Literal["force", "strain", "force and strain"]

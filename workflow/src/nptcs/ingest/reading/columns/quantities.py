@@ -190,9 +190,18 @@ def _nothing(tests: Sequence[Test], role: Role, path: Path, profile: FormatProfi
     wanted = " and ".join("one of " + ", ".join(needed) for needed in missing)
     found = ", ".join(_with_unit(column) for column in largest.found_table.columns if column.name)
     row = largest.found_table.names_row
+    message = f"no column for {wanted} by profile '{profile.name}'; columns: {found}"
+    if may := _candidates(largest, missing):
+        likely = ", ".join(map(_with_unit, may))
+        message = (
+            f"no column for {wanted} by profile '{profile.name}'; columns: {found}; several may be "
+            f"it: {likely}"
+            if len(may) > 1 and all(column.unit for column in may)
+            else f"no column for {wanted} by profile '{profile.name}'; columns: {found}; {likely} "
+            "may be it, but its unit is not known"
+        )
     return InputError(
-        f"no column for {wanted} by profile '{profile.name}'; columns: {found}"
-        + _candidates(largest, missing),
+        message,
         "name another profile in the sheet, or write one: nptcs inspect FILE --write-profile",
         path,
         None if row is None else row + 1,
@@ -203,18 +212,15 @@ def _with_unit(column: Column) -> str:
     return f"'{column.name}' in {column.unit}" if column.unit else f"'{column.name}'"
 
 
-def _candidates(test: Test, missing: Sequence[tuple[str, ...]]) -> str:
-    """Name the columns that may be what is missing, and why none of them was taken."""
+def _candidates(test: Test, missing: Sequence[tuple[str, ...]]) -> list[Column]:
+    """Columns that may be what is missing first, by their names."""
     read = list(test.quantities.values())
     free = [column for column in test.found_table.columns if column not in read and column.name]
-    words = ""
-    for needed in missing:
-        kind: Literal["load", "strain"] = "load" if needed == LOADS else "strain"
-        if fitting := [column for column in free if may_be(kind, column)]:
-            several = len(fitting) > 1 and all(column.unit for column in fitting)
-            why = "several may be it" if several else "may be it, but its unit is not known"
-            words += f"; {', '.join(_with_unit(column) for column in fitting)}: {why}"
-    return words
+    kinds: list[Literal["load", "strain"]] = [
+        "load" if needed == LOADS else "strain" for needed in missing
+    ]
+    found = [[column for column in free if may_be(kind, column)] for kind in kinds]
+    return next((columns for columns in found if columns), [])
 
 
 def unit_of(
