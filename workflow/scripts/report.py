@@ -19,5 +19,5 @@ def report(job: dict[str, Any], page: str, threads: int, **files: Any) -> None:
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        given = {**snakemake.params, **snakemake.input, **snakemake.output}
-        report(**given, threads=snakemake.threads)
+        granted = {"threads": snakemake.threads}
+        report(**snakemake.params, **granted, **snakemake.input, **snakemake.output)

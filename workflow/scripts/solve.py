@@ -14,14 +14,10 @@ from nptcs.tables.tyres.cases import DesignTable
 
 
 def solve(job: dict[str, Any], store: str, records: str, design: str, **more) -> None:
-    constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
+    ply = next((read_model(file, PlyCard).values() for file in more.get("ply", [])), None)
     # time limits and cache places are in the configuration alone: as params they would rerun it
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
-    given = (
-        {**job, "options": options},
-        read_table(design, DesignTable),
-        next(iter(constants), None),
-    )
+    given = {**job, "options": options}, read_table(design, DesignTable), ply
     done = solve_batch(*given, RecordStore(store), more["cores"], more["tokens"], more["log"])
     note_ends(records, done)
     write_records(records, done)

@@ -14,13 +14,9 @@ from nptcs.tables.tyres.cases import DesignTable
 
 
 def solve(job: dict[str, Any], store: str, results: str, design: str, **more) -> None:
-    constants = [read_model(file, PlyCard).values() for file in more.get("ply", [])]
+    ply = next((read_model(file, PlyCard).values() for file in more.get("ply", [])), None)
     options = read_config(more["config"]).options_of(job["study"]["name"], job["solver"])
-    given = (
-        {**job, "options": options},
-        read_table(design, DesignTable),
-        next(iter(constants), None),
-    )
+    given = {**job, "options": options}, read_table(design, DesignTable), ply
     table, again = solve_bulk(*given, store, more["cores"], more["tokens"], more["log"])
     if again:
         try_again(results)

@@ -6,6 +6,7 @@ the reason. Each command, run or not, must be one that its program takes.
 """
 
 import importlib.util
+import re
 from pathlib import Path
 
 import pytest
@@ -56,7 +57,7 @@ NOT_RUN = {
     "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
     "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "an hour of finite elements",
     "nptcs design --target 'K=300±5@5000' --minimise plate_mass --confirm": DEFAULT_STUDY,
-    "nptcs compare ../march .": "tests/workflow/test_compare_runs.py runs it",
+    "nptcs compare ../march .": "tests/unit/runs/test_compare_runs.py runs it",
     "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx": "the same",
     "nptcs verify study.zip --rerun again": "tests/workflow/test_elsewhere.py runs it",
     "pip install -c constraints.txt 'nptcs[slurm]'": "changes the environment that runs the tests",
@@ -115,6 +116,12 @@ def test_the_examples_of_the_command_line_are_commands():
     found = {command: shown.fault(command) for command in shown.EXAMPLE.findall(text)}
     assert found
     assert {command: why for command, why in found.items() if why} == {}
+
+
+def test_each_test_that_runs_a_command_instead_exists():
+    named = re.findall(r"tests/[\w/]+\.py", " ".join(NOT_RUN.values()))
+    assert named
+    assert [test for test in named if not (ROOT / test).is_file()] == []
 
 
 def test_no_command_is_shown_in_a_block_without_a_language():

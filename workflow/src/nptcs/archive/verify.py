@@ -123,7 +123,13 @@ def _unsound_results(folder: Path) -> Iterator[str]:
 
 
 def archived_config(folder: Path) -> Config:
-    """Read the configuration of an unpacked archive."""
+    """Read the configuration of an unpacked archive.
+
+    Raises
+    ------
+    InputError
+        For a file that is not a configuration, and for every fault in one.
+    """
     values = read_yaml(folder / CONFIGURATION)
     if not isinstance(values, dict):
         raise InputError("is not a configuration", file=folder / CONFIGURATION)

@@ -87,7 +87,13 @@ def calibrate_ply(
 
 
 def only_ply(specimens: Sequence[Specimen]) -> str:
-    """Name of the one ply of the sheet."""
+    """Name of the one ply of the sheet.
+
+    Raises
+    ------
+    InputError
+        If the sheet names no composite, or several.
+    """
     names = sorted({s.material for s in specimens if s.test in COMPOSITE_TESTS})
     if len(names) != 1:
         raise InputError(
@@ -102,7 +108,13 @@ def only_ply(specimens: Sequence[Specimen]) -> str:
 def specimen_values(
     table: pd.DataFrame, source: ConstantSource, constant: str, material: str
 ) -> pd.Series:
-    """Values of a source by specimen id, those that were not assessed left out."""
+    """Values of a source by specimen id, those that were not assessed left out.
+
+    Raises
+    ------
+    InputError
+        If no specimen of the source gives a value.
+    """
     rows = rows_of(table, source)
     values = rows.dropna(subset=["value"]).set_index("specimen")["value"]
     if values.empty:

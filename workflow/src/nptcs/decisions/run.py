@@ -132,6 +132,11 @@ def source_of(
     with_added : SolverRun or None
         Solves the added designs of this study and solver, or takes them from its store; None
         leaves them out.
+
+    Raises
+    ------
+    InputError
+        If no case of the study is solved by this solver.
     """
     tables = run.cases, run.responses, run.curves
     results = results_of(study, solver, *tables)

@@ -24,6 +24,11 @@ _CURRENT: ContextVar[Language] = ContextVar("language", default=ENGLISH)
 def language(code: Language) -> Iterator[None]:
     """Write all texts of the block in a language.
 
+    Raises
+    ------
+    ValueError
+        If the package has no such language.
+
     Examples
     --------
     >>> with language("zh"):

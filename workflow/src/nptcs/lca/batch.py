@@ -144,7 +144,13 @@ def solve_batch(
 def only_target(
     load_n: ArrayLike | None, displacement_mm: ArrayLike | None, theta_c_deg: ArrayLike | None
 ) -> tuple[str, ArrayLike]:
-    """Return the name and value of the single target that is given."""
+    """Return the name and value of the single target that is given.
+
+    Raises
+    ------
+    InputError
+        If none or more than one target is given.
+    """
     given = {"load_n": load_n, "displacement_mm": displacement_mm, "theta_c_deg": theta_c_deg}
     present = [(name, value) for name, value in given.items() if value is not None]
     if len(present) != 1:
@@ -159,7 +165,13 @@ def only_target(
 def columns(
     designs: Mapping[str, ArrayLike], target: ArrayLike, largest: ArrayLike | None
 ) -> dict[str, Floating]:
-    """All columns as float arrays of one length."""
+    """All columns as float arrays of one length.
+
+    Raises
+    ------
+    InputError
+        If a column is missing.
+    """
     for column in DESIGN_COLUMNS:
         if column not in designs:
             raise InputError("column is missing", remedy=f"give {column}", column=column)

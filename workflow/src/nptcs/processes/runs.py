@@ -8,7 +8,7 @@ import os
 import shutil
 import sys
 import time
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager, suppress
 from pathlib import Path
 
@@ -42,11 +42,8 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
         # an earlier process that had our number is dead
         state = {file: lives(run) if run and file != mine else False for file, run in runs.items()}
         dead = [file for file, alive in state.items() if alive is False]
-        locks = sorted((folder / "locks").glob("*.lock"))
-        if locks and None in state.values() and True not in state.values():
-            _name_foreign([runs[file] for file, alive in state.items() if alive is None])
-        elif locks and dead and len(dead) == len(state):
-            _lift(locks, dead)
+        if locks := sorted((folder / "locks").glob("*.lock")):
+            _settle(locks, runs, state)
         for file in dead:
             _remove_temporary(file)
             file.unlink(missing_ok=True)
@@ -73,6 +70,21 @@ def _remove_temporary(note: Path) -> None:
         folder = Path(note.read_text(encoding="utf-8").partition("\n")[2].strip())
         if folder.name.startswith("snakemake") and folder.is_dir() and not folder.is_symlink():
             shutil.rmtree(folder, ignore_errors=True)
+
+
+def _settle(
+    locks: list[Path],
+    runs: Mapping[Path, ProcessName | None],
+    state: Mapping[Path, bool | None],
+) -> None:
+    """Lift the locks if every run is dead; name runs of which this machine cannot tell."""
+    if any(state.values()):
+        return
+    foreign = [runs[file] for file, alive in state.items() if alive is None]
+    if foreign:
+        _name_foreign(foreign)
+    elif state:
+        _lift(locks, list(state))
 
 
 def _lift(locks: list[Path], dead: list[Path]) -> None:

@@ -21,7 +21,13 @@ GRACE_S = 2.0
 
 
 def leave_in_order(number: int, frame: FrameType | None) -> None:
-    """Turn a signal into an exit, so that files that are being written are removed."""
+    """Turn a signal into an exit, so that files that are being written are removed.
+
+    Raises
+    ------
+    SystemExit
+        With 128 plus the number of the signal, as a shell reports it.
+    """
     raise SystemExit(128 + number)
 
 

@@ -89,7 +89,13 @@ class NamedTables:
         self._tables = dict(tables)
 
     def table(self, row: Row) -> SpokeEnergyTable:
-        """Return the table that the row names."""
+        """Return the table that the row names.
+
+        Raises
+        ------
+        ValueError
+            If there is no such table.
+        """
         name = str(row["spoke"])
         if name not in self._tables:
             raise ValueError(f"there is no energy table of a spoke {name!r}")

@@ -74,18 +74,32 @@ def _compare(
     }
     if one is None or two is None:
         return {**row, RESULT: presence(one is not None, two is not None)}
-    one, two = (table.drop(columns=list(OF_THE_RUN), errors="ignore") for table in (one, two))
+    tables = [table.drop(columns=list(OF_THE_RUN), errors="ignore") for table in (one, two)]
+    return {**row, **_compare_both(tables[0], tables[1], contract, within)}
+
+
+def _compare_both(
+    one: pd.DataFrame,
+    two: pd.DataFrame,
+    contract: type[pa.DataFrameModel] | None,
+    within: float,
+) -> dict[str, object]:
+    """Compare a table that both runs have: its columns, its rows, and the values they share."""
     shared = [name for name in one if name in two]
-    row["columns_only_a"] = ", ".join(str(name) for name in one if name not in two)
-    row["columns_only_b"] = ", ".join(str(name) for name in two if name not in one)
     pair, alone, note = _aligned(one[shared], two[shared], _keys(contract, shared))
-    row |= {"rows_only_a": alone[0], "rows_only_b": alone[1], "note": note}
+    row: dict[str, object] = {
+        "columns_only_a": ", ".join(str(name) for name in one if name not in two),
+        "columns_only_b": ", ".join(str(name) for name in two if name not in one),
+        "rows_only_a": alone[0],
+        "rows_only_b": alone[1],
+        "note": note,
+    }
     if pair is None:
         return {**row, RESULT: Found.NOT_COMPARED}
     largest, place, missing, texts = _values(*pair)
     row |= {"largest_relative_difference": largest, "largest_in": place}
     row |= {"numbers_missing_in_one": ", ".join(missing), "texts_that_differ": ", ".join(texts)}
-    stray = row["columns_only_a"] or row["columns_only_b"]
+    stray = len(shared) < max(one.shape[1], two.shape[1])
     differs = largest > within or missing or texts or any(alone) or stray
     return {**row, RESULT: Found.DIFFERENT if differs else Found.SAME}
 

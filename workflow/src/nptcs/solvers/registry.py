@@ -59,7 +59,13 @@ def module_of(name: str, options: Mapping[str, Any]) -> str:
 
 
 def load_solver(module: str) -> Solver:
-    """Import a solver's module (dotted name, or the path of a Python file)."""
+    """Import a solver's module (dotted name, or the path of a Python file).
+
+    Raises
+    ------
+    InputError
+        If the file does not exist, or is not a Python file.
+    """
     if not module.endswith(".py"):
         return importlib.import_module(module).SOLVER
     path = Path(module)

@@ -104,7 +104,13 @@ def comparison_tables(done: StudySurfaces) -> tuple[pd.DataFrame, pd.DataFrame]:
 
 
 def form_of(surface: ResponseSurface) -> str:
-    """Describe a surface by its terms, shape parameters or hyperparameters."""
+    """Describe a surface by its terms, shape parameters or hyperparameters.
+
+    Raises
+    ------
+    TypeError
+        For anything that is not a kind of surface.
+    """
     if isinstance(surface, Surface):
         return " + ".join(surface.polynomial.names)
     if isinstance(surface, LinkedSurface):

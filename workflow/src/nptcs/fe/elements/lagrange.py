@@ -8,6 +8,9 @@ import numpy as np
 
 from nptcs.arrays import Array
 
+QuadratureRule = tuple[Array, Array]
+"""Points, one row each where there are several directions, and weights."""
+
 
 def line_shape(order: int, xi: Array) -> tuple[Array, Array]:
     """Lagrange polynomials on equally spaced nodes of [-1, 1].
@@ -66,12 +69,12 @@ def tensor_shape(orders: Sequence[int], points: Array) -> tuple[Array, Array]:
     return value, np.stack(slopes, axis=2)
 
 
-def gauss(counts: Sequence[int]) -> tuple[Array, Array]:
+def gauss(counts: Sequence[int]) -> QuadratureRule:
     """Gauss points and weights on the cube [-1, 1]^n; the last direction runs fastest."""
     return tensor_rule([np.polynomial.legendre.leggauss(n) for n in counts])
 
 
-def tensor_rule(lines: Sequence[tuple[Array, Array]]) -> tuple[Array, Array]:
+def tensor_rule(lines: Sequence[QuadratureRule]) -> QuadratureRule:
     """Join one-dimensional rules (points, weights) into a rule on their product."""
     grids = np.meshgrid(*[points for points, _ in lines], indexing="ij")
     weights = np.meshgrid(*[weight for _, weight in lines], indexing="ij")

@@ -79,6 +79,11 @@ def write_vtu(path: str | Path, bricks: Bricks, values: Mapping[str, float]) -> 
     bricks : Bricks
     values : mapping
         Numbers of the whole state, written as field data.
+
+    Raises
+    ------
+    OSError
+        If VTK could not write the file.
     """
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter

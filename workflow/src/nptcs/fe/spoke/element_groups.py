@@ -8,11 +8,9 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
-from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
+from nptcs.fe.elements.lagrange import QuadratureRule, gauss, jacobians, tensor_rule, tensor_shape
 from nptcs.fe.spoke.mesh import LAYER_ORDERS, ElementSet
 from nptcs.laminate import rotated_stiffness, transverse_shear
-
-Rule = tuple[Array, Array]
 
 SHEAR_CORRECTION = 5.0 / 6.0
 
@@ -90,7 +88,9 @@ def plate_groups(
     ]
 
 
-def _plate_group(elements: ElementSet, axes: Array, rule: Rule, stiffness: Array) -> LinearGroup:
+def _plate_group(
+    elements: ElementSet, axes: Array, rule: QuadratureRule, stiffness: Array
+) -> LinearGroup:
     points, weights = rule
     _, slope = tensor_shape(LAYER_ORDERS, points)
     gradient, volume = jacobians(slope, elements.corners)

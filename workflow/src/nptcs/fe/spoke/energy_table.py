@@ -161,6 +161,11 @@ def fit_energy(
     All data enter in units of energy: forces times the half range, tangents times its square;
     those of a state in parts of its energy plus a tenth of the largest. So small loads are met as
     well as large ones. A table that ends early has fewer levels of s, and for them a lower degree.
+
+    Raises
+    ------
+    ValueError
+        If the states do not determine the terms of the polynomial.
     """
     sides = (-options.inclination_rad, options.inclination_rad)
     low, high = np.array([options.elongation_mm, sides, options.phi_rad]).T

@@ -4,13 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from nptcs.arrays import Array, Index
+from nptcs.arrays import Index
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.elements.groups import LinearGroup, RubberGroup
-from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_rule, tensor_shape
+from nptcs.fe.elements.lagrange import QuadratureRule, gauss, jacobians, tensor_rule, tensor_shape
 from nptcs.fe.tyre.mesh import MEMBRANES, Orders, RingMesh
-
-Rule = tuple[Array, Array]
 
 # of a circular section (Cowper 1966, Poisson's ratio 0.3)
 SHEAR_CORRECTION = 0.886
@@ -97,7 +95,7 @@ def _line(
     ring: RingMesh,
     nodes: Index,
     orders: Orders,
-    rule: Rule,
+    rule: QuadratureRule,
     component: int,
     modulus: float,
     area_mm2: float,

@@ -247,7 +247,13 @@ def _with_counters(profile: FormatProfile, plain: FormatProfile) -> FormatProfil
 
 
 def choose(name: str, profiles: Mapping[str, FormatProfile], specimen: str) -> FormatProfile:
-    """Return the profile that the sheet names."""
+    """Return the profile that the sheet names.
+
+    Raises
+    ------
+    InputError
+        If there is no profile of that name.
+    """
     if name not in profiles:
         raise InputError(
             "unknown format",

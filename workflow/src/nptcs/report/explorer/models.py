@@ -14,6 +14,7 @@ import numpy as np
 from scipy import stats
 
 from nptcs.arrays import Array
+from nptcs.report.explorer.shared import Plain
 from nptcs.surface.fit import Surface
 from nptcs.surface.kinds.gaussian_process import NUGGET, GaussianProcess
 from nptcs.surface.kinds.lamination import ABSENT, REFERENCE_SPACING_MM, Lamination
@@ -23,8 +24,6 @@ from nptcs.surface.response_surface import ResponseSurface
 
 CONFIDENCE = 0.95
 """Of all intervals."""
-
-Plain = dict[str, Any]
 
 
 def plain_surface(surface: ResponseSurface) -> Plain:

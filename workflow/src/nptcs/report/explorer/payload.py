@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 import numpy as np
 
@@ -14,7 +13,7 @@ from nptcs.language import tr
 from nptcs.report.data import Results
 from nptcs.report.explorer.models import CONFIDENCE, plain_surface
 from nptcs.report.explorer.ring import ring_payload
-from nptcs.report.explorer.shared import share_covariances
+from nptcs.report.explorer.shared import Plain, share_covariances
 from nptcs.report.explorer.words import page_words
 from nptcs.report.tables.response_titles import RESPONSE_TITLES
 from nptcs.report.words.surfaces import surface_words
@@ -46,8 +45,6 @@ WANTED = ("contact_length", "plate_largest_mises", "plate_mass")
 """Responses that a reader looks for besides the stiffness: those not fitted are named."""
 
 SECANT = "secant_stiffness"
-
-Plain = dict[str, Any]
 
 
 ROUNDING = 1e-12

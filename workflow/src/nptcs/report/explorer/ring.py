@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 from scipy.interpolate import PchipInterpolator
 
 from nptcs.lca.section import section_stiffness
 from nptcs.lca.spokes.stiffness_table import SpokeStiffnessTable
 from nptcs.report.data import Results
-
-Plain = dict[str, Any]
+from nptcs.report.explorer.shared import Plain
 
 
 def ring_payload(results: Results) -> Plain | None:

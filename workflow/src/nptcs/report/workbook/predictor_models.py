@@ -4,17 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
 
 import numpy as np
 from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.config.studies.study import Level, MeasuredRubber, Study
+from nptcs.config.studies.surface import Link
 from nptcs.language import translatable
 from nptcs.report.data import Results
 from nptcs.surface.fit import Surface
-from nptcs.surface.kinds.linked import Bend, LinkedSurface
+from nptcs.surface.kinds.linked import LinkedSurface
 from nptcs.surface.registry import FittedSurface
 
 INPUTS: Mapping[str, tuple[str, str, str]] = {
@@ -28,8 +28,6 @@ INPUTS: Mapping[str, tuple[str, str, str]] = {
 
 SPACING = "spacing_mm"
 CONFIDENCE = 0.95
-
-Link = Literal["identity"] | Bend
 
 
 @dataclass(frozen=True)

@@ -8,11 +8,12 @@ from dataclasses import dataclass
 from openpyxl.styles import Font
 from openpyxl.worksheet.worksheet import Worksheet
 
+from nptcs.config.studies.surface import Link
 from nptcs.language import tr, translatable
 from nptcs.report.words.surfaces import surface_words
 from nptcs.report.workbook.cells import FONT, head_row, write, write_row
 from nptcs.report.workbook.number_formats import EXACT
-from nptcs.report.workbook.predictor_models import INPUTS, SPACING, Link, PredictorModel
+from nptcs.report.workbook.predictor_models import INPUTS, SPACING, PredictorModel
 from nptcs.surface.response_surface import INSIDE_TOLERANCE
 
 FACTOR_COLUMNS = (

@@ -213,6 +213,11 @@ class Specimen(Strict):
         of_crosshead : bool
             Travel of the machine: with four points it is that of the loading rollers, not of
             mid-span.
+
+        Raises
+        ------
+        ValueError
+            If the gauge length is empty.
         """
         if self.bar is not None:
             return (
