@@ -8,7 +8,7 @@ import pytest
 
 from nptcs.campaign.record import CaseRecord
 from nptcs.config.studies.decisions import Decision
-from nptcs.decisions.confirm import confirmed
+from nptcs.decisions.confirm import Compared, confirmed
 from nptcs.decisions.decide import decide
 from nptcs.decisions.tables import DecisionAnswer, decision_tables
 from nptcs.solvers.contract import SolverResult
@@ -147,3 +147,9 @@ def test_uncertainty_tables_keep_bias_next_to_the_interval(source):
         assert rows["share_percent"].sum() == pytest.approx(100)
     lacking = shares[shares["kind"] == "not assessed"]
     assert set(lacking["quantities"]) == {"shear_band_c10_mpa", "angle_deg"}
+
+
+def test_rounding_does_not_count_as_a_difference():
+    assert Compared(0.9270821731437466, 0.927, 0.928, 0.9270821731437464).difference == 0.0
+    assert Compared(300.0, 299.0, 301.0, 300.001).difference == pytest.approx(-0.001)
+    assert np.isnan(Compared(300.0, 299.0, 301.0, np.nan).difference)

@@ -27,6 +27,10 @@ from nptcs.uncertainty.source import Source
 from nptcs.uncertainty.study_results import StudyResults
 
 
+ROUNDING = 1e-12
+"""Part of a value below which a difference of two results of the same formula is rounding."""
+
+
 @dataclass(frozen=True)
 class Compared:
     """One response of a chosen design, predicted and solved; not a number where unknown."""
@@ -42,6 +46,12 @@ class Compared:
         if not np.isfinite(self.solved):
             return "not solved"
         return "inside" if self.low <= self.solved <= self.high else "outside"
+
+    @property
+    def difference(self) -> float:
+        """Predicted less solved; 0 where it is of the size of rounding, as for a mass."""
+        found = self.predicted - self.solved
+        return 0.0 if abs(found) < ROUNDING * abs(self.solved) else found
 
 
 @dataclass(frozen=True)

@@ -197,7 +197,7 @@ def _confirmation(answer: DecisionAnswer) -> Iterator[dict[str, object]]:
                 "low": compared.low,
                 "high": compared.high,
                 "solved": compared.solved,
-                "difference": compared.predicted - compared.solved,
+                "difference": compared.difference,
                 "result": compared.result,
                 "goal_met": ("yes" if met else "no") if goals and solved else "",
                 "added": one.added,
