@@ -26,7 +26,6 @@ from nptcs.uncertainty.response_model import normal_half_width
 from nptcs.uncertainty.source import Source
 from nptcs.uncertainty.study_results import StudyResults
 
-
 ROUNDING = 1e-12
 """Part of a value below which a difference of two results of the same formula is rounding."""
 
