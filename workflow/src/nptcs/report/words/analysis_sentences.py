@@ -94,6 +94,9 @@ SENTENCES = (
         "the contact is only {count} contact points long, too few to resolve it: refine the "
         "ring's mesh"
     ),
+    # sensitivity
+    translatable("uniform {low} to {high}"),
+    translatable("normal, mean {mean}, SD {sd}"),
     # uncertainty
     translatable("no model of this response shows its effect"),
     translatable("ply {name}: {specimens}"),
