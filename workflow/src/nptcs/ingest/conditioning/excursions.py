@@ -97,6 +97,7 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
     span = float(high - low)
     share = HELD_SHARE if usual > 0 else SMALLEST_SHARE
     leaps = np.flatnonzero(size_of > max(share * span, USUAL_STEPS * usual))
+    sign = np.sign(step)  # steps of 1e200 have no product
     longest = max(SHORTEST, int(LONGEST_SHARE * len(values)))
     longest = longest if other is not None else SHORTEST
     for first in leaps:
@@ -106,12 +107,12 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
         for back in leaps[(leaps > first) & (leaps <= first + longest)]:
             apart = abs(float(values[back + 1] - values[first]))
             returned = apart <= _BACK * size + 3 * usual * (back - first)
-            up = step[first] * values[first] > 0 and abs(values[back + 1]) < abs(values[first])
+            up = sign[first] * values[first] > 0 and abs(values[back + 1]) < abs(values[first])
             broke = before_break and up and back - first <= SHORTEST
             held = back > first + 1 and np.ptp(values[first + 1 : back + 1]) == 0
             if not held and min(size, abs(float(step[back]))) <= SMALLEST_SHARE * span:
                 continue
-            if step[back] * step[first] < 0 and (returned or broke):
+            if sign[back] * sign[first] < 0 and (returned or broke):
                 gone[kept[first + 1 : back + 1]] = True
                 break
     return gone
