@@ -240,6 +240,8 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
         if apart and all_numbers(line):
             rows.append(line.split(dialect.delimiter))
             continue
+        if dialect.delimiter != "spaces" and dialect.delimiter not in line:
+            continue  # a row of data has two cells or more
         cells = dialect.split(line)
         if dialect.is_data(cells):
             rows.append(cells)
