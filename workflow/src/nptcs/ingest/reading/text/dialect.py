@@ -233,12 +233,12 @@ class _Rows:
 
 def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
     rows, unread = [], 0
-    apart = dialect.delimiter not in ("spaces", dialect.decimal, dialect.thousands)
+    apart = dialect.delimiter not in (dialect.decimal, dialect.thousands)
     all_numbers = _full_row(dialect.delimiter, dialect.decimal).fullmatch
     is_number = number_pattern(dialect.decimal, dialect.thousands).fullmatch
     for line in lines:
         if apart and all_numbers(line):
-            rows.append(line.split(dialect.delimiter))
+            rows.append(line.split(None if dialect.delimiter == "spaces" else dialect.delimiter))
             continue
         if dialect.delimiter != "spaces" and dialect.delimiter not in line:
             continue  # a row of data has two cells or more
@@ -253,7 +253,8 @@ def _rows(dialect: Dialect, lines: Sequence[str]) -> _Rows:
 def _full_row(delimiter: str, decimal: str) -> re.Pattern[str]:
     """Match a line of bare numbers: the usual row, found fast."""
     number = number_pattern(decimal, "").pattern
-    return re.compile(rf"{number}(?:{re.escape(delimiter)}{number})+", re.ASCII)
+    between = r"[ \t]+" if delimiter == "spaces" else re.escape(delimiter)
+    return re.compile(rf"{number}(?:{between}{number})+", re.ASCII)
 
 
 def _numbers(dialect: Dialect, rows: list[list[str]]) -> Reading:
