@@ -5,7 +5,7 @@ package for each wheel that the recipe's requirements lead to, and one for the r
 rattler-build builds and tests ``recipe/recipe.yaml`` from this channel alone, and the package is
 installed into a new prefix, where its commands are tried. It needs the tools of ``TOOLS``.
 
-The channel stands in for conda-forge and bioconda: names and versions are those that the recipe
+The channel takes the place of conda-forge and bioconda: names and versions are those that the recipe
 asks for, the contents are the wheels'. It is for this test only.
 """
 

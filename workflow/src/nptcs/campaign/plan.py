@@ -147,9 +147,8 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
 
 def _stated(solver: Solver, checked: SolverOptions, bulk: bool) -> Costs:
     """Return what a solver states of the cost of its cases."""
-    alone = bulk and solver.table_case_s is not None
     return Costs(
-        solver.table_case_s if alone and solver.table_case_s else checked.case_s,
+        (solver.table_case_s if bulk else None) or checked.case_s,
         checked.case_memory_mb,
         BULK_RECORD_MB if bulk else RECORD_MB,
         measured=False,

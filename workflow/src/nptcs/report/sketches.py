@@ -70,7 +70,7 @@ class MarkPositions:
     span: float
 
     @classmethod
-    def beside(cls, rows: Sequence[IntervalRow | BarRow]) -> MarkPositions:
+    def of_rows(cls, rows: Sequence[IntervalRow | BarRow]) -> MarkPositions:
         """Leave room for the longest name and the longest value."""
         left, right = (
             GAP + CHARACTER * max(map(text_width, texts), default=0)
@@ -100,7 +100,7 @@ def intervals(
     margin = 0.08 * (high - low) or 0.05 * abs(high) or 1.0
     low, high = low - margin, high + margin
 
-    columns = MarkPositions.beside(rows)
+    columns = MarkPositions.of_rows(rows)
 
     def place(value: float) -> float:
         return columns.left + columns.span * (value - low) / (high - low)
@@ -125,7 +125,7 @@ def intervals(
 def bars(rows: Sequence[BarRow], alt: str) -> Sketch:
     """Draw bars from zero, each with its name and value."""
     longest = max((max(row.value, row.reach) for row in rows), default=0.0) or 1.0
-    columns = MarkPositions.beside(rows)
+    columns = MarkPositions.of_rows(rows)
     left, per_unit = columns.left, columns.span / longest
     parts = []
     for number, row in enumerate(rows):

@@ -138,17 +138,17 @@ def ring_section(
     thickening[2] += change
     core = _core_under_wires(tyre, band, half - row, half, radius)
     return RingSection(
-        radius,
-        half,
-        surface,
-        cover,
-        width,
-        stiffness,
-        hardening,
-        core,
-        thickening,
-        squeezed,
-        missing_drift(flat_ring, strip, 2.0 * half + surface),
+        radius_mm=radius,
+        half_distance_mm=half,
+        surface_mm=surface,
+        foot_mm=cover,
+        width_mm=width,
+        stiffness=stiffness,
+        hardening=hardening,
+        core=core,
+        thickening=thickening,
+        compliance_mm_per_mpa=squeezed,
+        shear_compliance_mm_per_mpa=missing_drift(flat_ring, strip, 2.0 * half + surface),
     )
 
 

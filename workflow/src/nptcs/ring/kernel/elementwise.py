@@ -32,6 +32,8 @@ HALF, SURFACE, FOOT, OUTER, AREA_PER_LENGTH = 0, 1, 2, 3, 4
 GROW_SECTION, GROW_FACE, GROW_SHEAR = 5, 6, 7
 STIFF, SMOOTH, SLIP_STIFF, FRICTION, COMPLIANCE = 8, 9, 10, 11, 12
 DIMENSIONS = 13
+# places of the core's constants behind the three of the wires' pull
+CORE_COMPLIANCE, WIRES_STIFF, CURVATURE = 3, 4, 5
 # tanh is 1 to rounding beyond this
 RATIO_CAP = 20.0
 LEAST_SHEAR_MPA = 1e-9
@@ -81,8 +83,9 @@ def core_give(core: Value, e: Value, d: Value) -> Value:
         D, g, ∂g/∂κf and ∂²g/∂κf².
     """
     pull = core[0] * e + core[1] * d[2] + core[2] * d[3]
-    soft, held = core[3], core[3] * core[4]
-    turn = core[5] - d[3]
+    soft = core[CORE_COMPLIANCE]
+    held = soft * core[WIRES_STIFF]
+    turn = core[CURVATURE] - d[3]
     left = 1.0 / (1.0 + held * turn * turn)
     give = soft * turn * turn * left
     slope = -2.0 * soft * turn * left * left
