@@ -5,8 +5,8 @@ package for each wheel that the recipe's requirements lead to, and one for the r
 rattler-build builds and tests ``recipe/recipe.yaml`` from this channel alone, and the package is
 installed into a new prefix, where its commands are tried. It needs the tools of ``TOOLS``.
 
-The channel takes the place of conda-forge and bioconda: names and versions are those that the recipe
-asks for, the contents are the wheels'. It is for this test only.
+The channel takes the place of conda-forge and bioconda: names and versions are those that the
+recipe asks for, the contents are the wheels'. It is for this test only.
 """
 
 from __future__ import annotations
