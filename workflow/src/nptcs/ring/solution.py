@@ -9,7 +9,7 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.ring.kernel.elementwise import UNKNOWNS
-from nptcs.ring.kernel.numpy_kernel import spoke_coordinates
+from nptcs.ring.kernel.numpy_kernel import spoke_states
 from nptcs.ring.kernel.system import System
 from nptcs.ring.tyre import RingTyre
 
@@ -169,7 +169,7 @@ def _equilibrium(
     for moved, moved_rise in _iterates(tyre, last, u, rise, load_n):
         u, rise = moved, moved_rise
         count += 1
-    if outside := tyre.spokes.outside(spoke_coordinates(tyre.ring, u)):
+    if outside := tyre.spokes.outside(spoke_states(tyre.ring, u).coordinates):
         raise _NoEquilibrium(outside, outside=True)
     force = load_n
     if force is None:
@@ -213,7 +213,9 @@ def _iterates(
 def _newton_step(tyre: RingTyre, system: System, load_n: float | None) -> tuple[Array, float]:
     rhs = np.stack([system.force, system.slope], axis=2)
     try:
-        solved = tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)
+        solved = tyre.kernel.solve(
+            system.diagonal, system.upper, system.lower, rhs, system.feet
+        )
     except (FloatingPointError, np.linalg.LinAlgError) as error:
         raise _NoEquilibrium(str(error)) from error
     step, follow = -solved[:, :, 0], -solved[:, :, 1]
@@ -228,5 +230,6 @@ def tangent_stiffness(tyre: RingTyre, state: RingState) -> float:
     """dF/dδ at a state, N/mm, with the ground's shear remembered from the state before."""
     system = tyre.kernel.assemble(tyre.ring, state.u, state.rise_mm, state.anchor_before)
     rhs = system.slope[:, :, None]
-    follow = -tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)[:, :, 0]
+    solved = tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs, system.feet)
+    follow = -solved[:, :, 0]
     return system.reaction_slope + float(np.sum(system.row * follow))

@@ -383,6 +383,56 @@ def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Valu
 
 
 @compilable
+def foot_share(
+    cos: Value, sin: Value, mean: Value, turn: Value, outward: Value, along: Value
+) -> tuple[Value, Value, Value]:
+    """Share of a node's motion in (u_r, u_θ, φ) of the wide foot that covers it.
+
+    Parameters
+    ----------
+    cos, sin
+        Of the node's angle from the foot's middle.
+    mean, turn
+        Shares of `ring.feet.WideFeet`.
+    outward, along
+        Of the band's face at the node, in the node's own directions; or their derivatives.
+    """
+    radial = cos * outward - sin * along
+    return mean * radial, mean * (sin * outward + cos * along), turn * radial
+
+
+@compilable
+def node_push(
+    cos: Value, sin: Value, mean: Value, turn: Value, push: Value
+) -> tuple[Value, Value]:
+    """Forces on a node in its own directions, outward and along, of a wide foot's three."""
+    radial, level = mean * push[0] + turn * push[2], mean * push[1]
+    return cos * radial + sin * level, cos * level - sin * radial
+
+
+@compilable
+def squeeze_step(
+    soft_r: Value, soft_turn: Value, stiff: Value, gap_r: Value, gap_turn: Value
+) -> tuple[Value, Value]:
+    """Solve (1 + C K) x = gap for u_r and φ; C has the squeeze of the band under a foot."""
+    a, b = 1.0 + soft_r * stiff[0, 0], soft_r * stiff[0, 2]
+    c, d = soft_turn * stiff[2, 0], 1.0 + soft_turn * stiff[2, 2]
+    inverse = 1.0 / (a * d - b * c)
+    return inverse * (d * gap_r - b * gap_turn), inverse * (a * gap_turn - c * gap_r)
+
+
+@compilable
+def squeezed_stiffness(soft_r: Value, soft_turn: Value, stiff: Value, hold: Value) -> None:
+    """Set `hold` (3, 3) to K (1 + C K)⁻¹, K the stiffness of a spoke."""
+    for j in range(3):
+        by_r, by_turn = squeeze_step(
+            soft_r, soft_turn, stiff, soft_r * stiff[0, j], soft_turn * stiff[2, j]
+        )
+        for i in range(3):
+            hold[i, j] = stiff[i, j] - stiff[i, 0] * by_r - stiff[i, 2] * by_turn
+
+
+@compilable
 def line_coordinates(
     height: Value, motion: Value
 ) -> tuple[Value, Value, Value, Value, Value, Value]:

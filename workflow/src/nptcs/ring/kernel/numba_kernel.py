@@ -13,7 +13,7 @@ from nptcs.provenance import code_hash
 from nptcs.ring.kernel import elementwise
 from nptcs.ring.kernel.cyclic_elimination import eliminate
 from nptcs.ring.kernel.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
-from nptcs.ring.kernel.system import Ring, System, empty_system
+from nptcs.ring.kernel.system import NO_FEET, FootTangent, Ring, System, empty_system
 
 OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 
@@ -93,63 +93,111 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         return reaction, reaction_slope
 
     @njit(**OPTIONS)
-    def spokes(ring, u, coordinates, diagonal, force):  # type: ignore[no-untyped-def]
+    def spoke(table, chains, radial, motion, point, push, stiff):  # type: ignore[no-untyped-def]
+        """Set (s, β, φ), forces and stiffness of a spoke at a motion."""
+        assert formulas != ""
+        height, low, high, coefficients, sides, degrees = table
+        count, terms = coefficients.shape
+        first, second = np.zeros(3), np.zeros((3, 3))
+        s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
+        point[0], point[1], point[2] = s, beta, phi
+        for axis in range(3):
+            scale = 2.0 / (high[axis] - low[axis])
+            x = (point[axis] - low[axis]) * scale - 1.0
+            value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
+            value[0], value[1] = 1.0, x
+            once[0], once[1] = 0.0, scale
+            twice[0], twice[1] = 0.0, 0.0
+            for i in range(2, degrees[axis]):
+                value[i] = 2.0 * x * value[i - 1] - value[i - 2]
+                once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
+                twice[i] = 4.0 * scale * once[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
+        radial[:] = 0.0
+        for i in range(count):
+            for order in range(3):
+                for term in range(terms):
+                    radial[order, term] += coefficients[i, term] * chains[0, order, i]
+        for term in range(terms):
+            r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
+            j, n = sides[term]
+            b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
+            p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
+            first[0] += r1 * b0 * p0
+            first[1] += r0 * b1 * p0
+            first[2] += r0 * b0 * p1
+            second[0, 0] += r2 * b0 * p0
+            second[1, 1] += r0 * b2 * p0
+            second[2, 2] += r0 * b0 * p2
+            second[0, 1] += r1 * b1 * p0
+            second[1, 2] += r0 * b1 * p1
+            second[0, 2] += r1 * b0 * p1
+        second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
+        elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
+
+    @njit(**OPTIONS)
+    def spokes(ring, wide, u, coordinates, diagonal, force, lever, hold):  # type: ignore[no-untyped-def]
         """Add all spokes."""
         assert formulas != ""
         w, theta, feet, height, low, high, coefficients, sides = ring
+        place, covered, angle, mean, turn, squeeze = wide
         count, terms = coefficients.shape
+        degrees = (count, sides[:, 0].max() + 1, sides[:, 1].max() + 1)
+        table = height, low, high, coefficients, sides, degrees
         chains = np.zeros((3, 3, max(count, sides.max() + 1)))
-        first, push = np.empty(3), np.empty(3)
-        second, stiff = np.empty((3, 3)), np.empty((3, 3))
-        point, radial = np.empty(3), np.empty((3, terms))
+        radial = np.empty((3, terms))
+        push, face = np.empty(3), np.empty(3)
+        stiff = np.empty((3, 3))
         by = np.zeros((3, UNKNOWNS))
         for k in range(len(feet)):
-            node = feet[k]
-            motion = elementwise.foot_motion(w, theta[node], u[node])
-            s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
-            point[0], point[1], point[2] = s, beta, phi
-            coordinates[k] = point
-            for axis in range(3):
-                scale = 2.0 / (high[axis] - low[axis])
-                x = (point[axis] - low[axis]) * scale - 1.0
-                value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
-                value[0], value[1] = 1.0, x
-                once[0], once[1] = 0.0, scale
-                twice[0], twice[1] = 0.0, 0.0
-                for i in range(2, count if axis == 0 else sides[:, axis - 1].max() + 1):
-                    value[i] = 2.0 * x * value[i - 1] - value[i - 2]
-                    once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
-                    twice[i] = 4.0 * scale * once[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
-            first[:] = 0.0
-            second[:] = 0.0
-            radial[:] = 0.0
-            for i in range(count):
-                for order in range(3):
-                    for term in range(terms):
-                        radial[order, term] += coefficients[i, term] * chains[0, order, i]
-            for term in range(terms):
-                r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
-                j, n = sides[term]
-                b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
-                p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
-                first[0] += r1 * b0 * p0
-                first[1] += r0 * b1 * p0
-                first[2] += r0 * b0 * p1
-                second[0, 0] += r2 * b0 * p0
-                second[1, 1] += r0 * b2 * p0
-                second[2, 2] += r0 * b0 * p2
-                second[0, 1] += r1 * b1 * p0
-                second[1, 2] += r0 * b1 * p1
-                second[0, 2] += r1 * b0 * p1
-            second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
-            elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
-            elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
-            for a in range(UNKNOWNS):
-                for i in range(3):
-                    force[node, a] += push[i] * by[i, a]
-                    for j in range(3):
-                        for b in range(UNKNOWNS):
-                            diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
+            point = coordinates[k]
+            if place[k] < 0:
+                node = feet[k]
+                motion = elementwise.foot_motion(w, theta[node], u[node])
+                spoke(table, chains, radial, motion, point, push, stiff)
+                elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
+                for a in range(UNKNOWNS):
+                    for i in range(3):
+                        force[node, a] += push[i] * by[i, a]
+                        for j in range(3):
+                            for b in range(UNKNOWNS):
+                                diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
+                continue
+            own = place[k]
+            radial_felt, along_felt, turn_felt = 0.0, 0.0, 0.0
+            for p in range(len(angle)):
+                node = covered[own, p]
+                outward, along, _ = elementwise.foot_motion(w, theta[node], u[node])
+                one, two, three = elementwise.foot_share(
+                    np.cos(angle[p]), np.sin(angle[p]), mean[p], turn[p], outward, along
+                )
+                radial_felt += one
+                along_felt += two
+                turn_felt += three
+            # the spoke under the squeeze: as in `numpy_kernel.spoke_states`
+            soft_r, soft_turn = squeeze
+            motion = (radial_felt, along_felt, turn_felt)
+            spoke(table, chains, radial, motion, point, push, stiff)
+            by_r, by_turn = elementwise.squeeze_step(
+                soft_r, soft_turn, stiff, soft_r * push[0], soft_turn * push[2]
+            )
+            motion = (radial_felt - by_r, along_felt, turn_felt - by_turn)
+            spoke(table, chains, radial, motion, point, push, stiff)
+            by_r, by_turn = elementwise.squeeze_step(
+                soft_r, soft_turn, stiff, soft_r * push[0] - by_r, soft_turn * push[2] - by_turn
+            )
+            for i in range(3):
+                push[i] -= stiff[i, 0] * by_r + stiff[i, 2] * by_turn
+            elementwise.squeezed_stiffness(soft_r, soft_turn, stiff, hold[own])
+            for p in range(len(angle)):
+                node = covered[own, p]
+                cos, sin = np.cos(angle[p]), np.sin(angle[p])
+                face[0], face[1] = elementwise.node_push(cos, sin, mean[p], turn[p], push)
+                face[2] = 0.0
+                elementwise.foot(w, theta[node], u[node], face, by, diagonal[node])
+                for a in range(UNKNOWNS):
+                    force[node, a] += face[0] * by[0, a] + face[1] * by[1, a]
+                    share = elementwise.foot_share(cos, sin, mean[p], turn[p], by[0, a], by[1, a])
+                    lever[own, p, 0, a], lever[own, p, 1, a], lever[own, p, 2, a] = share
 
     return elements, spokes
 
@@ -160,7 +208,7 @@ _eliminate = njit(**OPTIONS)(eliminate)
 
 def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
-    system = empty_system(len(u), len(ring.feet))
+    system = empty_system(ring)
     out = (
         system.diagonal,
         system.upper,
@@ -192,11 +240,23 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
             ring.coefficients,
             ring.sides,
         )
-        _spokes(spokes, u, system.coordinates, system.diagonal, system.force)
+        wide = ring.wide
+        _spokes(
+            spokes,
+            (wide.place, wide.nodes, wide.angle, wide.mean, wide.turn, ring.squeeze),
+            u,
+            system.coordinates,
+            system.diagonal,
+            system.force,
+            system.feet.lever,
+            system.feet.hold,
+        )
     return system
 
 
-def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
+def solve(
+    diagonal: Array, upper: Array, lower: Array, rhs: Array, feet: FootTangent = NO_FEET
+) -> Array:
     """Solve the cyclic system for one or two right-hand sides (nodes, 5, n).
 
     Raises
@@ -206,7 +266,7 @@ def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
     """
     found = np.zeros((len(rhs), UNKNOWNS, 2))
     found[:, :, : rhs.shape[2]] = rhs
-    _eliminate(diagonal.copy(), upper, lower, found)
+    _eliminate(diagonal.copy(), upper, lower, found, feet.nodes, feet.lever, feet.hold)
     if not np.isfinite(found).all():
         raise FloatingPointError("the tangent is singular")
     return found[:, :, : rhs.shape[2]]
