@@ -1,4 +1,4 @@
-"""Feet over their width: shares of the nodes, the squeeze of the band, the solution of both kernels."""
+"""Feet over their width: shares of nodes, the squeeze of the band, the solution of both kernels."""
 
 from dataclasses import replace
 
@@ -75,20 +75,22 @@ def test_feet_that_overlap_are_refused(tyre):
 def test_the_squeezed_spoke_is_in_equilibrium_with_the_band(tyre, state):
     """z = m - C E'(z) by another solver."""
     u, _ = state
-    found = numpy_kernel.spoke_states(tyre.ring, u)
-    stiff = replace(tyre.ring, squeeze=np.zeros(2))
+    # these spokes are soft: a band that gives 50 times as much shows what is wrong
+    ring = replace(tyre.ring, squeeze=50.0 * tyre.ring.squeeze)
+    found = numpy_kernel.spoke_states(ring, u)
+    stiff = replace(ring, squeeze=np.zeros(2))
     felt = numpy_kernel.spoke_states(stiff, u).motion
     own = np.flatnonzero(tyre.ring.wide.place >= 0)
-    soft = np.array([tyre.ring.squeeze[0], 0.0, tyre.ring.squeeze[1]])[:, None]
+    soft = np.array([ring.squeeze[0], 0.0, ring.squeeze[1]])[:, None]
     assert np.abs(found.motion - felt)[:, own].max() > 1e-3
 
     def gap(flat):
         motion = flat.reshape(3, -1)
-        push = numpy_kernel.SpokeStates.of(tyre.ring, motion).push
+        push = numpy_kernel.SpokeStates.of(ring, motion).push
         return (motion - felt[:, own] + soft * push).ravel()
 
     exact = root(gap, felt[:, own].ravel(), tol=1e-14).x.reshape(3, -1)
-    push = numpy_kernel.SpokeStates.of(tyre.ring, exact).push
+    push = numpy_kernel.SpokeStates.of(ring, exact).push
     np.testing.assert_allclose(found.push[:, own], push, rtol=1e-7, atol=1e-7 * np.abs(push).max())
     others = tyre.ring.wide.place < 0
     np.testing.assert_array_equal(found.motion[:, others], felt[:, others])
@@ -173,4 +175,4 @@ def test_solutions_with_wide_feet(tyre, state, transposed):
             left = product(system, solution[:, :, side]) - rhs[:, :, side]
             assert np.abs(left).max() < 1e-12 * scale * np.abs(solution).max()
     blind = numpy_kernel.solve(*blocks, rhs)
-    assert np.abs(blind - found).max() > 1e-3 * np.abs(found).max()
+    assert np.abs(blind - found).max() > 1e-5 * np.abs(found).max()

@@ -62,7 +62,9 @@ def ring_nodes(mesh: RingElements, section: RingSection, spoke_count: int) -> Ri
     # what the first foot covers lies behind the first node
     behind = 2 * len(theta[-1]) // 5
     back = theta.pop()
-    angle = np.concatenate([back[len(back) - behind :] - 2.0 * np.pi, *theta, back[: len(back) - behind]])
+    angle = np.concatenate(
+        [back[len(back) - behind :] - 2.0 * np.pi, *theta, back[: len(back) - behind]]
+    )
     step = np.diff(np.append(angle, angle[0] + 2.0 * np.pi))
     return RingNodes(
         theta=angle,

@@ -214,7 +214,7 @@ def missing_drift(
 def foot_squeeze(
     ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float, width_mm: float
 ) -> Array:
-    """What the layers give way under a foot more than the ring does.
+    """Find what the layers give way under a foot more than the ring does.
 
     A foot of width w pulls evenly by its force F, and linearly by its moment M; its motion is the
     mean over w, and the turn ∫ x u dx / ∫ x² dx. Over all waves of the pull, b the axial width,

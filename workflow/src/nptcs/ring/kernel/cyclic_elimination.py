@@ -58,7 +58,12 @@ def eliminate(
     # the foot that covers the node, and how many of its nodes are eliminated
     foot, place = 0, -1
     # its block; its coupling with the next node and the last one, and theirs with it; its sides
-    block, by_next, by_last, own_sides = np.eye(K), np.zeros((K, M)), np.zeros((K, M)), np.zeros((K, N))
+    block, by_next, by_last, own_sides = (
+        np.eye(K),
+        np.zeros((K, M)),
+        np.zeros((K, M)),
+        np.zeros((K, N)),
+    )
     next_by, last_by = np.zeros((M, K)), np.zeros((M, K))
     # coupling of the next node to be eliminated with the last one, and of the last one with it
     to_last, from_last = lower[last].copy(), upper[last].copy()
@@ -76,7 +81,9 @@ def eliminate(
         if closes:
             from_last += lower[i]
         if place >= 0:
-            _carry_foot(own, by_next, by_last, own_sides, block, next_by, last_by, lower[i], from_last)
+            _carry_foot(
+                own, by_next, by_last, own_sides, block, next_by, last_by, lower[i], from_last
+            )
             place += 1
         _subtract_block(diagonal[last], from_last, own, LAST)
         _subtract_sides(rhs[last], from_last, own)
@@ -90,7 +97,11 @@ def eliminate(
             from_last[:] = turned
         if place == feet.shape[1]:
             solved = forces[foot]
-            solved[:, NEXT:LAST], solved[:, LAST:SIDES], solved[:, SIDES:] = by_next, by_last, own_sides
+            solved[:, NEXT:LAST], solved[:, LAST:SIDES], solved[:, SIDES:] = (
+                by_next,
+                by_last,
+                own_sides,
+            )
             solved[:] = np.linalg.solve(block, solved)
             _subtract_foot(diagonal[i + 1], next_by, solved, NEXT)
             _subtract_foot(to_last, next_by, solved, LAST)

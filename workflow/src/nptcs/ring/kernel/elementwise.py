@@ -402,10 +402,8 @@ def foot_share(
 
 
 @compilable
-def node_push(
-    cos: Value, sin: Value, mean: Value, turn: Value, push: Value
-) -> tuple[Value, Value]:
-    """Forces on a node in its own directions, outward and along, of a wide foot's three."""
+def node_push(cos: Value, sin: Value, mean: Value, turn: Value, push: Value) -> tuple[Value, Value]:
+    """Give a node's forces, outward and along in its own directions, of a wide foot's three."""
     radial, level = mean * push[0] + turn * push[2], mean * push[1]
     return cos * radial + sin * level, cos * level - sin * radial
 

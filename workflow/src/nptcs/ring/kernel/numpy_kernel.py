@@ -135,7 +135,9 @@ def spoke_states(ring: Ring, u: Array) -> SpokeStates:
     The spoke's motion is z = m - C E'(z), m the foot's: one step of Newton's method from m, which
     leaves a millionth of the squeeze, and the same linear step for the forces.
     """
-    motion = np.stack(elementwise.foot_motion(ring.dimensions, ring.theta[ring.feet], u[ring.feet].T))
+    motion = np.stack(
+        elementwise.foot_motion(ring.dimensions, ring.theta[ring.feet], u[ring.feet].T)
+    )
     wide = ring.wide
     own = np.flatnonzero(wide.place >= 0)
     if not len(own):
@@ -216,7 +218,7 @@ def _add_wide_feet(ring: Ring, u: Array, spokes: SpokeStates, system: System) ->
 
 
 def _levers(ring: Ring, u: Array, nodes: Index, push: Array) -> tuple[Array, Array]:
-    """Derivatives (n, 3, 5) of the band's face at nodes, and the curvature (n, 5, 5) by `push`."""
+    """Give derivatives (n, 3, 5) of the face at nodes, and their curvature (n, 5, 5) by `push`."""
     by = np.zeros((3, UNKNOWNS, len(nodes)))
     tangent = np.zeros((UNKNOWNS, UNKNOWNS, len(nodes)))
     elementwise.foot(ring.dimensions, ring.theta[nodes], u[nodes].T, push, by, tangent)
