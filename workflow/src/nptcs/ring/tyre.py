@@ -77,9 +77,7 @@ class RingTyre:
 
         Off the ground it forgets: there it rests where it is.
         """
-        x, pressure, shear = self.traction(u, rise_mm, anchor)
-        rest = np.where(pressure > 0.0, shear / self.ring.dimensions[elementwise.SLIP_STIFF], 0.0)
-        placed: Array = x - rest
+        placed: Array = self.kernel.anchors(self.ring, u, rise_mm, anchor)
         return placed
 
     def spoke_motion(self, u: Array) -> Array:

@@ -132,25 +132,21 @@ def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: 
 @compilable
 def band(
     c: Value,
-    h: Value,
-    core: Value,
-    angle: Value,
     length: Value,
     m: Value,
-    d: Value,
-    force: Value,
-    tangent: Value,
+    strains: Value,
     stress: Value,
     stiff: Value,
+    force: Value,
+    tangent: Value,
 ) -> None:
     """Add residual and tangent of an element of band, wires and tread.
 
-    `stress` (4) and `stiff` (4, 4) are workspace.
+    `strains` are those of `band_strains`; `stress` (4) and `stiff` (4, 4) those of `along_tangent`
+    with `add_core_give`.
     """
-    e, q, shear, tx, ty = band_strains(angle, m, d)
+    e, q, shear, tx, ty = strains
     nx, ny = ty, -tx
-    along_tangent(c, h, e, d, stress, stiff)
-    add_core_give(core, e, d, stress, stiff)
     stretch = length * stress[0]
     sheared = length * c[5, 5] * shear
     # the core shears by q, too: its faces are the wires' axes, not their sections

@@ -12,7 +12,7 @@ from nptcs.arrays import Array
 from nptcs.provenance import code_hash
 from nptcs.ring.kernel import elementwise
 from nptcs.ring.kernel.cyclic_elimination import eliminate
-from nptcs.ring.kernel.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
 from nptcs.ring.kernel.system import NO_FEET, FootTangent, Ring, System, empty_system
 
 OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
@@ -34,6 +34,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
         by_x, by_y = np.empty(VARIABLES), np.empty(VARIABLES)
         slope, row = np.empty(VARIABLES), np.empty(VARIABLES)
+        force, tangent = np.empty(VARIABLES), np.empty((VARIABLES, VARIABLES))
         stress, stiff = np.empty(ALONG), np.empty((ALONG, ALONG))
         reaction, reaction_slope = 0.0, 0.0
         for i in range(count):
@@ -42,21 +43,12 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             for a in range(UNKNOWNS):
                 m[a] = 0.5 * (u[i, a] + u[after, a])
                 d[a] = (u[after, a] - u[i, a]) * by
-            force = np.zeros(VARIABLES)
-            tangent = np.zeros((VARIABLES, VARIABLES))
-            elementwise.band(
-                stiffness,
-                hardening,
-                core,
-                middle[i],
-                length[i],
-                m,
-                d,
-                force,
-                tangent,
-                stress,
-                stiff,
-            )
+            force[:] = 0.0
+            tangent[:] = 0.0
+            strains = elementwise.band_strains(middle[i], m, d)
+            elementwise.along_tangent(stiffness, hardening, strains[0], d, stress, stiff)
+            elementwise.add_core_give(core, strains[0], d, stress, stiff)
+            elementwise.band(stiffness, length[i], m, strains, stress, stiff, force, tangent)
             y = elementwise.surface_point(w, middle[i], length[i], m, d)[1]
             if rise - w[OUTER] - y > 0.0:
                 push, drag, steep, slide, cross = elementwise.ground(
@@ -199,10 +191,29 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                     share = elementwise.foot_share(cos, sin, mean[p], turn[p], by[0, a], by[1, a])
                     lever[own, p, 0, a], lever[own, p, 1, a], lever[own, p, 2, a] = share
 
-    return elements, spokes
+    @njit(**OPTIONS)
+    def rest(w, middle, length, u, rise, anchor):  # type: ignore[no-untyped-def]
+        """Place at which each element's surface rests."""
+        assert formulas != ""
+        count = len(u)
+        m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
+        placed = np.empty(count)
+        for i in range(count):
+            after = i + 1 if i + 1 < count else 0
+            for a in range(UNKNOWNS):
+                m[a] = 0.5 * (u[i, a] + u[after, a])
+                d[a] = (u[after, a] - u[i, a]) / length[i]
+            x, y, _, _ = elementwise.surface_point(w, middle[i], length[i], m, d)
+            placed[i] = x
+            depth = rise - w[OUTER] - y
+            if depth > 0.0:
+                placed[i] -= elementwise.traction(w, depth, x - anchor[i])[2] / w[SLIP_STIFF]
+        return placed
+
+    return elements, spokes, rest
 
 
-_elements, _spokes = _loops(code_hash(elementwise.__name__))
+_elements, _spokes, _rest = _loops(code_hash(elementwise.__name__))
 _eliminate = njit(**OPTIONS)(eliminate)
 
 
@@ -252,6 +263,12 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
             system.feet.hold,
         )
     return system
+
+
+def anchors(ring: Ring, u: Array, rise: float, anchor: Array) -> Array:
+    """Place (nodes,) at which each element's surface rests; off the ground it is where it is."""
+    placed: Array = _rest(ring.dimensions, ring.middle, ring.length_mm, u, rise, anchor)
+    return placed
 
 
 def solve(

@@ -10,7 +10,7 @@ from scipy.linalg.lapack import dgbsv
 from nptcs.arrays import Array, Index
 from nptcs.fe.matrices.cyclic import folded_order
 from nptcs.ring.kernel import elementwise
-from nptcs.ring.kernel.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
 from nptcs.ring.kernel.system import NO_FEET, FootTangent, Ring, System, empty_system
 
 # neighbours in folded order are two nodes apart
@@ -24,29 +24,38 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     mean, difference = element_variables(ring, u)
     force = np.zeros((VARIABLES, count))
     tangent = np.zeros((VARIABLES, VARIABLES, count))
-    elementwise.band(
-        ring.stiffness,
-        ring.hardening,
-        ring.core,
-        ring.middle,
-        ring.length_mm,
-        mean,
-        difference,
-        force,
-        tangent,
-        np.empty((ALONG, count)),
-        np.empty((ALONG, ALONG, count)),
-    )
+    strains = elementwise.band_strains(ring.middle, mean, difference)
+    stress, stiff = _along_tangent(ring, strains[0], difference)
+    elementwise.add_core_give(ring.core, strains[0], difference, stress, stiff)
+    elementwise.band(ring.stiffness, ring.length_mm, mean, strains, stress, stiff, force, tangent)
     _add_ground(ring, mean, difference, rise, anchor, force, tangent, system)
     _scatter(ring, force, tangent, system)
     _add_spokes(ring, u, system)
     return system
 
 
+def anchors(ring: Ring, u: Array, rise: float, anchor: Array) -> Array:
+    """Place (nodes,) at which each element's surface rests; off the ground it is where it is."""
+    w = ring.dimensions
+    mean, difference = element_variables(ring, u)
+    x, y, _, _ = elementwise.surface_point(w, ring.middle, ring.length_mm, mean, difference)
+    pressure, _, shear, _, _ = elementwise.traction(w, rise - w[OUTER] - y, x - anchor)
+    placed: Array = x - np.where(pressure > 0.0, shear / w[SLIP_STIFF], 0.0)
+    return placed
+
+
 def element_variables(ring: Ring, u: Array) -> tuple[Array, Array]:
     """Means m (5, elements) and differences d (5, elements) of the elements."""
     after = np.roll(u, -1, axis=0)
     return 0.5 * (u + after).T, ((after - u) / ring.length_mm[:, None]).T
+
+
+def _along_tangent(ring: Ring, e: Array, difference: Array) -> tuple[Array, Array]:
+    """Give derivatives (4, elements), (4, 4, elements) as `elementwise.along_tangent` sets them."""
+    strains = np.concatenate([e[None], difference[2:]])
+    c, h = ring.stiffness[:ALONG, :ALONG, None], ring.hardening.reshape(ALONG**2, ALONG)
+    by_stretch = (h @ strains).reshape(ALONG, ALONG, -1)
+    return np.einsum("ijn,jn->in", c + 0.5 * by_stretch, strains), c + by_stretch
 
 
 def _add_ground(
