@@ -30,7 +30,7 @@ def register(subparsers: Any) -> None:
         "--config",
         type=existing_file,
         default="config/config.yaml",
-        help="with the tyre, for --whole-plates; default: %(default)s",
+        help="configuration with the tyre, for --whole-plates; default: %(default)s",
     )
     parser.add_argument(
         "--models",

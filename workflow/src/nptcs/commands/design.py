@@ -67,13 +67,17 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--with-probability",
         type=number_type(Range(0, 1, open_low=True, open_high=True)),
         metavar="P",
-        help="with which all targets and bounds must hold together; default: 0.9",
+        help="probability with which all targets and bounds must hold together; default: 0.9",
     )
     parser.add_argument("--study", help="default: the only study whose cases vary the plates")
     parser.add_argument("--solver", help="default: the only one of the study that solves designs")
     parser.add_argument("--surface", help="default: that of `uncertainty`, or the best")
     parser.add_argument(
-        "--hold", action="append", default=[], metavar="FACTOR=VALUE", help="a factor's value"
+        "--hold",
+        action="append",
+        default=[],
+        metavar="FACTOR=VALUE",
+        help="hold a factor at a value",
     )
     parser.add_argument(
         "--step",

@@ -48,7 +48,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         nargs="+",
         default=[],
         metavar="FILE",
-        help=f"configuration files on top of {CONFIG}, the later on top of the earlier",
+        help=f"configuration files on top of {CONFIG}, later ones on top of earlier ones",
     )
     parser.add_argument(
         "-y",

@@ -49,13 +49,13 @@ def register(subparsers: Any) -> None:
         type=existing_file,
         default=["config/config.yaml", "config/joint.yaml"],
         metavar="FILE",
-        help="configuration files, the later on top; default: %(default)s",
+        help="configuration files, later ones on top of earlier ones; default: %(default)s",
     )
     fit.add_argument(
         "--results",
         type=existing_folder,
         default=Path("results"),
-        help="of the run; default: %(default)s",
+        help="folder of the run's results; default: %(default)s",
     )
     fit.add_argument(
         "-o", "--output", type=output_file(".json"), default=FILE, help="default: %(default)s"
@@ -79,7 +79,7 @@ def register(subparsers: Any) -> None:
         type=output_file(".csv"),
         metavar="OUT.csv",
         required=True,
-        help="with the results",
+        help="write the same rows with the results",
     )
     solve.add_argument("--surrogate", default=FILE, help="default: %(default)s")
     solve.add_argument(

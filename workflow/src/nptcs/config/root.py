@@ -29,7 +29,7 @@ class LabData(Strict):
 
     specimen_sheet: str = Field(
         "raw_data/example/specimens.csv",
-        description="Specimen sheet; its folder holds the raw files that it names",
+        description="Specimen sheet; its folder contains the raw files that it names",
     )
     formats: str = Field(
         "config/formats", description="Folder with the format profiles of test machines"
@@ -97,7 +97,7 @@ class LcaValidationSettings(Strict):
 
 
 class ReportSettings(Strict):
-    """The report's title, and templates that a laboratory has instead of the package's."""
+    """The report's title, and a laboratory's templates that replace the package's."""
 
     title: str = Field("Load-bearing study of a non-pneumatic tyre with composite spokes")
     templates: str | None = Field(

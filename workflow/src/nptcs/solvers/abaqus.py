@@ -61,7 +61,9 @@ class AbaqusOptions(SolverOptions, AbaqusModel):
         None, ge=0, description="Tokens that one case takes; null: floor(5 cpus^0.422)"
     )
     licence_wait_s: float = Field(
-        600.0, ge=0, description="Time that a case may queue for its tokens; then it is `licence`"
+        600.0,
+        ge=0,
+        description="Time that a case may queue for its tokens; then its status is `licence`",
     )
     accepted_warnings: tuple[str, ...] = Field(
         (),

@@ -58,8 +58,8 @@ class FeTyreOptions(SolverOptions, FeModel):
     curve_to_mm: float | None = Field(
         None,
         gt=0,
-        description="Go on beyond the load of the case until the tyre has moved so far, for "
-        "example 25 for the stiffness at 25 mm; the curve then costs two to four times as much",
+        description="Continue beyond the load of the case up to this displacement, for example 25 "
+        "for the stiffness at 25 mm; the curve then costs two to four times as much",
     )
     spoke_cache: Path | None = Field(
         None,

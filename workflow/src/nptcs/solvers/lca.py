@@ -57,7 +57,7 @@ class LcaOptions(SolverOptions):
     contact_spokes: ContactSpokes = Field(
         "paper",
         description="Spokes over the contact: all shortened by the wheel's displacement "
-        "(equation 14), or each by the band's displacement at its place",
+        "(equation 14), or each by the band's displacement at its position",
     )
     curve_points: int = Field(
         20, ge=2, le=1000, description="Points of the load–displacement curve, up to the load"

@@ -98,7 +98,8 @@ TABLES: dict[str, ResultTable] = {
         FlagsTable,
         "What was flagged: deviations from the standards, values not assessed, remarks",
         "statistics",
-        "the flags of the specimens' properties; flags that differ in their numbers only are one",
+        "the flags of the specimens' properties; flags that differ only in their numbers share a "
+        "row",
         section=ReportSection.SPECIMENS,
         mark=RowMark.DEVIATION,
     ),
@@ -305,7 +306,8 @@ TABLES: dict[str, ResultTable] = {
         DecisionFront,
         "Pareto front of decisions with two objectives or more",
         "decide",
-        "the same surfaces as decisions.csv; acceptable candidates and designs that none betters",
+        "the same surfaces as decisions.csv; acceptable candidates and designs that no other one "
+        "betters",
         section=ReportSection.DECISION,
         headings=headings.of(headings.DECISION, DecisionFront),
         synthetic=SyntheticBy.STUDIES,

@@ -18,7 +18,7 @@ from nptcs.config.solvers.fe import (
 
 
 class RingElements(Strict):
-    """Elements of the ring, two-node."""
+    """Two-node elements of the ring."""
 
     elements_per_pitch: int = Field(2, ge=1, description="Elements between two spokes' feet")
     refinement: int = Field(

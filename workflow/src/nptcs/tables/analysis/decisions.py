@@ -19,7 +19,7 @@ class Decisions(pa.DataFrameModel):
     study: Series[str]
     solver: Series[str]
     goals: Series[str]
-    with_probability: Series[float] = pa.Field(gt=0, lt=1, description="That was asked for")
+    with_probability: Series[float] = pa.Field(gt=0, lt=1, description="Required probability")
     status: Series[str] = pa.Field(
         isin=list(get_args(DecisionStatus)),
         description="refused: the question cannot be answered from these cases",
@@ -38,7 +38,7 @@ class Decisions(pa.DataFrameModel):
     candidates: Series[pd.Int64Dtype] = pa.Field(ge=1, nullable=True)
     confirmation: Series[str] = pa.Field(
         isin=list(get_args(Confirmation)),
-        description="Where the solved response is, by the prediction interval of the surface",
+        description="Whether the solved response is in the prediction interval of the surface",
     )
     solved_designs: Series[int] = pa.Field(ge=0, description="To confirm the choice")
     search_cpu_s: Series[float] = pa.Field(
@@ -89,7 +89,7 @@ class DecisionDesigns(pa.DataFrameModel):
 
 
 class DecisionFront(pa.DataFrameModel):
-    """``decision_front.csv``: acceptable designs that none betters in every objective."""
+    """``decision_front.csv``: acceptable designs that no other betters in every objective."""
 
     decision: Series[str]
     point: Series[int] = pa.Field(ge=1)

@@ -34,8 +34,8 @@ class PropertiesTable(pa.DataFrameModel):
         "strain origin",
     )
     origin: Series[str] = pa.Field(isin=["measured", "synthetic"])
-    range_low: Series[float] = pa.Field(nullable=True, description="Abscissa really used, from")
-    range_high: Series[float] = pa.Field(nullable=True, description="Abscissa really used, to")
+    range_low: Series[float] = pa.Field(nullable=True, description="Abscissa actually used, from")
+    range_high: Series[float] = pa.Field(nullable=True, description="Abscissa actually used, to")
     origin_effect_percent: Series[float] = pa.Field(
         nullable=True, description="What the correction of the strain origin did to the value"
     )

@@ -41,7 +41,7 @@ class StatisticsTable(pa.DataFrameModel):
     k_b: Series[float] = pa.Field(nullable=True, description="Normal B-basis factor")
     notes: Series[str]
     group_size: Series[int] = pa.Field(ge=0, description="Specimens that count, assessed or not")
-    not_assessed: Series[str] = pa.Field(description="Specimens of n missing, and why")
+    not_assessed: Series[str] = pa.Field(description="Specimens that n leaves out, and why")
 
     class Config:
         """Refuse unknown columns, coerce types, keep the order."""

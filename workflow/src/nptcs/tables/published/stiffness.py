@@ -82,7 +82,7 @@ class StiffnessByLevel(pa.DataFrameModel):
     solver: Series[str]
     factor: Series[str]
     level: Series[float] = pa.Field(description="In the unit of the factor")
-    compared: Series[int] = pa.Field(ge=1, description="Cases that the means are over")
+    compared: Series[int] = pa.Field(ge=1, description="Cases that are averaged")
     computed_mean_n_per_mm: Series[float] = pa.Field(gt=0)
     published_mean_n_per_mm: Series[float] = pa.Field(gt=0)
     computed_change_percent: Series[float] = pa.Field(
