@@ -1,4 +1,4 @@
-"""Exponents of the stiffness by each modulus, of laws whose exponents are known."""
+"""Exponents of the stiffness with respect to each modulus, of laws whose exponents are known."""
 
 import itertools
 

@@ -104,11 +104,11 @@ class StiffnessByLevel(pa.DataFrameModel):
 
 
 class StiffnessExponents(pa.DataFrameModel):
-    """Exponents of the stiffness by each modulus, d ln K / d ln C10, computed and published.
+    """Exponents d ln K / d ln C10 of the stiffness with respect to each modulus.
 
     One row over all levels of the factor, by least squares, and one for each step between two
-    levels, at each combination of the other factors. Of a tyre made of rubbers alone the exponents
-    of all moduli add up to 1.
+    levels, at each combination of the other factors, computed and published. For a tyre made of
+    rubbers alone the exponents of all moduli add up to 1.
     """
 
     study: Series[str]
