@@ -1,4 +1,4 @@
-"""Which material card a command takes: the laboratory's, or the paper's ply."""
+"""Which material card a command uses: the laboratory's, or the paper's ply."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from nptcs.tables.laboratory.material_card import PLY_CONSTANTS, PUBLISHED_PLY, 
 
 PUBLISHED = "published"
 CARD = "results/material_card.json"
-"""Where a run leaves the card; a command that is typed in the project folder takes it."""
+"""Where a run writes the card; a command that is typed in the project folder uses it."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class ChosenMaterials:
     ply : dict of str to float
         The nine constants.
     source : str
-        In words, where they are from.
+        Where they come from, in words.
     c10_mpa : dict of str to float
         By the names of the rubbers of the card.
     """
