@@ -113,7 +113,8 @@ def check_materials(
         errors += [
             InputError(
                 f"study {study.name} names rubber {name}, but no specimen of it enters a fit",
-                f"add or include its specimens, or name one of {', '.join(known) or 'none'}",
+                "add or include its specimens"
+                + (f", or name one of {', '.join(known)}" if known else ""),
                 column=f"studies: {study.name}",
                 value=name,
             )

@@ -216,7 +216,7 @@ def _origin_words(
 def _ranges(
     samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
 ) -> list[str]:
-    """Warn of a constant whose specimens were reduced over different ranges, or not the rule's."""
+    """Warn of a constant whose specimens were reduced over several ranges, or not the rule's."""
     words = []
     for name, source in sources.items():
         rows = rows_of(table, source)

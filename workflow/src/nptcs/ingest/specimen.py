@@ -199,7 +199,7 @@ def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None
 
 
 def _flag_time(signals: Signals) -> None:
-    """Flag a time that goes back; it pairs files, but no property of a single file depends on it."""
+    """Flag a time that goes back; it pairs files, but no property of a single file needs it."""
     time = signals.values.get("time")
     if time is not None and not (np.diff(time[~np.isnan(time)]) > 0).all():
         signals.flags.append("time does not increase throughout")

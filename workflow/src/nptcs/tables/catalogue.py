@@ -442,7 +442,7 @@ TABLES: dict[str, ResultTable] = {
         DisplacementByLoad,
         "Displacement by finite elements and by the load-bearing model (figure 15)",
         "displacement_by_load",
-        "the curves of the tyres that are those of table 11, and lca_validation.csv",
+        "the curves of the tyres of table 11, and lca_validation.csv",
         section=ReportSection.LCA,
         mark=RowMark.STATUS,
         synthetic=SyntheticBy.PLIES,

@@ -1,4 +1,4 @@
-"""The section ``ingest:`` of the configuration: each conditioning step can be switched off."""
+"""The section ``ingest:`` of the configuration: switches and limits of the conditioning steps."""
 
 from __future__ import annotations
 
@@ -189,7 +189,7 @@ class IngestSettings(Strict):
 
     @classmethod
     def as_recorded(cls) -> IngestSettings:
-        """Return settings that change nothing: every step off."""
+        """Return settings with every step off that can be switched off."""
         return cls(
             missing_values=MissingValues(enabled=False),
             end_of_test=EndOfTest(enabled=False),

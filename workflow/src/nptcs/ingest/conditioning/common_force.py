@@ -1,4 +1,4 @@
-"""A force that both files recorded: its unit, its agreement, and the offset of the clocks."""
+"""A force recorded in both files: its unit, its agreement, and the offset of the clocks."""
 
 from __future__ import annotations
 

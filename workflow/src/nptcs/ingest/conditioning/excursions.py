@@ -1,4 +1,4 @@
-"""Channels that leave for some readings and come back: a loose cable, an overloaded amplifier."""
+"""Channels that jump away for some readings and back: a loose cable, an overloaded amplifier."""
 
 from __future__ import annotations
 

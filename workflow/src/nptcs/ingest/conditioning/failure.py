@@ -1,4 +1,4 @@
-"""Where a specimen breaks: told apart from an unloading, and from a record that just ends."""
+"""Where a specimen breaks, as opposed to an unloading, or to a record that just ends."""
 
 from __future__ import annotations
 

@@ -23,7 +23,7 @@ NO_STRAIN = "none"
 NO_STRAIN_FLAG = "no strain: "
 """Beginning of the flag of such a test."""
 NO_TRANSVERSE = "no transverse strain"
-"""Beginning of the flag of a test whose transverse extensometer gives none."""
+"""Beginning of the flags of a test whose transverse strain could not be read."""
 
 
 def resolve_strains(

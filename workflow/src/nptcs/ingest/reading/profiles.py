@@ -86,7 +86,7 @@ class FormatProfile(Strict):
     missing: tuple[str, ...] = Field((), description="Further words for 'no value'")
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")
     loading: Literal["", "tension", "compression", "flexure"] = Field(
-        "", description="What such files are, whatever their words say; empty: as they say"
+        "", description="Loading of the tests in such files; empty: by the words in the file"
     )
     window: dict[Literal["x", "y"], tuple[float, float]] = Field(
         default_factory=dict,

@@ -43,10 +43,9 @@ class ChosenMaterials:
         if not isinstance(value, str):
             return value
         if value not in self.c10_mpa:
+            named = f", or one of: {', '.join(self.c10_mpa)}" if self.c10_mpa else ""
             raise InputError(
-                f"{argument}: the card has no such rubber",
-                f"give C10 in MPa, or one of: {', '.join(self.c10_mpa) or 'none on this card'}",
-                value=value,
+                f"{argument}: the card has no such rubber", f"give C10 in MPa{named}", value=value
             )
         return self.c10_mpa[value]
 

@@ -199,7 +199,7 @@ def _require_one_material(path: Path, line: int, row: Specimen, before: list[Spe
         same = (other.material, other.orientation_deg) == (row.material, row.orientation_deg)
         if row.piece and other.piece == row.piece and not same:
             raise InputError(
-                f"piece {row.piece} is of another material or fibre angle in {other.specimen}",
+                f"piece {row.piece} has another material or fibre angle in {other.specimen}",
                 "give the runs of one piece the same material and orientation_deg",
                 path,
                 line,
