@@ -48,8 +48,9 @@ class Campaign(Strict):
     bulk_from: int = Field(
         1000,
         ge=1,
-        description="Cases of a study from which solvers that can solve a table of cases do so: "
-        "minutes instead of hours, one file of columns, but no neutral lines and no plate stress",
+        description="Number of cases of a study from which solvers that can solve a whole table of "
+        "cases at once do so: minutes instead of hours, one file of columns, but no neutral lines "
+        "and no plate stress",
     )
     batches: int = Field(
         1,
@@ -201,7 +202,7 @@ class Config(Strict):
         if len(set(names)) < len(names):
             raise ValueError(f"decisions: a name is used twice: {names}")
         if "reference" in names:
-            raise ValueError("decisions: the name 'reference' is that of the reference design")
+            raise ValueError("decisions: the name 'reference' is reserved for the reference design")
         for study in self.studies:
             for decision in study.decisions:
                 if decision.study not in ("", study.name):
@@ -261,7 +262,7 @@ def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> 
     Parameters
     ----------
     values : mapping
-        What the YAML file holds.
+        Content of the YAML file.
     file : str
         Name of the file, for the message.
 

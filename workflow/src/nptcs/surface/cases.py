@@ -23,7 +23,7 @@ class SolvedCases:
     changed : tuple of str
         Factors of which the solver used other values than the given ones.
     same : int
-        Cases left out because the solver made the same tyre of another case's values.
+        Cases left out because the solver made the same tyre for another case's values.
     failed : int
         Cases of the solver that gave no result.
     """

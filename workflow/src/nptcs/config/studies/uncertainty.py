@@ -48,7 +48,7 @@ class RubberUncertainty(Strict):
 
 
 class Uncertainty(Strict):
-    """Sources of the uncertainty of a design's responses, apart from the solver's own bias."""
+    """What makes the responses of a design uncertain, apart from the solver's own bias."""
 
     card: CardUncertainty = Field(
         "standard_error",

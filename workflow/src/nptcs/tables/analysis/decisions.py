@@ -19,7 +19,9 @@ class Decisions(pa.DataFrameModel):
     study: Series[str]
     solver: Series[str]
     goals: Series[str]
-    with_probability: Series[float] = pa.Field(gt=0, lt=1, description="Required probability")
+    with_probability: Series[float] = pa.Field(
+        gt=0, lt=1, description="Probability that the decision requires"
+    )
     status: Series[str] = pa.Field(
         isin=list(get_args(DecisionStatus)),
         description="refused: the question cannot be answered from these cases",
@@ -89,7 +91,7 @@ class DecisionDesigns(pa.DataFrameModel):
 
 
 class DecisionFront(pa.DataFrameModel):
-    """``decision_front.csv``: acceptable designs that no other betters in every objective."""
+    """``decision_front.csv``: acceptable designs that no other one betters in every objective."""
 
     decision: Series[str]
     point: Series[int] = pa.Field(ge=1)

@@ -120,7 +120,7 @@ class SurfaceSelection(pa.DataFrameModel):
     solver: Series[str]
     criterion: Series[str] = pa.Field(isin=["aicc", "press"])
     step: Series[int] = pa.Field(ge=0)
-    dropped: Series[str] = pa.Field(description="Term that goes in this step; empty in the first")
+    dropped: Series[str] = pa.Field(description="Term dropped in this step; empty in the first")
     terms: Series[int] = pa.Field(gt=0, description="Terms that are left")
     aicc: Series[float] = pa.Field(description="Corrected Akaike criterion")
     press: Series[float] = pa.Field(

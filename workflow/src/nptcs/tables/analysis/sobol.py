@@ -66,7 +66,7 @@ class MainEffects(pa.DataFrameModel):
     factor: Series[str]
     value: Series[float] = pa.Field(description="Unit of the factor")
     effect_n_per_mm: Series[float] = pa.Field(
-        description="Mean over the other factors, less the mean over all"
+        description="Mean over the other factors, minus the mean over all"
     )
 
     class Config:

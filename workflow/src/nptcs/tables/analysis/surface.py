@@ -36,7 +36,7 @@ class SurfaceQuality(pa.DataFrameModel):
     points: Series[int] = pa.Field(gt=0)
     failed_cases: Series[int] = pa.Field(ge=0, description="Cases of the solver without a result")
     same_cases: Series[int] = pa.Field(
-        ge=0, description="Cases left out because the solver solved the same tyre for another case"
+        ge=0, description="Cases left out because the solver made the same tyre for another case"
     )
     realised_factors: Series[str] = pa.Field(
         description="Factors in the values that the solver actually used, not in the given ones"

@@ -21,8 +21,8 @@ class SourceKind(StrEnum):
 class ResponseUncertainty(pa.DataFrameModel):
     """``uncertainty.csv``: distribution of each response, one row per design and response.
 
-    It includes all that scatters or is not known exactly: tests, stated rubbers, tolerances and
-    the surface's own error. It does not include the solver's bias, which has its own columns.
+    It includes all that scatters or is not known exactly: tests, stated rubbers, tolerances and the
+    surface's own error. It does not include the solver's bias, which has its own columns.
     """
 
     study: Series[str]
@@ -67,7 +67,7 @@ class ResponseUncertainty(pa.DataFrameModel):
 
 
 class UncertaintyShares(pa.DataFrameModel):
-    """``uncertainty_shares.csv``: which test or tolerance the uncertainty comes from.
+    """``uncertainty_shares.csv``: which tests and tolerances make a response uncertain.
 
     One row per design, response and source, the largest first. A share is the variance by this
     source alone, the others at their nominal values, over the sum of all.
