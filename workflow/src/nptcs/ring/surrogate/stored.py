@@ -66,7 +66,7 @@ def dump_surrogate(stored: StoredSurrogate) -> str:
 
 
 def read_surrogate(path: str | Path) -> StoredSurrogate:
-    """Read a file that holds what `dump_surrogate` has written.
+    """Read a file that contains what `dump_surrogate` wrote.
 
     Raises
     ------
