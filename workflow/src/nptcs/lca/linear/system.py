@@ -1,4 +1,4 @@
-"""All three regions joined, for given contact and transition angles: a linear system of eleven.
+"""All three regions joined, for given contact and transition angles: eleven linear equations.
 
 Unknowns: four modes and the rotation of the compression arc, two modes of the tension arc, the
 constant C = N + M that both arcs share, and the contact region's edge moment m, horizontal force H
@@ -120,8 +120,8 @@ def join_regions(
 ) -> Joined:
     """Solve n designs for given angles θc < θt (radians), with derivatives by both.
 
-    A boundary that moves changes the loads only, so the derivative of the solution is what a
-    jump of N' and V' at θc, or of V' at θt, does; the latter is (a_j - a_k) u(θt), nothing at
+    Moving a boundary changes only the loads, so the derivative of the solution is its response to
+    a jump of N' and V' at θc, or of V' at θt; the latter is (a_j - a_k) u(θt), which is zero at
     the solution.
     """
     contact = solve_contact(ring.epsilon, ring.kappa2, theta_c, points)
