@@ -197,7 +197,7 @@ def test_a_tampered_card_is_an_error(tmp_path, card, tamper):
     write_model(file, card)
     assert read_model(file, type(card)) == card
     file.write_text(tamper(file.read_text(encoding="utf-8")), encoding="utf-8")
-    with pytest.raises(InputError, match="not a sound"):
+    with pytest.raises(InputError, match="not a valid"):
         read_model(file, type(card))
 
 
