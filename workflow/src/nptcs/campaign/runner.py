@@ -55,7 +55,7 @@ def run_cases(
     """Solve cases, or take their records from the store.
 
     A case that raises, hangs, crashes or kills its process becomes one record with a status and
-    a message; the others go on.
+    a message; the others continue.
 
     Parameters
     ----------

@@ -93,7 +93,7 @@ def path_to_displacement(
     path : LoadPath
         To the displacement or a little further, or as far as the tyre could be loaded.
     reason : str
-        Why the path ends before the displacement; empty where it does not.
+        Why the path ends before the displacement; empty if it does not.
     """
     step = load_n / model.load_steps
     while path.rise_mm[-1] < displacement_mm:

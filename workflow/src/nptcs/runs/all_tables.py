@@ -1,6 +1,6 @@
 """Every table of two runs: columns, rows and values, also of tables that no other part shows.
 
-Rows are matched by the keys of the table's contract where it has some, and otherwise by their
+Rows are matched by the keys of the table's contract if it has any, and otherwise by their
 order. Columns that belong to the run and to the code (`OF_THE_RUN`) are not compared.
 """
 

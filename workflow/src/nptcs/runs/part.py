@@ -38,7 +38,7 @@ class Part:
     about : str
         How it was compared: the rule, and what the columns mean.
     table : DataFrame
-        One row per thing compared; the column `RESULT` holds a `Found`.
+        One row per thing compared; the column `RESULT` contains a `Found`.
     remarks : tuple of str
         What could not be compared, and why.
     headings : mapping of str to Heading

@@ -70,7 +70,7 @@ class CaseInputs:
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
-        The nine ply constants (`nptcs.tables.laboratory.material_card.PLY_CONSTANTS`), where the
+        The nine ply constants (`nptcs.tables.laboratory.material_card.PLY_CONSTANTS`), if the
         solver needs them.
     options : SolverOptions
         The solver's own options.

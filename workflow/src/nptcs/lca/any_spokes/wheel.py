@@ -81,7 +81,7 @@ class Wheel:
         return start, start + 2 * float(np.pi)
 
     def force(self, u: Floating) -> tuple[Floating, Floating]:
-        """Force of the spokes over GA and its slope by u_r/R; per radian if smeared."""
+        """Force of the spokes over GA and its slope with u_r/R; per radian if smeared."""
         force, slope = self.law.evaluate(u * self.section.radius_mm)
         factor = 1 / self.section.shear_stiffness_n
         if self.spoke_angles is None:

@@ -185,7 +185,7 @@ class SpokeSurrogate:
         ----------
         importance : array (components,), optional
             Weight of each component's variance, for example the squares of a displacement's
-            derivatives by the components; 1 for all if not given.
+            derivatives with respect to the components; 1 for all if not given.
         candidates : int
             Points of the box that are compared; the variance is averaged over as many others.
         seed : int
