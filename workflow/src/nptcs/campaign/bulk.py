@@ -280,7 +280,7 @@ def _ended(running: list[_Running], timeout_s: float) -> list[_Running]:
 
 
 def _collect(part: _Running, timeout_s: float) -> tuple[pd.DataFrame | None, list[np.ndarray]]:
-    """Take the results of a part that has ended, or its halves, to be solved, if it has none."""
+    """Take the results of a part that has ended; if there are none, return its halves to solve."""
     seconds, died = time.monotonic() - part.started, False
     try:
         if part.channel.poll():

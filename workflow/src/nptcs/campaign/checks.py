@@ -120,7 +120,7 @@ def _kept(kind: str, name: str) -> InputError:
 
 
 def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:
-    """Find names that differ only in capital letters; of specimens, these are refused by row."""
+    """Find names that differ only in capital letters; for specimens the sheet's check does so."""
     folded = [name.casefold() for name in names]
     same = [name for name in names if folded.count(name.casefold()) > 1]
     if not same:
@@ -146,7 +146,7 @@ def _unfit(kind: str, name: str) -> InputError:
 
 
 LONGEST_NAME = 100
-"""Characters of a name; file systems allow 255 in a file name, which contains more than it."""
+"""Characters of a name; file systems allow 255 for a whole file name, of which it is a part."""
 
 MOST_REPEATS = 15
 """Times that a piece of a name may be repeated in a row; Snakemake refuses 20 as endless."""

@@ -62,7 +62,7 @@ SHOWN = {
     "configuration": ("key", "a", "b", "result"),
     "software": ("software", "a", "b", "result"),
 }
-"""Columns that the terminal shows; cases and tables are printed in another way."""
+"""Columns that the terminal shows; cases and tables are printed differently."""
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:

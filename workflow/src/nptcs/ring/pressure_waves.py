@@ -30,7 +30,7 @@ from nptcs.arrays import Array
 from nptcs.ring.rubber import Rubber
 
 STATES = 4
-# half waves over the depth from the inner wires to the surface
+# half waves, as multiples of the depth from the inner wires to the surface
 HALF_WAVES = np.geomspace(0.7, 6.0, 9)
 # Gauss–Newton steps for a smooth function of one variable
 ITERATIONS = 6

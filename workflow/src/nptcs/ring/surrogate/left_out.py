@@ -27,8 +27,8 @@ class LeftOutSpokes:
     Parameters
     ----------
     percent : ndarray
-        Displacement on the predicted spoke relative to that on the computed one; NaN where a spoke
-        leaves its table below the load.
+        Error of the displacement on the predicted spoke relative to that on the computed one; NaN
+        where a spoke leaves its table below the load.
     standard_errors : ndarray of shape (spokes,)
         Error at the last load in standard errors of the prediction.
     edge : ndarray of shape (spokes,)
