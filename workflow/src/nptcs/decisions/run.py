@@ -159,7 +159,7 @@ def source_of(
     )
     if results.solved.empty:
         raise InputError(
-            f"no case of study {study.name} by {solver} is solved",
+            f"no case of study {study.name} has been solved by {solver}",
             column="decisions.study",
             value=study.name,
             remedy="see cases.csv for what failed",

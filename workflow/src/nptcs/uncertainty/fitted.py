@@ -240,12 +240,13 @@ def _lamination(
 ) -> tuple[Lamination | None, str]:
     """Return the lamination form that gives the effect of the ply, or why there is none."""
     if response.name not in STIFFNESS:
-        return None, "effect of the ply not assessed: the lamination form is made for stiffness"
+        return None, "effect of the ply not assessed: the lamination form describes only stiffness"
     own = lamination_of(surface)
     if own is not None:
         return own, ""
     if sorted(cases.factors) != sorted(LAMINATION_FACTORS):
-        return None, "effect of the ply not assessed: the lamination form has S, T and A alone"
+        note = "effect of the ply not assessed: the lamination form has only the factors S, T and A"
+        return None, note
     try:
         form = fit_surface(LaminationModel(kind="lamination", coefficients=7), cases)
     except InputError as error:
@@ -305,7 +306,7 @@ def _plate_mass(results: StudyResults, tyre: TyreGeometry) -> FittedResponse:
             "the plates' mass in the cases is not proportional to their number and thickness",
             column="decisions",
             value=PLATE_MASS.name,
-            remedy="use a solver whose plates are of one length",
+            remedy="use a solver whose plates all have the same length",
         )
     lower, upper = points.min(axis=0), points.max(axis=0)
     model = PlateMass(tuple(results.factors), lower, upper, float(each.mean()), tyre.tread_width_mm)

@@ -62,8 +62,10 @@ SENTENCES = (
     translatable("{rule}: no test states how uncertain it is"),
     translatable("uncertainty.tolerances of the configuration"),
     translatable("prediction interval of the surface, at least its error at left-out cases"),
-    translatable("effect of the ply not assessed: the lamination form is made for stiffness"),
-    translatable("effect of the ply not assessed: the lamination form has S, T and A alone"),
+    translatable("effect of the ply not assessed: the lamination form describes only stiffness"),
+    translatable(
+        "effect of the ply not assessed: the lamination form has only the factors S, T and A"
+    ),
     translatable("effect of the rubbers not assessed: no study of this solver varies them"),
     translatable("effect of the rubbers not assessed: their study varies other factors too"),
     translatable("ordinary least squares in coded units, solved cases only"),
