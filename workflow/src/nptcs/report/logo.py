@@ -25,7 +25,7 @@ def logo_uri(path: str | Path) -> str:
     ------
     InputError
         If it does not exist, is larger than `LARGEST_BYTES`, is damaged, is of another type, or is
-        an SVG that needs other files or holds a script.
+        an SVG that needs other files or contains a script.
     """
     path = Path(path)
     if not path.is_file():

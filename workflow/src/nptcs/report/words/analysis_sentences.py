@@ -1,4 +1,4 @@
-"""What cards, surfaces, responses and uncertainties say of how a value was found."""
+"""What cards, surfaces, responses and uncertainties say about how a value was found."""
 
 from __future__ import annotations
 

@@ -168,7 +168,7 @@ def message_text(message: str) -> str:
 
 @cache
 def _message_text(message: str, language: Language) -> str:
-    """Write a message in the current language, which is named so that each has its own answer."""
+    """Write a message in the current language, an argument so that each has its cache entry."""
     head, remedy_follows, remedy = message.partition(REMEDY)
     head, value_follows, value = head.partition(VALUE)
     text = _with_place(head)
