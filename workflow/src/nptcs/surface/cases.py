@@ -23,7 +23,7 @@ class SolvedCases:
     changed : tuple of str
         Factors for which the solver used values other than the given ones.
     same : int
-        Cases left out because the solver made the same tyre from another case's values.
+        Cases left out because the solver made the same tyre for another case's values.
     failed : int
         Cases of the solver that gave no result.
     """

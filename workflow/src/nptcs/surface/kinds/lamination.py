@@ -32,7 +32,7 @@ REFERENCE_SPACING_MM = 15.0
 
 FIXED_SHAPE = ("n", "log_p")
 OPTIONAL_SHAPE = ("log_r", "log_a", "m")
-"""Shape parameters of which forms with fewer than eight coefficients leave out some or all."""
+"""Shape parameters of which forms with fewer than eight coefficients leave out one or two."""
 
 ABSENT = {"log_r": -np.inf, "log_a": -np.inf, "m": 1.0}
 """Value of a shape parameter that is left out: nothing added, or a linear effect of S."""
