@@ -124,5 +124,5 @@ def _own(filename: str | None, folder: str | None) -> bool:
 
 
 def _broken(message: str, path: Path, line: int | None) -> InputError:
-    remedy = "correct this template, or remove it: the package's own is taken then"
+    remedy = "correct this template, or remove it: the package's own is then used"
     return InputError(f"this template cannot be used: {message}", remedy, path, line)
