@@ -127,7 +127,7 @@ def test_the_largest_impact_governs(results):
 
 def test_no_decision_is_said_to_be_none(results):
     (found,) = recommended_findings(results)
-    assert found.answer == "Not asked"
+    assert found.answer == "Not requested"
     assert not found.assessed
 
 
@@ -163,7 +163,11 @@ def test_the_chosen_design_is_written_for_people_and_confirmed(decided):
             {"result": "not solved", "solved": np.nan},
             "not confirmed",
         ),
-        ({"confirmation": "not asked"}, {}, "No solved case was asked for: not confirmed."),
+        (
+            {"confirmation": "not asked"},
+            {},
+            "No confirmation by a solved case was requested: not confirmed.",
+        ),
         ({"status": "infeasible", "message": "out of reach"}, {}, "out of reach"),
         ({"status": "refused", "message": "no surface"}, {}, "no surface"),
     ],

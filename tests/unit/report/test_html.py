@@ -119,7 +119,7 @@ def test_every_problem_stands_at_the_top(faulty_html):
 
 def test_stray_files_are_pointed_out_at_the_top_and_notes_are_not(page):
     head, rest = page.text.split("Worth knowing", 1)[1].split("Sensitivity", 1)
-    assert "No row of the sheet names these files of the folder: notes.txt " in head
+    assert "No row of the sheet names these files in the folder: notes.txt " in head
     assert "README" not in head
     assert "README.md note" in rest
 

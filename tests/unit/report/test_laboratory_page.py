@@ -115,7 +115,7 @@ def test_a_png_and_an_svg_are_taken_by_their_content(tmp_path):
         (PNG.replace(b"IDAT", b"IDAX"), "this PNG is damaged"),
         (b"\x89PNG\r\n\x1a\n" + b"0" * LARGEST_BYTES, "more than 500,000"),
         (SVG.replace("<path", '<image href="https://x/y.png"/><path'), "needs another file"),
-        (SVG.replace("<path", "<script>1</script><path"), "holds an element <script>"),
+        (SVG.replace("<path", "<script>1</script><path"), "contains an element <script>"),
         ('<!DOCTYPE s [<!ENTITY a "b">]>' + SVG, "declares entities"),
     ],
 )
@@ -175,7 +175,7 @@ def test_a_broken_template_names_file_and_line(tmp_path, own, line, said):
     with pytest.raises(InputError, match=said) as refusal:
         cover(str(tmp_path))
     assert (Path(refusal.value.file), refusal.value.line) == (file, line)
-    assert "the package's own is taken then" in refusal.value.remedy
+    assert "the package's own is then used" in refusal.value.remedy
 
 
 def test_a_template_that_nothing_asks_for_is_named(tmp_path):

@@ -83,7 +83,7 @@ def test_hashes_are_not_wrapped():
 
 
 def test_a_long_text_that_all_rows_have_is_said_once():
-    text = "no chance where the results come from a deterministic solver, which has no noise"
+    text = "not a probability where the results come from a solver, which has no noise"
     other = [text, text.replace("no noise", "noise")]
     table = pd.DataFrame({"a": [1.0, 2.0], "p_meaning": text, "form": other, "short": "same"})
     view = table_view(table, FILES)

@@ -1,9 +1,9 @@
-"""Likelihood of a Matérn 5/2 process, and its slope by the hyperparameters.
+"""Likelihood of a Matérn 5/2 process, and its slope with respect to the hyperparameters.
 
-A few dozen cases are left out one by one, and each time the hyperparameters are searched again: the
-general kernels of scikit-learn spend most of that time on taking themselves apart. Value and slope
-are those of scikit-learn's kernel ``ConstantKernel * Matern (+ WhiteKernel)``, which stays the
-process's own.
+A few dozen cases are left out one by one, and each time the hyperparameters are searched again:
+scikit-learn's general kernels would spend most of that time on copying and taking apart kernel
+objects. Value and slope are those of scikit-learn's kernel ``ConstantKernel * Matern
+(+ WhiteKernel)``, which the process itself uses.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ class MaternLikelihood:
     nugget : float
         Added to the diagonal of the covariance.
     noisy : bool
-        Whether the last hyperparameter is the variance of a noise.
+        Whether the last hyperparameter is the variance of the noise.
     """
 
     def __init__(self, points: Array, values: Array, nugget: float, noisy: bool) -> None:
@@ -47,8 +47,8 @@ class MaternLikelihood:
         Returns
         -------
         float, ndarray of shape (h,)
-            The value and its slope. Where the covariance is not positive definite, no likelihood:
-            infinity, without a slope.
+            The value and its slope; infinity with a slope of zero where the covariance is not
+            positive definite.
         """
         count = len(self._values)
         scaled, reach, smooth, noise = self._parts(theta)

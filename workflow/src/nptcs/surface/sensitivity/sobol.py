@@ -57,8 +57,7 @@ class Indices:
     first, total, first_confidence, total_confidence : ndarray of shape (n,)
         Indices, and the half widths of their confidence intervals.
     second, second_confidence : ndarray of shape (n, n)
-        Interactions, in the upper triangle; not a number elsewhere, and where they were not
-        asked for.
+        Interactions, in the upper triangle; NaN elsewhere, and where they were not requested.
     sd : float
         Standard deviation of the response over the inputs.
     samples : int
@@ -131,7 +130,7 @@ def sobol_indices(
     settings : Sobol
         Points, confidence and seed.
     interactions : bool
-        Whether second-order indices are wanted, which cost as much again.
+        Whether to estimate second-order indices, which cost as much again.
 
     Returns
     -------
@@ -177,7 +176,7 @@ def main_effect(
     axis: int,
     settings: Sobol,
 ) -> tuple[Array, Array]:
-    """Mean of the response over all other factors at values of one, less its overall mean.
+    """Mean of the response over all other factors at values of one, minus its overall mean.
 
     Returns
     -------
