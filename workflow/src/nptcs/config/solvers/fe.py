@@ -72,7 +72,7 @@ class SpokeGeometry(Strict):
         }
         heights = list(breaks.values())
         if any(b - a < 1e-3 for a, b in zip(heights[:-1], heights[1:], strict=True)):
-            raise ValueError(f"heights along a leg must grow in this order, got {breaks}")
+            raise ValueError(f"heights along a leg must increase in this order, got {breaks}")
         thinnest = min(self.leg_thickness_mm, self.block_thickness_mm, self.foot_thickness_mm)
         if self.plate_layer_mm >= thinnest:
             raise ValueError("plate_layer_mm must be thinner than leg, block and foot")

@@ -83,7 +83,7 @@ class Goal:
 
     @property
     def must_hold(self) -> bool:
-        """Whether a design that misses it is not acceptable."""
+        """Whether a design must meet it to be acceptable."""
         return self.kind in NEEDS_VALUE
 
     @property

@@ -49,7 +49,7 @@ def settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specim
 
 
 def scale_raw_force(force: RawFile, strain: RawFile, specimen: str) -> None:
-    """Bring the camera's force in volts to the machine's: by the peak, if the shapes agree.
+    """Scale the camera's force in volts to the machine's by the peak, if the shapes agree.
 
     If both are the same signal, they reach each share of the peak a constant time apart; if the
     camera's record ends below the peak, or it is another signal, these times drift.

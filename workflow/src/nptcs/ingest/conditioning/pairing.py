@@ -47,7 +47,7 @@ def pair(
     force, strain : RawFile
         The two files.
     offset_s : float or None
-        Added to the strain file's time. None: from the force that both recorded, else 0 and
+        Added to the strain file's time. None: from the force that both recorded; otherwise 0, and
         the onsets of loading are compared.
     settings : Pairing
         Tolerances.

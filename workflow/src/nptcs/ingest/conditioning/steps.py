@@ -43,7 +43,7 @@ def _is_dead(readings: Array, largest_share: float) -> bool:
 
 
 def empty_spikes(signals: Signals, settings: MissingValues) -> None:
-    """Empty single readings far from both neighbours, such as a lost bit or digit leaves.
+    """Empty single readings far from both neighbours, such as those with a lost bit or digit.
 
     A reading counts if it is off both neighbours, to the same side, by more than ``spike_share``
     of the channel's range (1st to 99th percentile) and 20 usual steps; at a failure it is off

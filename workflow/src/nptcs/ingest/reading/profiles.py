@@ -224,7 +224,7 @@ def load_profiles(folder: str | Path) -> dict[str, FormatProfile]:
     Raises
     ------
     InputError
-        If a profile is not valid, two have the same name, or there is none.
+        If a profile is not valid or not named like its file, or there is no profile `PLAIN`.
     """
     folder = Path(folder)
     profiles: dict[str, FormatProfile] = {}

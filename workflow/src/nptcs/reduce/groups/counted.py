@@ -24,8 +24,8 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
     """Rows of a property table that enter statistics and cards, one for each piece.
 
     A row counts if the sheet includes its specimen and takes the property from this run. A value
-    whose failure no reading shows is emptied: it is not assessed for any mean. So is one that rests
-    on crosshead travel where another specimen of the group has a sensor. Runs that give the same
+    whose failure no reading shows is emptied: it is not assessed for any mean. So is one from
+    crosshead travel where another specimen of the group has a sensor. Runs that give the same
     property of the same piece count once, with the mean of their values.
 
     Parameters

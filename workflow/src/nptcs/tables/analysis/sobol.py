@@ -25,7 +25,7 @@ class SobolIndices(pa.DataFrameModel):
         ge=0,
         le=100,
         nullable=True,
-        description="Part of the distribution outside the cases, cut off",
+        description="Share of the distribution outside the cases, which is cut off",
     )
     index: Series[float] = pa.Field(description="First-order index, or that of the interaction")
     index_confidence: Series[float] = pa.Field(

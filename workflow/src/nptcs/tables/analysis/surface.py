@@ -97,7 +97,7 @@ class SurfaceComparison(pa.DataFrameModel):
         ge=0, nullable=True, description="N/mm, the worst of the levels left out whole"
     )
     level_out_not_fitted: Series[str] = pa.Field(
-        description="Factors of which a level cannot be left out"
+        description="Factors for which a level cannot be left out"
     )
     outside_the_box: Series[str] = pa.Field(
         isin=["refused", "flagged"], description="What happens to a prediction there"

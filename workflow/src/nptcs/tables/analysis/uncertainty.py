@@ -49,7 +49,9 @@ class ResponseUncertainty(pa.DataFrameModel):
     bias_largest_percent: Series[float] = pa.Field(
         nullable=True, description="The largest such difference"
     )
-    blind_cases: Series[pd.Int64Dtype] = pa.Field(nullable=True, description="Their number")
+    blind_cases: Series[pd.Int64Dtype] = pa.Field(
+        nullable=True, description="Number of blind cases"
+    )
     surface: Series[str] = pa.Field(description="Model of the response")
     cases: Series[int] = pa.Field(gt=0, description="Cases that it was fitted to")
     card: Series[str] = pa.Field(
@@ -81,7 +83,7 @@ class UncertaintyShares(pa.DataFrameModel):
     unit: Series[str]
     kind: Series[str] = pa.Field(
         isin=[*SourceKind, "not assessed"],
-        description="stated: a number of the configuration in place of a test",
+        description="stated: a number from the configuration in place of a test",
     )
     quantities: Series[str] = pa.Field(description="What varies, with its standard deviation")
     source: Series[str] = pa.Field(description="Specimens, key of the configuration, or reason")

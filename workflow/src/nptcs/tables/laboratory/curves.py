@@ -123,7 +123,9 @@ class IngestRecord(Strict):
         description="extensometer, dic, strain_gauge, crosshead, unspecified, or none (strength "
         "only)",
     )
-    data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
+    data_sha256: str = Field(
+        "", description="Hash of load and strain as read: equal for equal data"
+    )
     data_sketch: tuple[int, ...] = Field(
         (), description="Sample of pairs of load and strain: shared by copies that were changed"
     )
@@ -135,7 +137,7 @@ class IngestRecord(Strict):
     made_from: str = Field(
         "", description="Hash of row, content of the files, profiles, settings and code"
     )
-    curve_sha256: str = Field("", description="Of the curve's file")
+    curve_sha256: str = Field("", description="Hash of the curve's file")
 
     @property
     def understood(self) -> bool:

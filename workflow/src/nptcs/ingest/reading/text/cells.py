@@ -1,4 +1,4 @@
-"""Text files and workbook sheets as rows of cells, and their columns as numbers."""
+"""What every source of cells offers, and text files as rows of cells and columns of numbers."""
 
 from __future__ import annotations
 
