@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from nptcs.config.solvers.fe import EnergyTableOptions
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeGeometry
 from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit_energy
 
 HEIGHT_MM = 84.1
@@ -38,7 +38,7 @@ def invented_table(scale=1.0, lean=6.0):
         scale * np.stack(force, axis=1),
         scale * np.moveaxis(np.array(tangent), 2, 0),
     )
-    return fit_energy(samples, OPTIONS, HEIGHT_MM)
+    return fit_energy(samples, OPTIONS, SpokeGeometry(height_mm=HEIGHT_MM))
 
 
 @pytest.fixture(scope="session")

@@ -172,9 +172,9 @@ class EnergyTableOptions(Strict):
         "from the unloaded one: the most compressed spokes stand on the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
-        (9, 3, 3),
-        description="Numbers of states of the elongation, β and φ; for β < 0 they are known from "
-        "the spoke's symmetry",
+        (7, 3, 3),
+        description="Numbers of states of the elongation (one next to the unloaded state is left "
+        "out), β and φ; for β < 0 they are known from the spoke's symmetry",
     )
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
@@ -190,7 +190,7 @@ class EnergyTableOptions(Strict):
         "of its energy; its tangent is accurate only to the square root of this",
     )
     degrees: tuple[int, int] = Field(
-        (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"
+        (11, 5), description="Polynomial degree in the elongation, and total degree in β and φ"
     )
 
     @model_validator(mode="after")
