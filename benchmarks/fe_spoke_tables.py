@@ -7,8 +7,8 @@ Strict tables have 165 states (ten levels of the elongation, five of Î² and of Ï
 work that is left is 1e-12 of the energy, and polynomials of degree 13 and 8. For designs that span
 the published studies it prints, for the default and the strict table, processor time of the table,
 the tyre and the stress of its plates, matrices and cheap steps, and by how much the default changes
-the stiffness at a fifth, half and all of the load, and the responses. The last line multiplies the mean times by the
-numbers of spokes and tyres of the default study.
+the stiffness at a fifth, half and all of the load, and the responses. The last line multiplies the
+mean times by the numbers of spokes and tyres of the default study.
 """
 
 from __future__ import annotations
