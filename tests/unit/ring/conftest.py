@@ -20,7 +20,7 @@ def invented_table(scale=1.0, lean=6.0):
     """
     grid = [
         chebyshev_nodes(*limits, count)
-        for limits, count in (((-40.0, 8.0), 7), ((0.0, 0.18), 3), ((-0.15, 0.15), 3))
+        for limits, count in (((-40.0, 8.0), 7), ((0.0, 0.2), 3), ((-0.15, 0.15), 3))
     ]
     s, b, p = (part.ravel() for part in np.meshgrid(*grid, indexing="ij"))
     k = 10.0 * lean

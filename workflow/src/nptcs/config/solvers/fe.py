@@ -157,7 +157,7 @@ class EnergyTableOptions(Strict):
         "that loses its stability before the lower end has a shorter table",
     )
     inclination_rad: float = Field(
-        0.18,
+        0.2,
         gt=0,
         lt=0.8,
         description="Largest inclination of that line from the mean direction of the two feet, to "
@@ -165,7 +165,7 @@ class EnergyTableOptions(Strict):
     )
     phi_rad: tuple[float, float] = Field((-0.15, 0.15), description="Rotation of the band")
     narrowing: float = Field(
-        0.6,
+        0.54,
         gt=0,
         le=1,
         description="Part of the ranges of β and φ that is left at the lowest elongation, linear "
