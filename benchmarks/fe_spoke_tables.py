@@ -85,7 +85,7 @@ def solve(values: tuple[float, ...], options: dict[str, object]) -> Case:
 
 @contextmanager
 def a_matrix_for_each_step() -> Iterator[None]:
-    """Let Newton's method have a new matrix for each step."""
+    """Give Newton's method a new matrix for each step."""
     followed = SpokeModel._followed
 
     def one_step(
