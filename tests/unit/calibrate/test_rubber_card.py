@@ -129,7 +129,7 @@ def test_errors_name_the_specimen_or_the_key(make_rubber: Make, make_curve: Make
         InputError, match="no stress in the direction of the test in the strain range 0 to 0.15"
     ):
         calibrate_rubber("rubber_75A", late, sheet, SETTINGS)
-    with pytest.raises(ValueError, match="begins at zero strain"):
+    with pytest.raises(ValueError, match="must begin at zero strain"):
         RubberSettings(strain_range=(-0.1, 0.15))
     wrong = CalibrationSettings(rubber=RubberSettings(only_specimen="R-7"))
     with pytest.raises(InputError, match="only_specimen"):

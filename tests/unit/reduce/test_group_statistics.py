@@ -15,7 +15,7 @@ from nptcs.tables.laboratory.properties import PropertiesTable
 
 Make = Callable[..., Any]
 SETTINGS = ReductionSettings()
-TRAVEL = "crosshead strain: modulus and strains hold machine and grips"
+TRAVEL = "crosshead strain: modulus and strains include the compliance of machine and grips"
 
 
 def properties(
@@ -115,7 +115,7 @@ def test_leaving_out_is_the_sheets_decision_and_is_shown(make_specimen: Make) ->
     assert (row["n"], row["mean"]) == (4, 2.5)
     assert row["left_out"] == "T-5: tab debonded"
     assert np.isnan(row["b_basis"])
-    assert "n = 4, ASTM D3039 asks for 5" in row["notes"]
+    assert "n = 4, ASTM D3039 requires 5" in row["notes"]
     assert "no B-basis: n = 4, at least 5" in row["notes"]
 
 

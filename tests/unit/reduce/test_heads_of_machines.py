@@ -88,7 +88,7 @@ def test_a_ton_that_may_be_one_of_several_is_refused(tmp_path, profiles, others)
 @pytest.mark.parametrize(
     ("name", "readings", "words"),
     [
-        ("Load x10 (N)", FORCE / 10, "holds a factor, 'x10'"),
+        ("Load x10 (N)", FORCE / 10, "contains a factor, 'x10'"),
         ("Load*10 (N)", FORCE / 10, "factor"), ("Load/10 (N)", FORCE / 10, "factor"),
         ("10*Load (N)", FORCE / 10, "factor"), ("Load (N) x10", FORCE / 10, "factor"),
         ("Force per side (N)", FORCE / 2, "factor"),

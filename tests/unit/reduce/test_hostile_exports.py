@@ -241,7 +241,7 @@ def test_a_rubber_that_breaks_at_four_percent_is_flagged(tmp_path, profiles):
     assert "breaks at a strain of 4 %" in words
 
 
-LOST = "leap away and back"
+LOST = "jump away and back"
 
 
 def changed(readings: Any, rows: Any, value: float) -> Any:

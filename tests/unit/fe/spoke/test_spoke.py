@@ -38,7 +38,7 @@ def test_plates_that_touch_are_refused():
 
 
 def test_a_section_out_of_order_is_refused():
-    with pytest.raises(ValueError, match="must grow in this order"):
+    with pytest.raises(ValueError, match="must increase in this order"):
         SpokeGeometry(plate_foot_gap_mm=9.0, foot_taper_mm=7.0)
 
 

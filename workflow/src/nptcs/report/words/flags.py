@@ -17,20 +17,22 @@ from nptcs.report.words.conditioning_sentences import SENTENCES as CONDITIONING
 from nptcs.report.words.reduction_sentences import SENTENCES as REDUCTION
 
 SENTENCES = (
-    translatable("crosshead strain: the compliance of machine and grips is in it"),
-    translatable("crosshead strain: modulus and strains hold machine and grips"),
+    translatable("crosshead strain: it includes the compliance of machine and grips"),
+    translatable(
+        "crosshead strain: modulus and strains include the compliance of machine and grips"
+    ),
     translatable("source of the strain not stated"),
     translatable("the file does not say what measured the strain"),
     translatable("{name} not given, area: {rule}"),
     translatable("{name} {mean} mm, {standard} recommends {low} to {high} mm"),
     translatable("{name} measured at {count} of {stations} stations"),
-    translatable("failure after {minutes} min, {standard} asks for {low} to {high} min"),
+    translatable("failure after {minutes} min, {standard} requires {low} to {high} min"),
     translatable(
         "the gauge length grows at {speed} mm/min, {standard} (500 mm/min between the grips) "
         "expects {low} to {high}"
     ),
     translatable("{count} of {loadings} loadings, {standard} measures the last"),
-    translatable("chord {words} {value}, {standard} asks for {low} to {high}"),
+    translatable("chord {words} {value}, {standard} requires {low} to {high}"),
     translatable(
         "strain at the largest force extended from the last {frames} frames before it, by {time}"
     ),
@@ -48,7 +50,7 @@ SENTENCES = (
     translatable("B-basis provisional: n = {n} < {full}"),
     translatable("no B-basis: n = {n}, at least {smallest}"),
     translatable("not normally distributed (Shapiro-Wilk p = {p}): B-basis doubtful"),
-    translatable("n = {n}, {standard} asks for {asked}"),
+    translatable("n = {n}, {standard} requires {asked}"),
     translatable("ranges differ between specimens"),
     translatable("preload and toe corrected in the others, not in {names}"),
     translatable("assessed: {count} of {total}"),

@@ -72,10 +72,10 @@ SENTENCES = (
     translatable("name a strain_file in the sheet"),
     translatable("strain_axis is not a strain of the file"),
     translatable("axial strain falls while a {test} test loads"),
-    translatable("only {rows} rows are common in time"),
+    translatable("only {rows} rows overlap in time"),
     translatable("largest strain {strain} is beyond {limit} (dimensionless)"),
     translatable("apparent modulus {modulus} MPa is outside {low} to {high} MPa"),
-    translatable("time does not grow from reading {first} to {second}"),
+    translatable("time does not increase from reading {first} to {second}"),
     translatable("delete the reading, or export one test per file"),
     *SPECIMENS,
     # properties, cards and what follows them

@@ -57,7 +57,7 @@ class ResponseSurfaces(pa.DataFrameModel):
 class ResponseImpact(pa.DataFrameModel):
     """``response_impact.csv``: what each factor does to each response, one row per factor.
 
-    Of the surface that predicts left-out cases best. Factors are independent and uniform over the
+    From the surface that predicts left-out cases best. Factors are independent and uniform over the
     range of the cases.
     """
 
