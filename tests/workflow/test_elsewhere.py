@@ -119,7 +119,7 @@ def test_half_an_archive_is_refused(finished, archive, tmp_path):
     half.write_bytes(archive.read_bytes()[: archive.stat().st_size // 2])
     done = verify(finished, half)
     assert done.returncode == 2
-    assert "not a whole zip file" in done.stderr
+    assert "not a complete zip file" in done.stderr
 
 
 def test_results_that_are_not_current_are_not_archived(project, tmp_path):

@@ -31,8 +31,8 @@ def test_the_wall_time_is_of_the_run_and_not_compared(tmp_path):
         (TABLE.assign(k=[1.0, 2.0]), "numbers differ by inf"),
         (TABLE.assign(case=["a", "c"]), "text of case differs"),
         (TABLE.assign(ok=[True, True]), "text of ok differs"),
-        (TABLE.head(1), "other columns or rows"),
-        (TABLE.rename(columns={"k": "m"}), "other columns or rows: ['k', 'm']"),
+        (TABLE.head(1), "different columns or rows"),
+        (TABLE.rename(columns={"k": "m"}), "different columns or rows: ['k', 'm']"),
     ],
 )
 def test_each_difference_is_said(tmp_path, other, said):

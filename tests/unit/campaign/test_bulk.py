@@ -188,7 +188,7 @@ def test_a_file_that_is_cut_off_is_an_error(tmp_path, share):
     write_bulk(path, pd.DataFrame({"case_id": ["a"], "value_mm": [1.0]}))
     content = path.read_bytes()
     path.write_bytes(content[: int(share * len(content))])
-    with pytest.raises(InputError, match="not sound"):
+    with pytest.raises(InputError, match="cannot be used"):
         read_bulk(path)
 
 

@@ -71,7 +71,7 @@ FACTORS = [
         ),
         ({"load_n": 4000.0}, {}, "studies.plate.load_n", "at 5000 N, not at 4000 N"),
         ({"factors": FACTORS}, {}, "studies.plate.factors", "8,000,000 cases"),
-        ({}, {"campaign": {"most_cases": 8}}, "studies.plate.factors", "at most 8 of a study"),
+        ({}, {"campaign": {"most_cases": 8}}, "studies.plate.factors", "at most 8 cases of"),
         ({}, {"campaign": {"batches": 10}}, "campaign.batches", "only 9 cases"),
         ({"solvers": ["lca"]}, {}, "studies.plate.solvers", "does not use"),
     ],

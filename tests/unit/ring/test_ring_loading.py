@@ -145,7 +145,7 @@ def test_loads_that_do_not_rise_are_refused(table, loads):
 
 
 def test_spokes_that_do_not_fit_the_tyre_are_refused(table):
-    with pytest.raises(ValueError, match="room between rim and band"):
+    with pytest.raises(ValueError, match="distance between rim and band"):
         built(table, tyre=TyreGeometry(rim_diameter_mm=420.0))
 
 

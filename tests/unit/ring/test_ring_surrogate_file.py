@@ -48,7 +48,7 @@ def test_an_edited_file_is_refused(file, tmp_path):
     content = json.loads(file.read_text())
     content["coefficients"][0][0] *= 2
     (tmp_path / "s.json").write_text(json.dumps(content))
-    with pytest.raises(InputError, match="not sound"):
+    with pytest.raises(InputError, match="cannot be used"):
         read_surrogate(tmp_path / "s.json")
 
 

@@ -167,7 +167,7 @@ def test_a_case_is_matched_by_its_values_where_the_levels_differ(march, tmp_path
     found = part.table.set_index("case_a")
     assert found.loc["tested_003", "case_b"] == "tested_001"
     assert found[RESULT].tolist() == [Found.ONLY_A] * 2 + [Found.SAME] * 4
-    assert "defines its cases in another way in B" in part.remarks[0]
+    assert "defines its cases differently in B" in part.remarks[0]
 
 
 def test_missing_tables_columns_and_rows_are_said(march, tmp_path):

@@ -9,9 +9,9 @@ from nptcs.campaign.schedule import Needs
 from nptcs.config.root import Campaign
 
 JOB_MEMORY_MB = 800.0
-"""Memory of a job besides its cases: Snakemake, the script and the server that starts the cases."""
+"""Memory of a job on top of its cases: Snakemake, the script and the server that starts cases."""
 JOB_MINUTES = 2.0
-"""Time of a job besides its cases: Snakemake and the imports start again on the node."""
+"""Time of a job on top of its cases: Snakemake and the imports start again on the node."""
 MARGIN = 2.0
 """Factor on the usual time of cases: a node may be slower, and half of the cases take longer."""
 
@@ -33,19 +33,19 @@ class JobNeeds(Needs, Protocol):
 
 
 def cases_at_a_time(cores: int, options: JobNeeds) -> int:
-    """Return the cases that run side by side on these cores."""
+    """Return how many cases run side by side on these cores."""
     return max(1, cores // options.cores_per_case())
 
 
 def batch_count(cases: int, campaign: Campaign, options: JobNeeds) -> int:
-    """Return the jobs into which the cases of a study are divided for one solver.
+    """Return the number of jobs into which the cases of a study are divided for one solver.
 
     Parameters
     ----------
     cases : int
         Cases of the study.
     campaign : Campaign
-        `minutes_per_batch` decides where it is given, otherwise `batches`.
+        `minutes_per_batch` decides if it is given, otherwise `batches`.
     options : JobNeeds
         Of the solver.
 
@@ -98,7 +98,7 @@ def batch_minutes(cases: int, batches: int, cores: int, options: JobNeeds, attem
 
 
 def licence_request(tokens: int, queue_licence: str) -> str:
-    """Return the option by which Slurm holds licence tokens for a job; empty without any.
+    """Return the option by which Slurm reserves licence tokens for a job; empty without any.
 
     Examples
     --------

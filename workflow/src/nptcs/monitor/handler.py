@@ -18,13 +18,13 @@ from nptcs.monitor.words import SAID, closing_lines, error_message, page_lines, 
 
 REFRESH_S = 0.5
 CLEAR = "\r\x1b[K"
-"""Begin of the line, and nothing behind it."""
+"""Return to the start of the line, and clear it."""
 
 
 class RunHandler(LogHandlerBase):
     """Shows a run as one line that refreshes on a terminal, each failure, and the end.
 
-    Where the output is not a terminal there is no such line. With ``--dry-run``, ``--verbose`` or
+    If the output is not a terminal there is no such line. With ``--dry-run``, ``--verbose`` or
     ``--printshellcmds`` Snakemake's own messages are shown instead.
     """
 

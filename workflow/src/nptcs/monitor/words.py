@@ -94,7 +94,7 @@ def identity_lines(file: str) -> list[str]:
     try:
         found = read_model(file, RunIdentity)
     except InputError:
-        return []  # being written anew, or edited: the next reader of results says so
+        return []  # being written again, or edited: the next reader of results says so
     return [f"run {found.short}: tables complete {found.made_text}"]
 
 
@@ -113,6 +113,6 @@ def first_line(log: str) -> str:
 
 
 def error_message(text: str) -> str:
-    """Take from an error of Snakemake what a user needs; empty for what was said already."""
+    """Take from an error of Snakemake what a user needs; empty if it was already said."""
     text = TRACE.sub("", PLACE.sub("", text, count=1))
     return "" if CHATTER.match(text) else text.strip()

@@ -1,13 +1,13 @@
 """Coordinates of the band's motion in which the spoke's symmetry shows.
 
 The spoke is the same after a half turn about the circumferential line at its mid-height: rim and
-band change places, and the plies [+A/-A] come back as they were. What its energy depends on, the
-place of one foot as the other sees it, is then
+band change places, and the plies [+A/-A] are unchanged. Its energy depends on the place of one foot
+relative to the other, which is given by
 
     s = |line| - height,    β = (inclination of the line) + φ/2,    φ,
 
-the line running from the rim's foot to the band's, its inclination positive along +u_θ. The half
-turn takes β to -β and leaves s and φ: E(s, β, φ) = E(s, -β, φ).
+where the line runs from the rim's foot to the band's and its inclination is positive along +u_θ.
+The half turn takes β to -β and leaves s and φ unchanged: E(s, β, φ) = E(s, -β, φ).
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ Map = tuple[Array, Array, Array]
 
 
 def coordinates_of(motion: Array, height_mm: float) -> Map:
-    """Give (s, β, φ) of motions (n, 3) (u_r, u_θ, φ), and their derivatives by the motion."""
+    """Give (s, β, φ) of motions (n, 3) (u_r, u_θ, φ), and the derivatives with respect to them."""
     along, radial = motion[:, 1], height_mm + motion[:, 0]
     length = np.hypot(along, radial)
     cos, sin = radial / length, along / length
@@ -42,11 +42,11 @@ def coordinates_of(motion: Array, height_mm: float) -> Map:
 
 
 def motion_of(coordinates: Array, height_mm: float) -> Map:
-    """Give (u_r, u_θ, φ) at coordinates (n, 3) (s, β, φ), and the derivatives by them."""
+    """Give (u_r, u_θ, φ) at (s, β, φ), array (n, 3), and the derivatives with respect to these."""
     length, inclination = height_mm + coordinates[:, 0], coordinates[:, 1] - coordinates[:, 2] / 2.0
     cos, sin = np.cos(inclination), np.sin(inclination)
     values = np.stack([length * cos - height_mm, length * sin, coordinates[:, 2]], axis=1)
-    # the inclination's derivatives by (s, β, φ)
+    # derivatives of the inclination with respect to (s, β, φ)
     turn = np.array([0.0, 1.0, -0.5])
     first, second = np.zeros((len(coordinates), 3, 3)), np.zeros((len(coordinates), 3, 3, 3))
     first[:, 0, 0], first[:, 1, 0], first[:, 2, 2] = cos, sin, 1.0
@@ -61,7 +61,7 @@ def motion_of(coordinates: Array, height_mm: float) -> Map:
 
 
 def carried(force: Array, tangent: Array, first: Array, second: Array) -> tuple[Array, Array]:
-    """Carry an energy's derivatives from the values of a map to its variables.
+    """Transform an energy's derivatives from the values of a map to its variables.
 
     Parameters
     ----------

@@ -16,10 +16,10 @@ from nptcs.config.solvers.fe import EnergyTableOptions
 from nptcs.fe.spoke.coordinates import carried, coordinates_of
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-# what rounding in `coordinates_of` may add to a state on the table's edge, in parts of the range:
-# motions are differences of lengths of a hundred millimetres, known to 1e-14
+# what rounding in `coordinates_of` may add to a state on the table's edge, as a fraction of the
+# range: motions are differences of lengths of a hundred millimetres, known to 1e-14
 EDGE = 1e-12
-# part of the largest energy that is added to each state's own where its data are weighted
+# fraction of the largest energy that is added to each state's own to weight its data
 FLOOR = 0.1
 NAMES = ("elongation (mm)", "inclination β (rad)", "φ (rad)")
 
@@ -53,7 +53,7 @@ class SpokeEnergyTable:
     coefficients : array (terms,)
         N mm.
     narrowing : float
-        Part of the ranges of β and φ that is left at the lowest s, linear from s = 0.
+        Fraction of the ranges of β and φ that remains at the lowest s, linear from s = 0.
     force_residual_n : float
         Root mean square misfit of the force along the line between the feet at the sampled states.
     """
@@ -148,7 +148,7 @@ def chebyshev_nodes(low: float, high: float, count: int) -> Array:
 
 
 def side_part(s: Array, lowest: float, narrowing: float) -> Array:
-    """Part of the ranges of β and φ that the table covers at these s."""
+    """Fraction of the ranges of β and φ that the table covers at these s."""
     part: Array = 1.0 - (1.0 - narrowing) * np.clip(s / lowest, 0.0, 1.0)
     return part
 
@@ -159,8 +159,9 @@ def fit_energy(
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
     All data enter in units of energy: forces times the half range, tangents times its square;
-    those of a state in parts of its energy plus a tenth of the largest. So small loads are met as
-    well as large ones. A table that ends early has fewer levels of s, and for them a lower degree.
+    those of a state are divided by its energy plus a tenth of the largest, so that small loads are
+    fitted as well as large ones. A table that ends early has fewer levels of s, and so a lower
+    degree in s.
 
     Raises
     ------
@@ -200,7 +201,7 @@ def fit_energy(
     if rank < len(exponents):
         raise ValueError(
             f"{len(exponents)} terms cannot be determined from {len(samples.coordinates)} states "
-            f"(rank {rank}): lower degrees or take more samples"
+            f"(rank {rank}): lower the degrees or take more samples"
         )
     force = _term(lines, _order(0)) @ coefficients / half[0]
     residual = float(np.sqrt(np.mean((force - samples.force[:, 0]) ** 2)))

@@ -21,8 +21,8 @@ OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     """Compile the loops.
 
-    numba's cache goes by the text of a function, not by that of the functions it calls: the hash
-    `formulas`, which the loops close over, makes it compile again when one of them changes.
+    numba's cache depends on the text of a function, not on that of the functions it calls: the
+    hash `formulas`, which the loops close over, makes it compile again when one of these changes.
     """
 
     @njit(**OPTIONS)

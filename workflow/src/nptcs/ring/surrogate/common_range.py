@@ -1,7 +1,7 @@
-"""Energy tables of different ranges on one range, so that they can be interpolated.
+"""Energy tables of different ranges brought to one range, so that they can be interpolated.
 
 A spoke that loses its stability in compression has a shorter table. A polynomial on a shorter range
-is the same polynomial: its coefficients are carried over exactly.
+is the same polynomial: its coefficients are converted exactly.
 """
 
 from __future__ import annotations
