@@ -8,7 +8,7 @@ from nptcs.seal import sealed_object
 from nptcs.tables.laboratory.curves import IngestRecord
 
 
-def test_a_record_comes_back(tmp_path):
+def test_a_record_is_read_back(tmp_path):
     record = IngestRecord(specimen="T0-1", status="ok", flags=("slipped",))
     write_model(tmp_path / "T0-1.json", record)
     assert read_model(tmp_path / "T0-1.json", IngestRecord) == record

@@ -1,4 +1,4 @@
-# Surfaces, cards and tolerances → how sure each response is, and designs that meet the goals.
+# Surfaces, cards and tolerances → uncertainty of each response, and designs that meet the goals.
 ADDED_CASES = (
     "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
 )

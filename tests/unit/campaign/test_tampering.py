@@ -55,7 +55,7 @@ def without_seal(text):
 
 
 def resealed(**changes):
-    """A record with a sound checksum that no solver can have given."""
+    """A record with a sound checksum and a result that no solver can have given."""
 
     def change(text):
         content = json.loads(without_seal(text))

@@ -1,4 +1,4 @@
-"""Every command that the docs show is run by a test, or taken by its program's parser.
+"""Every command that the docs show is run by a test, or accepted by its program's parser.
 
 `test_how_to.py` follows the tutorial and the how-to pages and so runs what they show. A command of
 any other page, or of a page that is not followed, must be among these or listed in `NOT_RUN` with

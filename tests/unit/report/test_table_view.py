@@ -63,7 +63,7 @@ def test_columns_without_a_value_are_left_out_but_still_mark_rows():
     assert [css for css, _ in view.rows] == ["", "bad"]
 
 
-def test_full_numbers_stand_behind_the_cells():
+def test_full_numbers_are_stored_with_the_cells():
     view = table_view(pd.DataFrame({"a": [math.pi]}), FILES)
     cell = view.rows[0][1][0]
     assert cell.text == "3.1416"

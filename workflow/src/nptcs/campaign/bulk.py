@@ -2,7 +2,8 @@
 
 A solver with a table function (`nptcs.solvers.contract.Solver.solve_table`) solves the cases of a
 large study in parts, each in a separate process: a part whose process dies or runs out of time
-is halved until the cases at fault are found. There are no curves and no record per case.
+is halved until the cases at fault are found. There is no record per case; of the curves, the
+points are kept as columns.
 """
 
 from __future__ import annotations
