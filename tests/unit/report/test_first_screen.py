@@ -89,7 +89,7 @@ def test_a_computing_solver_is_named_before_the_published_one(compared):
 def test_without_uncertainty_the_solved_reference_is_given_and_the_lack_is_stated(results):
     found = stiffness_finding(results)
     assert found.answer == "263.7 N/mm at 5000 N"
-    assert "uncertain its stiffness is was not assessed" in words_of(found)
+    assert "uncertainty of its stiffness was not assessed" in words_of(found)
 
 
 def test_the_load_of_the_study_is_the_one_that_is_stated(results):

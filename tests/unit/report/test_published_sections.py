@@ -105,10 +105,10 @@ def test_words_on_levels_give_signed_means_and_directions(compared):
     words = {fact.what: fact.result for fact in level_facts(compared)}
     spoke = words["spoke C10 (S-C) [MPa], study rubber, solver fe_tyre_paper"]
     assert "+2.0 % at 1, +1.0 % at 2, +0.0 % at 3, -1.0 % at 4, -2.0 % at 5" in spoke
-    assert "every step has the published direction" in spoke
+    assert "every step goes in the published direction" in spoke
     # made-up differences jump by 3 % at 60 deg, against table 5's means: 263.42 falls to 256.52
     angle = words["fibre angle A [°], study plate, solver fe_tyre_paper"]
-    assert "other direction than published: 45 to 60 (+" in angle
+    assert "opposite direction to the published ones: 45 to 60 (+" in angle
     assert "published -6.90)" in angle
 
 
@@ -278,7 +278,7 @@ def test_a_ranking_that_differs_is_reported(compared):
     )
     mine = [text for text in words if text.startswith("fe_tyre_paper")]
     assert mine
-    assert all("NOT that of table 9" in text for text in mine)
+    assert all("NOT the same as in table 9" in text for text in mine)
 
 
 def test_the_ply_is_named_next_to_table_2(compared, results):

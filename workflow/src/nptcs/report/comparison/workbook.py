@@ -58,8 +58,8 @@ def _write_summary(sheet: Worksheet, done: ComparedRuns) -> None:
         lines.append(tr("SYNTHETIC example data are among the materials of these runs."))
     row = write_title(sheet, tr(TITLE), lines) + 1
     sheet["A4"].font = Font(name=FONT, bold=True)
-    heads = ("worksheet", "what was found", "rows", "how it was compared")
-    head_row(sheet, row, list(map(tr, heads)))
+    heads = [tr("worksheet"), tr("what was found"), tr("rows"), tr("how it was compared")]
+    head_row(sheet, row, heads)
     for place, part in enumerate(done.parts, start=row + 1):
         found = "; ".join([part.headline(), *part.remarks])
         write_row(sheet, place, [part.name, found, len(part.table), part.about])

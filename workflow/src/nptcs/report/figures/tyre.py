@@ -149,7 +149,7 @@ def deformed_tyre(
         Line2D([], [], color=INK, label=tr("rim, ground")),
     ]
     if near:
-        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before the load")))
+        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before loading")))
     figure.legend(handles=handles, title=solver, ncols=3, loc="outside lower center")
     places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
     figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))

@@ -63,9 +63,9 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
         blocks.append(
             Plots(
                 tr(
-                    "Deformation of spokes and shear band by {solver} (figure 10 a of the paper): "
-                    "the section through the middle of a plate, to scale, every spoke solved "
-                    "again at its own motion. Dotted: before the load.",
+                    "Deformation of spokes and shear band by {solver} (figure 10 a of the "
+                    "paper): the section through the middle of a plate, to scale, every spoke "
+                    "solved again at its own motion. Dotted: before loading.",
                     solver=results.table(DeformedTyre)["solver"].iloc[0],
                 ),
                 tuple(deformed),
