@@ -119,9 +119,7 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
     turn = np.linspace(0.0, 2.0 * np.pi, RIM_POINTS, endpoint=False)
     circle = rim * np.column_stack([np.sin(turn), -np.cos(turn)])
     parts.append(("rim", circle, circle))
-    return pd.concat(
-        [_rows(number, *part) for number, part in enumerate(parts)], ignore_index=True
-    )
+    return pd.concat([_rows(number, *part) for number, part in enumerate(parts)], ignore_index=True)
 
 
 CELLS_OF = {"spoke": "rubber", "plate": "plate"}

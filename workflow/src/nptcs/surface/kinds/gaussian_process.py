@@ -131,8 +131,8 @@ class GaussianProcess:
 
     def predict(self, x: Array) -> Array:
         """Evaluate the process at points of shape (m, n) → (m,)."""
-        coded = self._coded(x)
-        rise = [covariance(one.theta, coded, self._points) @ one.weights for one in self._components]
+        coded, points = self._coded(x), self._points
+        rise = [covariance(one.theta, coded, points) @ one.weights for one in self._components]
         return self._scale * np.mean(rise, axis=0) + self._mean_at(x)
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
@@ -336,7 +336,7 @@ def _fitted(
     points, residual = draft._points, draft._residual / draft._scale
     likelihood = MaternLikelihood(points, residual, NUGGET, noisy)
     generator = np.random.RandomState(0)
-    starts = [start]
+    starts: list[Array] = [start]
     if not given:
         starts += [generator.uniform(*bounds.T) for _ in range(RESTARTS)]
     try:

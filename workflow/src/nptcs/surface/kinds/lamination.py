@@ -212,12 +212,10 @@ def _best(
     x: Array, y: Array, ply: Mapping[str, float], starts: Mapping[tuple[str, ...], list[Array]]
 ) -> Lamination:
     """Fit each form from each of its starts and keep the one with the smallest sum of squares."""
-    return _best_of(
-        x.tobytes(),
-        y.tobytes(),
-        tuple(ply.items()),
-        tuple((shape, tuple(start.tobytes() for start in given)) for shape, given in starts.items()),
-    )
+    from_starts = [
+        (shape, tuple(start.tobytes() for start in given)) for shape, given in starts.items()
+    ]
+    return _best_of(x.tobytes(), y.tobytes(), tuple(ply.items()), tuple(from_starts))
 
 
 @lru_cache(maxsize=FITS_REMEMBERED)

@@ -12,7 +12,6 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.linalg import cholesky, solve_triangular
 from scipy.linalg.lapack import dpotrf, dpotri, dpotrs
-
 from scipy.spatial.distance import cdist
 
 from nptcs.arrays import Array
