@@ -9,9 +9,10 @@ from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.tyre.contact import ContactCells
 from nptcs.fe.tyre.responses import contact_responses, deciding_spokes, spoke_forces
 
-# E = 5 s² + 1000 β² + 1000 φ², written in Chebyshev terms on [-10, 10] × [-1, 1]²
+# E = 5 s² + 1000 β² + 1000 φ², written in Chebyshev terms on [-10, 10] × [-1, 1]²; springs have
+# no legs that could straighten
 TABLE = SpokeEnergyTable(
-    84.0, np.array([-10.0, -1, -1]), np.array([10.0, 1, 1]),
+    84.0, 1e12, np.array([-10.0, -1, -1]), np.array([10.0, 1, 1]),
     np.array([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)]),
     np.array([1250.0, 250.0, 500.0, 500.0]), 1.0, 0.0,
 )  # fmt: skip

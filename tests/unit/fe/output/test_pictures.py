@@ -75,7 +75,14 @@ def test_the_spoke_is_drawn_pulled_and_pressed(spoke):
 
 def tyre_of(dimensions):
     nothing = SpokeEnergyTable(
-        84.1, np.full(3, -9.0), np.full(3, 9.0), np.zeros((1, 3), dtype=int), np.zeros(1), 1, 0
+        84.1,
+        1e12,
+        np.full(3, -9.0),
+        np.full(3, 9.0),
+        np.zeros((1, 3), dtype=int),
+        np.zeros(1),
+        1,
+        0,
     )
     return TyreModel(
         dimensions, nothing, 7.0, 5.0, 2000.0, TyreMesh(gap_elements=1), GroundContact()

@@ -39,7 +39,7 @@ def design(published_ply):
 
 @pytest.fixture(scope="module")
 def table(design):
-    return fit_energy(sample_spoke(MeshedSpoke(design), FE.table), FE.table, FE.geometry.height_mm)
+    return fit_energy(sample_spoke(MeshedSpoke(design), FE.table), FE.table, FE.geometry)
 
 
 @pytest.fixture(scope="module", params=["conforming", "rigid"])

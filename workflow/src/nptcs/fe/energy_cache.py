@@ -18,7 +18,7 @@ from nptcs.fe.spoke.stored import read_arrays, write_arrays
 from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash
 
-KIND = "energy table of a spoke 2"
+KIND = "energy table of a spoke 3"
 
 
 def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
@@ -65,6 +65,7 @@ def write_energy_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
     """Write a table atomically, with its key and a checksum."""
     arrays = {
         "height_mm": np.array(table.height_mm),
+        "straight_mm": np.array(table.straight_mm),
         "low": table.low,
         "high": table.high,
         "exponents": table.exponents,
@@ -82,6 +83,7 @@ def read_energy_table(path: Path, key: str) -> SpokeEnergyTable | None:
         return None
     return SpokeEnergyTable(
         float(data["height_mm"]),
+        float(data["straight_mm"]),
         data["low"],
         data["high"],
         data["exponents"].astype(np.int64),

@@ -203,6 +203,7 @@ def _arrays(
         length_mm=nodes.length_mm,
         feet=nodes.feet,
         height_mm=spokes.height_mm,
+        straight_mm=spokes.straight_mm,
         narrowing=spokes.narrowing,
         low=spokes.low,
         high=spokes.high,

@@ -161,7 +161,7 @@ def _summary(tyre: TyreModel, state: TyreState) -> dict[str, float]:
 
 SOLVER = Solver(
     name="fe_tyre",
-    version="3",
+    version="4",
     solve=solve,
     factors=TYRE_FACTORS,
     about="the tyre on spoke super-elements, pressed against a rigid plane",

@@ -21,4 +21,4 @@ class FeTyrePaperOptions(FeTyreOptions):
     )
 
 
-SOLVER = replace(fe_tyre.SOLVER, name="fe_tyre_paper", version="1", options=FeTyrePaperOptions)
+SOLVER = replace(fe_tyre.SOLVER, name="fe_tyre_paper", version="2", options=FeTyrePaperOptions)

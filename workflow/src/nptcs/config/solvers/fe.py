@@ -157,7 +157,7 @@ class EnergyTableOptions(Strict):
         "that loses its stability before the lower end has a shorter table",
     )
     inclination_rad: float = Field(
-        0.18,
+        0.2,
         gt=0,
         lt=0.8,
         description="Largest inclination of that line from the mean direction of the two feet, to "
@@ -165,16 +165,16 @@ class EnergyTableOptions(Strict):
     )
     phi_rad: tuple[float, float] = Field((-0.15, 0.15), description="Rotation of the band")
     narrowing: float = Field(
-        0.6,
+        0.54,
         gt=0,
         le=1,
         description="Part of the ranges of β and φ that is left at the lowest elongation, linear "
         "from the unloaded one: the most compressed spokes stand on the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
-        (9, 3, 3),
-        description="Numbers of states of the elongation, β and φ; for β < 0 they are known from "
-        "the spoke's symmetry",
+        (7, 3, 3),
+        description="Numbers of states of the elongation (one next to the unloaded state is left "
+        "out), β and φ; for β < 0 they are known from the spoke's symmetry",
     )
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
@@ -190,7 +190,7 @@ class EnergyTableOptions(Strict):
         "of its energy; its tangent is accurate only to the square root of this",
     )
     degrees: tuple[int, int] = Field(
-        (13, 5), description="Polynomial degree in the elongation, and total degree in β and φ"
+        (11, 5), description="Polynomial degree in the elongation, and total degree in β and φ"
     )
 
     @model_validator(mode="after")

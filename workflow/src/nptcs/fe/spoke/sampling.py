@@ -9,8 +9,14 @@ from itertools import product
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.solvers.fe import EnergyTableOptions
-from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeGeometry
+from nptcs.fe.spoke.coordinates import (
+    carried,
+    coordinates_of,
+    elongations_at,
+    motion_of,
+    straight_elongation_mm,
+)
 from nptcs.fe.spoke.energy_table import (
     SpokeEnergyTable,
     SpokeSamples,
@@ -25,6 +31,8 @@ from nptcs.fe.spoke.period import SpokeDesign
 Place = tuple[int, int]
 # level of s = 0, where each row starts
 START = -1
+# fraction of the range of s
+NEXT_TO_REST = 0.03
 
 
 @dataclass(frozen=True)
@@ -47,15 +55,19 @@ class Grid:
     Parameters
     ----------
     options : EnergyTableOptions
-    height_mm : float
-        Distance between the spoke's two feet before the load.
+    geometry : SpokeGeometry
+        Its height is the distance between the spoke's two feet before the load.
     """
 
-    def __init__(self, options: EnergyTableOptions, height_mm: float) -> None:
-        self._options, self._height_mm = options, height_mm
-        self.lengths = chebyshev_nodes(*options.elongation_mm, options.samples[0])
-        # a level of s = 0, up to rounding, is the rows' start itself
-        zero = np.abs(self.lengths) < 1e-9 * np.ptp(self.lengths)
+    def __init__(self, options: EnergyTableOptions, geometry: SpokeGeometry) -> None:
+        self._options, self._height_mm = options, geometry.height_mm
+        low, high = options.elongation_mm
+        straight = straight_elongation_mm(geometry.height_mm, geometry.leg_angle_deg, high)
+        nodes = chebyshev_nodes(-1.0, 1.0, options.samples[0])
+        self.lengths = elongations_at(nodes, (low, high), straight)
+        self.lengths[[0, -1]] = low, high
+        # a level next to s = 0 would repeat the rows' start
+        zero = np.abs(self.lengths) < NEXT_TO_REST * np.ptp(self.lengths)
         self._levels = [int(level) for level in np.flatnonzero(~zero)]
 
     def rows(self) -> list[SampledRow]:
@@ -107,7 +119,7 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
     SpokeError
         If a state in tension or at the unloaded radius is not found.
     """
-    grid = Grid(options, model.design.geometry.height_mm)
+    grid = Grid(options, model.design.geometry)
     walk = _Walk(model, grid)
     rest, lowest = model.rest(), 0
     starts: dict[float, SpokeState] = {}
@@ -117,7 +129,8 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
         up = [level for level in row.levels if grid.lengths[level] > 0.0]
         walk.along(row, start, up)
         try:
-            walk.along(row, start, [level for level in reversed(row.levels) if level not in up])
+            down = [level for level in reversed(row.levels) if level not in up and level >= lowest]
+            walk.along(row, start, down)
         except SpokeError:
             lowest = max(lowest, _last_level(model, grid, row, walk.found))
     return {at: state for at, state in walk.found.items() if not 0 <= at[1] < lowest}
@@ -143,8 +156,24 @@ class _Walk:
         before, last = None, start
         for level, motion in zip(levels, self.grid.motions(row, levels), strict=True):
             before, last = last, self.model.next_state(before, last, motion)
+            if level != START and self.grid.lengths[level] < 0.0:
+                _check_stability(last)
             self.found[row.number, level] = last
         return last
+
+
+def _check_stability(state: SpokeState) -> None:
+    """Refuse a compressed state in which the foot on the band, if it were free, would turn.
+
+    The spoke is about to snap there: its tangents change too fast for a polynomial to follow.
+
+    Raises
+    ------
+    SpokeError
+        If ∂²E/∂φ² is not positive.
+    """
+    if not state.tangent[2, 2] > 0.0:
+        raise SpokeError(f"the foot turns by itself at u_r, u_θ, φ = {np.round(state.motion, 4)}")
 
 
 def _last_level(
@@ -159,9 +188,11 @@ def _last_level(
         return between + 1
     try:
         motion = grid.motions(row, [between])[0]
-        found[row.number, between] = model.move(found[row.number, last], motion)
+        state = model.move(found[row.number, last], motion)
+        _check_stability(state)
     except SpokeError:
         return between + 1
+    found[row.number, between] = state
     return between
 
 
@@ -186,4 +217,4 @@ def sample_spoke(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples
 def computed_table(design: SpokeDesign, options: EnergyTableOptions) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
     samples = sample_spoke(SpokeModel(design, options.accepted_work), options)
-    return fit_energy(samples, options, design.geometry.height_mm)
+    return fit_energy(samples, options, design.geometry)

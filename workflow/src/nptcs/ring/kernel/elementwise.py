@@ -18,6 +18,7 @@ from typing import Any
 
 import numpy as np
 
+from nptcs.fe.spoke import coordinates
 from nptcs.ring.kernel.compiled import compilable
 
 # numbers where numba compiles, arrays where NumPy runs
@@ -37,6 +38,8 @@ CORE_COMPLIANCE, WIRES_STIFF, CURVATURE = 3, 4, 5
 # tanh is 1 to rounding beyond this
 RATIO_CAP = 20.0
 LEAST_SHEAR_MPA = 1e-9
+
+unit_elongation = compilable(coordinates.unit_elongation)
 
 
 @compilable

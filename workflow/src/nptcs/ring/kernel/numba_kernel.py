@@ -96,7 +96,8 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     def spokes(ring, u, coordinates, diagonal, force):  # type: ignore[no-untyped-def]
         """Add all spokes."""
         assert formulas != ""
-        w, theta, feet, height, low, high, coefficients, sides = ring
+        w, theta, feet, height, straight, low, high, coefficients, sides = ring
+        limits = (low[0], high[0])
         count, terms = coefficients.shape
         chains = np.zeros((3, 3, max(count, sides.max() + 1)))
         first, push = np.empty(3), np.empty(3)
@@ -111,15 +112,23 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             coordinates[k] = point
             for axis in range(3):
                 scale = 2.0 / (high[axis] - low[axis])
-                x = (point[axis] - low[axis]) * scale - 1.0
+                x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
+                if axis == 0:
+                    # the formula is written for arrays and also takes numbers
+                    x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
                 value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
                 value[0], value[1] = 1.0, x
                 once[0], once[1] = 0.0, scale
-                twice[0], twice[1] = 0.0, 0.0
+                twice[0], twice[1] = 0.0, bend
                 for i in range(2, count if axis == 0 else sides[:, axis - 1].max() + 1):
                     value[i] = 2.0 * x * value[i - 1] - value[i - 2]
                     once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
-                    twice[i] = 4.0 * scale * once[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
+                    twice[i] = (
+                        2.0 * bend * value[i - 1]
+                        + 4.0 * scale * once[i - 1]
+                        + 2.0 * x * twice[i - 1]
+                        - twice[i - 2]
+                    )
             first[:] = 0.0
             second[:] = 0.0
             radial[:] = 0.0
@@ -187,6 +196,7 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
             ring.theta,
             ring.feet,
             ring.height_mm,
+            ring.straight_mm,
             ring.low,
             ring.high,
             ring.coefficients,

@@ -30,7 +30,7 @@ class Ring:
     theta, middle, length_mm : arrays (nodes,)
     feet : array (spokes,)
         Node of each spoke.
-    height_mm, narrowing : float
+    height_mm, straight_mm, narrowing : float
         Of the spokes' table.
     low, high : arrays (3,)
     coefficients : array (degrees, side terms)
@@ -46,6 +46,7 @@ class Ring:
     length_mm: Array
     feet: Index
     height_mm: float
+    straight_mm: float
     narrowing: float
     low: Array
     high: Array
@@ -56,7 +57,13 @@ class Ring:
     def polynomial(self) -> SpokePolynomial:
         """The spokes' energy."""
         return SpokePolynomial(
-            self.height_mm, self.low, self.high, self.narrowing, self.coefficients, self.sides
+            height_mm=self.height_mm,
+            straight_mm=self.straight_mm,
+            low=self.low,
+            high=self.high,
+            narrowing=self.narrowing,
+            coefficients=self.coefficients,
+            sides=self.sides,
         )
 
 

@@ -228,6 +228,7 @@ def _check(designs: Array, tables: Sequence[SpokeEnergyTable]) -> None:
             and np.allclose(table.high, first.high, rtol=1e-9)
             and np.isclose(table.narrowing, first.narrowing)
             and np.isclose(table.height_mm, first.height_mm)
+            and np.isclose(table.straight_mm, first.straight_mm)
         )
         if not same:
             raise InputError(

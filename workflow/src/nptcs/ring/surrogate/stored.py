@@ -55,6 +55,7 @@ def dump_surrogate(stored: StoredSurrogate) -> str:
         "unfitted": surrogate.unfitted.tolist(),
         "thetas": [kernel.theta.tolist() for kernel in surrogate.kernels],
         "height_mm": first.height_mm,
+        "straight_mm": first.straight_mm,
         "low": first.low.tolist(),
         "high": first.high.tolist(),
         "narrowing": first.narrowing,
@@ -97,6 +98,7 @@ def _tables(content: Mapping[str, Any]) -> list[SpokeEnergyTable]:
     return [
         SpokeEnergyTable(
             height_mm=content["height_mm"],
+            straight_mm=content["straight_mm"],
             low=np.array(content["low"]),
             high=np.array(content["high"]),
             exponents=np.array(content["exponents"], dtype=np.int64),
