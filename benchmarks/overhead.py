@@ -22,8 +22,8 @@ from statistics import median
 
 from commands import ROOT, Used, run
 
-STORES = ("records", "spokes")
-"""What solvers keep in results/5_solve: solved cases, tables of spokes."""
+STORES = ("records", "spokes", "outlines")
+"""What is solved and kept in results/5_solve: cases, tables of spokes, the spokes of one tyre."""
 
 
 def project(study: Path, folder: Path) -> None:

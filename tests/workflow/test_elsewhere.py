@@ -141,6 +141,18 @@ def awkward(tmp_path):
     return folder
 
 
+def shell(folder, environment, *lines):
+    return subprocess.run(
+        ["/bin/sh", "-c", "\n".join(lines)],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+
 def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, awkward):
     """C locale, umask 077, no solver on the path, read-only raw data: the tables are the same."""
     tools = awkward / "tools"
@@ -148,7 +160,6 @@ def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, a
     for name in ("bash", "sh", "cat", "which"):
         if found := shutil.which(name):
             (tools / name).symlink_to(found)
-    script = "umask 077; exec env/bin/python -m nptcs.cli verify study.zip --rerun run"
     shutil.copy(archive, awkward / "study.zip")
     with zipfile.ZipFile(archive) as packed:
         packed.extractall(awkward / "package")
@@ -159,26 +170,24 @@ def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, a
         "PYTHONPATH": str(awkward / "package" / "workflow" / "src"),
         "OPENBLAS_NUM_THREADS": "1",
     }
-    done = subprocess.run(
-        ["/bin/sh", "-c", script],
-        cwd=awkward,
-        env=environment,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
+    done = shell(
+        awkward,
+        environment,
+        "umask 077",
+        'nptcs() { env/bin/python -m nptcs.cli "$@"; }',
+        "nptcs verify study.zip --rerun again",
     )
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-6000:]
     assert "numbers differ by 0.0e+00" in done.stdout
-    made = awkward / "run" / "results" / "report.html"
+    made = awkward / "again" / "results" / "report.html"
     assert made.stat().st_mode & 0o777 == 0o600
     with zipfile.ZipFile(archive) as packed:
         raw = [name for name in packed.namelist() if name.startswith("raw_data/")]
         for name in raw:
-            assert (awkward / "run" / name).read_bytes() == packed.read(name)
+            assert (awkward / "again" / name).read_bytes() == packed.read(name)
     held = {
-        path.relative_to(awkward / "run").as_posix()
-        for path in (awkward / "run" / "raw_data").rglob("*")
+        path.relative_to(awkward / "again").as_posix()
+        for path in (awkward / "again" / "raw_data").rglob("*")
         if path.is_file()
     }
     assert held == set(raw)

@@ -9,9 +9,9 @@ import pytest
 from nptcs.config.studies.surface import GaussianProcessModel, LaminationModel, PolynomialModel
 from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_level_out, leave_one_out
-from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process, kernel_of
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, bounds_of, fit_process
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
-from nptcs.surface.kinds.matern import MaternLikelihood
+from nptcs.surface.kinds.matern import MaternLikelihood, covariance
 from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -36,20 +36,18 @@ def plates():
 
 def drawn(length_along, seed, points):
     """A sample of a Matérn process with the stated length along the first axis."""
-    kernel = kernel_of(points, np.arange(len(points)))
-    kernel = kernel.clone_with_theta(np.log([1.0, length_along, 0.7]))
-    covariance = kernel(points) + 1e-10 * np.eye(len(points))
-    return np.linalg.cholesky(covariance) @ np.random.default_rng(seed).normal(size=len(points))
+    spread = covariance(np.log([1.0, length_along, 0.7]), points, points)
+    spread += 1e-10 * np.eye(len(points))
+    return np.linalg.cholesky(spread) @ np.random.default_rng(seed).normal(size=len(points))
 
 
 def test_one_value_of_a_length_where_the_cases_determine_it_two_where_they_do_not():
-    kernel = kernel_of(LEVELS, np.arange(len(LEVELS)))
-    kernel = kernel.clone_with_theta(np.log([1.0, 0.05, 0.7]))
+    theta = np.log([1.0, 0.05, 0.7])
     y = drawn(0.05, 3, LEVELS)
     likelihood = MaternLikelihood(LEVELS, y, 1e-8, noisy=False)
-    found = lengths_as_likely(likelihood, kernel.theta, kernel.bounds)
+    found = lengths_as_likely(likelihood, theta, bounds_of(2, noisy=False))
     assert found.shape == (2, 3)
-    np.testing.assert_allclose(found[:, [0, 2]], kernel.theta[[0, 2]][None].repeat(2, 0))
+    np.testing.assert_allclose(found[:, [0, 2]], theta[[0, 2]][None].repeat(2, 0))
     assert np.exp(found[0, 1]) == pytest.approx(0.05)
     assert 0.2 < np.exp(found[1, 1]) < 3.0
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import ceil
 from typing import Protocol
 
@@ -12,6 +13,9 @@ JOB_MEMORY_MB = 800.0
 """Memory of a job on top of its cases: Snakemake, the script and the server that starts cases."""
 JOB_MINUTES = 2.0
 """Time of a job on top of its cases: Snakemake and the imports start again on the node."""
+ANSWER_MINUTES = 10.0
+"""Time for the uncertainty and the decisions of a run without their confirming cases, which takes
+less than two minutes for the default study."""
 MARGIN = 2.0
 """Factor on the usual time of cases: a node may be slower, and half of the cases take longer."""
 
@@ -95,6 +99,37 @@ def batch_minutes(cases: int, batches: int, cores: int, options: JobNeeds, attem
     rounds = ceil(ceil(cases / batches) / cases_at_a_time(cores, options))
     seconds = MARGIN * rounds * options.case_s * attempt + options.timeout_s
     return ceil(JOB_MINUTES + seconds / 60.0)
+
+
+def confirmation_memory_mb(solvers: Iterable[JobNeeds], attempt: int = 1) -> int:
+    """Return the memory that a job requests which solves one case at a time, in MB.
+
+    Examples
+    --------
+    >>> from nptcs.solvers.contract import SolverOptions
+    >>> confirmation_memory_mb([SolverOptions(case_memory_mb=300.0)]), confirmation_memory_mb([])
+    (1100, 800)
+    """
+    return max((batch_memory_mb(1, one, attempt) for one in solvers), default=ceil(JOB_MEMORY_MB))
+
+
+def confirmation_minutes(solvers: Iterable[tuple[JobNeeds, int]], attempt: int = 1) -> int:
+    """Return the wall time that the answers to all decisions request, in minutes.
+
+    Parameters
+    ----------
+    solvers : iterable of (JobNeeds, int)
+        The solver of each decision that is confirmed, and the most cases that it may solve.
+    attempt : int
+
+    Examples
+    --------
+    >>> from nptcs.solvers.contract import SolverOptions
+    >>> confirmation_minutes([(SolverOptions(case_s=20.0, timeout_s=600.0), 3)])
+    24
+    """
+    confirmed = sum(batch_minutes(most, 1, 1, one, attempt) for one, most in solvers)
+    return ceil(ANSWER_MINUTES * attempt) + confirmed
 
 
 def licence_request(tokens: int, queue_licence: str) -> str:

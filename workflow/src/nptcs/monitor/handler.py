@@ -15,6 +15,7 @@ from snakemake_interface_logger_plugins.common import LogEvent
 
 from nptcs.monitor.run import Run
 from nptcs.monitor.words import SAID, closing_lines, error_message, page_lines, status_line
+from nptcs.processes.scratch import hold_temporary_files
 
 REFRESH_S = 0.5
 CLEAR = "\r\x1b[K"
@@ -29,7 +30,11 @@ class RunHandler(LogHandlerBase):
     """
 
     def __post_init__(self) -> None:
-        """Choose between our own lines and Snakemake's."""
+        """Choose between our own lines and Snakemake's.
+
+        Nothing of ours runs earlier in Snakemake's process, and it has no temporary folder yet.
+        """
+        hold_temporary_files()
         settings = self.common_settings
         self.stream: TextIO = sys.stdout if settings.stdout else sys.stderr
         self.run = Run()

@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from nptcs.processes.identity import RUN, ProcessName, lives, process_name, read_name
+from nptcs.processes.scratch import release_temporary_files
 
 UNLOCK = "snakemake --unlock"
 
@@ -26,13 +27,16 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
         Snakemake's own folder, ``.snakemake``, in which it keeps its locks. Snakemake looks at them
         after it has read the Snakefile.
     temporary : Path, optional
-        Temporary folder of this run of Snakemake, which the next run removes if this one is killed.
+        Temporary folder of this run of Snakemake, which the next run removes if this one is killed:
+        for a run without our logger, which would have put it where it goes by itself
+        (`nptcs.processes.scratch.hold_temporary_files`).
 
     Returns
     -------
     bool
         Whether an earlier run had died without ending cleanly.
     """
+    release_temporary_files()
     os.environ[RUN] = process_name().text()
     noted = folder / "runs"
     noted.mkdir(parents=True, exist_ok=True)
@@ -54,6 +58,7 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
 
 def begin_job() -> None:
     """Note the Snakemake process that runs single jobs of a run, for example on another machine."""
+    release_temporary_files()
     os.environ[RUN] = process_name().text()
 
 

@@ -49,7 +49,5 @@ def watch(folder: Path, pid: int) -> None:
 if __name__ == "__main__":
     for ignored in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(ignored, signal.SIG_IGN)
-    with suppress(PermissionError):
-        os.setsid()  # so that no signal to the group of the watched process ends it as well
     sys.path[0] = str(Path(__file__).parents[2])
     watch(Path(sys.argv[1]), int(sys.argv[2]))

@@ -126,6 +126,20 @@ def _moments(model: ResponseModel, inputs: Sequence[UncertainInput], x: Array) -
     )
 
 
+def shares_percent(variances: Array) -> Array:
+    """Return the share of each variance in their sum, in percent; 0 where all are 0.
+
+    The division comes first: ``100 * v / v`` can be 100.00000000000001.
+
+    Examples
+    --------
+    >>> shares_percent(np.array([3.0, 1.0]))
+    array([75., 25.])
+    """
+    total = variances.sum()
+    return 100.0 * (variances / total) if total > 0.0 else np.zeros_like(variances)
+
+
 def distribution(
     models: Sequence[ResponseModel],
     inputs: Sequence[UncertainInput],

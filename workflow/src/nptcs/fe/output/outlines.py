@@ -20,6 +20,8 @@ SAME_MM = 1e-6
 
 RIM_POINTS = 180
 
+COORDINATES = ["x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]
+
 
 def outlines(cells: Array) -> list[list[int]]:
     """Find the closed lines around a set of cells: the edges that belong to one cell only.
@@ -117,7 +119,7 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
     turn = np.linspace(0.0, 2.0 * np.pi, RIM_POINTS, endpoint=False)
     circle = rim * np.column_stack([np.sin(turn), -np.cos(turn)])
     parts.append(("rim", circle, circle))
-    return pd.concat([_rows(number, *part) for number, part in enumerate(parts)])
+    return pd.concat([_rows(number, *part) for number, part in enumerate(parts)], ignore_index=True)
 
 
 CELLS_OF = {"spoke": "rubber", "plate": "plate"}
@@ -141,8 +143,7 @@ def _band(tyre: TyreModel, state: TyreState) -> list[tuple[str, Array, Array]]:
 
 def _rows(number: int, part: str, before: Array, after: Array) -> pd.DataFrame:
     columns = np.round(np.column_stack([after, before]), 3) + 0.0
-    names = ["x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]
-    rows = pd.DataFrame(columns, columns=names)
+    rows = pd.DataFrame(columns, columns=COORDINATES)
     rows.insert(0, "outline", number)
     rows.insert(0, "part", part)
     return rows

@@ -9,9 +9,9 @@ relative to the other, which is given by
 where the line runs from the rim's foot to the band's and its inclination is positive along +u_θ.
 The half turn takes β to -β and leaves s and φ unchanged: E(s, β, φ) = E(s, -β, φ).
 
-Two straight legs that are hinged at mid-height turn by angles proportional to √(a - s), where a is
-the elongation at which they are in one line: their stiffness along the line grows without bound as
-s approaches a. To follow that, a polynomial in s oscillates along the whole range (by 5 % of the
+Two straight legs that are hinged at mid-height rotate by angles proportional to √(a - s), where a
+is the elongation at which they are in line: their stiffness along the line grows without bound as s
+approaches a. A polynomial in s that follows this oscillates along the whole range (by 5 % of the
 stiffness with degree 13 on -40 … 8 mm); one in √(a - s) does not.
 """
 
@@ -21,7 +21,7 @@ import numpy as np
 
 from nptcs.arrays import Array
 
-# least distance from a table's range to the elongation at which the legs are in one line, in parts
+# least distance from a table's range to the elongation at which the legs are in line, as a fraction
 # of the range's upper end: a spoke whose legs are steeper stretches rather than straightens
 LEAST_ROOM = 0.5
 
@@ -86,7 +86,7 @@ def carried(force: Array, tangent: Array, first: Array, second: Array) -> tuple[
 
 
 def straight_elongation_mm(height_mm: float, leg_angle_deg: float, highest_mm: float) -> float:
-    """Elongation at which the legs are in one line, H (1/cos α - 1), or beyond the table's end."""
+    """Elongation at which the legs are in line, H (1/cos α - 1), or beyond the table's end."""
     straight = height_mm * (1.0 / float(np.cos(np.radians(leg_angle_deg))) - 1.0)
     return max(straight, (1.0 + LEAST_ROOM) * highest_mm)
 
@@ -96,7 +96,7 @@ def unit_elongation(
 ) -> tuple[Array, Array, Array]:
     """Give x, from -1 to 1 along a range of s and linear in √(a - s), and dx/ds and d²x/ds².
 
-    Beyond the range's upper end it goes on as a parabola.
+    Beyond the range's upper end it continues as a parabola.
 
     Parameters
     ----------

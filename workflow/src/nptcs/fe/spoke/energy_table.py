@@ -2,8 +2,8 @@
 
 The polynomial is fitted to energies, forces and condensed tangents of finite element states
 together, so that forces and tangents in the tyre are exact derivatives of one energy. Its variables
-are those of `coordinates`, with √(a - s) for s: it is even in β, and only states with β ≥ 0 are
-computed.
+are those of `coordinates`, with √(a - s) in place of s: it is even in β, and only states with β ≥ 0
+are computed.
 """
 
 from __future__ import annotations
@@ -121,7 +121,7 @@ def _order(*axes: int) -> tuple[int, int, int]:
 def _local(
     coordinates: Array, low: Array, high: Array, straight_mm: float
 ) -> tuple[Array, Array, Array]:
-    """Give what the polynomials take, from -1 to 1, and its derivatives: arrays (n, 3)."""
+    """Give the polynomials' variables, from -1 to 1, and their derivatives: arrays (n, 3)."""
     slope = np.broadcast_to(2.0 / (high - low), coordinates.shape).copy()
     values, curve = (coordinates - low) * slope - 1.0, np.zeros_like(coordinates)
     limits = float(low[0]), float(high[0])
@@ -180,10 +180,10 @@ def fit_energy(
 ) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
-    All data enter in units of energy, as derivatives with respect to the variables of the
-    polynomials; those of a state are divided by its energy plus a tenth of the largest, so that
-    small loads are fitted as well as large ones. A table that ends early has fewer levels of s, and
-    so a lower degree.
+    All data enter in units of energy, as derivatives with respect to the polynomials' variables;
+    those of a state are divided by its energy plus a tenth of the largest, so that small loads are
+    fitted as well as large ones. A table that ends early has fewer levels of s, and so a lower
+    degree in s.
 
     Raises
     ------

@@ -31,7 +31,7 @@ from nptcs.fe.spoke.period import SpokeDesign
 Place = tuple[int, int]
 # level of s = 0, where each row starts
 START = -1
-# part of the range of s
+# fraction of the range of s
 NEXT_TO_REST = 0.03
 
 
@@ -66,7 +66,7 @@ class Grid:
         nodes = chebyshev_nodes(-1.0, 1.0, options.samples[0])
         self.lengths = elongations_at(nodes, (low, high), straight)
         self.lengths[[0, -1]] = low, high
-        # a level next to s = 0 would say what the rows' start says
+        # a level next to s = 0 would repeat the rows' start
         zero = np.abs(self.lengths) < NEXT_TO_REST * np.ptp(self.lengths)
         self._levels = [int(level) for level in np.flatnonzero(~zero)]
 
@@ -165,7 +165,7 @@ class _Walk:
 def _check_stability(state: SpokeState) -> None:
     """Refuse a compressed state in which the foot on the band, if it were free, would turn.
 
-    The spoke is about to snap there: its tangents change so fast that no polynomial follows them.
+    The spoke is about to snap there: its tangents change too fast for a polynomial to follow.
 
     Raises
     ------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil
 
 from openpyxl.cell import Cell
@@ -50,23 +51,27 @@ def fit_widths(worksheet: Worksheet, header: int) -> None:
 
 def wrap_long_texts(worksheet: Worksheet, first: int) -> None:
     """Wrap the texts that are longer than the widest column, which printing would cut off."""
-    for number, row in enumerate(worksheet.iter_rows(min_row=first), start=first):
+    for row in worksheet.iter_rows(min_row=first):
         long = [cell.data_type == "s" and text_width(str(cell.value)) > WIDEST for cell in row]
         if any(long):
             for cell, is_long in zip(row, long, strict=True):
                 cell.alignment = WRAPPED if is_long else TOP
-            fit_heights(worksheet, number, number)
+            _fit_height(worksheet, row)
 
 
 def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
     """Make rows high enough for their wrapped cells; programs do so only when a cell is edited."""
     for row in worksheet.iter_rows(min_row=first, max_row=last):
-        lines = 1
-        for cell in row:
-            if cell.value is not None and cell.alignment.wrap_text:
-                width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
-                lines = max(lines, _lines(str(cell.value), width))
-        worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * min(lines, MOST_LINES)
+        _fit_height(worksheet, row)
+
+
+def _fit_height(worksheet: Worksheet, row: Sequence[Cell]) -> None:
+    lines = 1
+    for cell in row:
+        if cell.value is not None and cell.alignment.wrap_text:
+            width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
+            lines = max(lines, _lines(str(cell.value), width))
+    worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * min(lines, MOST_LINES)
 
 
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:

@@ -114,7 +114,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                 scale = 2.0 / (high[axis] - low[axis])
                 x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
                 if axis == 0:
-                    # numbers, where the formula is written for arrays
+                    # the formula is written for arrays and also takes numbers
                     x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
                 value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
                 value[0], value[1] = 1.0, x

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations, product
 from typing import Any
 
@@ -48,6 +49,10 @@ LARGEST_LOGARITHM = 50.0
 UNDETERMINED = 1e-9
 """Ratio of the smallest to the largest singular value of the slopes (columns of unit length) up to
 which the cases do not determine a combination of the parameters."""
+
+FITS_REMEMBERED = 512
+"""A form is fitted to the same cases as a surface and as the mean of a process, and again for both
+without each case."""
 
 STARTS = {"n": (0.2,), "log_p": (5.0, 8.0), "log_r": (8.0, 11.0), "log_a": (3.0, 6.0), "m": (1.0,)}
 """Shapes from which a first fit starts, all combined; moduli in N/mm and N mm."""
@@ -207,10 +212,29 @@ def _best(
     x: Array, y: Array, ply: Mapping[str, float], starts: Mapping[tuple[str, ...], list[Array]]
 ) -> Lamination:
     """Fit each form from each of its starts and keep the one with the smallest sum of squares."""
+    from_starts = [
+        (shape, tuple(start.tobytes() for start in given)) for shape, given in starts.items()
+    ]
+    return _best_of(x.tobytes(), y.tobytes(), tuple(ply.items()), tuple(from_starts))
+
+
+@lru_cache(maxsize=FITS_REMEMBERED)
+def _best_of(
+    x_bytes: bytes,
+    y_bytes: bytes,
+    constants: tuple[tuple[str, float], ...],
+    starts: tuple[tuple[tuple[str, ...], tuple[bytes, ...]], ...],
+) -> Lamination:
+    """Fit what `_best` describes, unless it was fitted to the same numbers before."""
+    x, y = np.frombuffer(x_bytes).reshape(-1, len(FACTORS)), np.frombuffer(y_bytes)
+    ply = dict(constants)
     stiffness = laminates(x, ply)
     rivals = {
-        shape: min((_fitted(start, shape, x, y, stiffness) for start in given), key=lambda f: f[0])
-        for shape, given in starts.items()
+        shape: min(
+            (_fitted(np.frombuffer(start), shape, x, y, stiffness) for start in given),
+            key=lambda f: f[0],
+        )
+        for shape, given in starts
     }
     shape = min(rivals, key=lambda name: rivals[name][0])
     sum_of_squares, parameters = rivals[shape]
