@@ -11,7 +11,10 @@ def springs():
 
 
 def spring_table(k_r=20.0, k_theta=1.0, k_phi=3000.0, low=-40.0, height=84.1):
-    """Springs as a table: E = k_r s²/2 + k_θ (H β)²/2 + k_φ φ²/2, in Chebyshev terms."""
+    """Springs as a table: E = k_r s²/2 + k_θ (H β)²/2 + k_φ φ²/2, in Chebyshev terms.
+
+    Springs have no legs that could straighten.
+    """
     limits = np.array([[low, -low], [-0.3, 0.3], [-0.3, 0.3]])
     exponents, coefficients = [(0, 0, 0)], [0.0]
     for axis, k in enumerate((k_r, height**2 * k_theta, k_phi)):
@@ -21,5 +24,12 @@ def spring_table(k_r=20.0, k_theta=1.0, k_phi=3000.0, low=-40.0, height=84.1):
         coefficients.append(scale)
         coefficients[0] += scale
     return SpokeEnergyTable(
-        height, limits[:, 0], limits[:, 1], np.array(exponents), np.array(coefficients), 1.0, 0.0
+        height,
+        1e12,
+        limits[:, 0],
+        limits[:, 1],
+        np.array(exponents),
+        np.array(coefficients),
+        1.0,
+        0.0,
     )

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.stats import qmc
 
-from nptcs.config.solvers.fe import EnergyTableOptions
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeGeometry
 from nptcs.fe.spoke.energy_table import SpokeSamples, chebyshev_nodes, fit_energy
 
 HEIGHT_MM = 84.1
@@ -20,7 +20,7 @@ def invented_table(scale=1.0, lean=6.0):
     """
     grid = [
         chebyshev_nodes(*limits, count)
-        for limits, count in (((-40.0, 8.0), 7), ((0.0, 0.18), 3), ((-0.15, 0.15), 3))
+        for limits, count in (((-40.0, 8.0), 7), ((0.0, 0.2), 3), ((-0.15, 0.15), 3))
     ]
     s, b, p = (part.ravel() for part in np.meshgrid(*grid, indexing="ij"))
     k = 10.0 * lean
@@ -38,7 +38,7 @@ def invented_table(scale=1.0, lean=6.0):
         scale * np.stack(force, axis=1),
         scale * np.moveaxis(np.array(tangent), 2, 0),
     )
-    return fit_energy(samples, OPTIONS, HEIGHT_MM)
+    return fit_energy(samples, OPTIONS, SpokeGeometry(height_mm=HEIGHT_MM))
 
 
 @pytest.fixture(scope="session")

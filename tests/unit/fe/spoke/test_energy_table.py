@@ -8,7 +8,14 @@ from small_tyres import COARSE_SPOKE, spoke_design
 
 from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry, SpokeMesh
 from nptcs.fe.energy_cache import read_energy_table, shared_table, table_key, write_energy_table
-from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
+from nptcs.fe.spoke.coordinates import (
+    carried,
+    coordinates_of,
+    elongations_at,
+    motion_of,
+    straight_elongation_mm,
+    unit_elongation,
+)
 from nptcs.fe.spoke.energy_table import SpokeSamples, TableRangeError, chebyshev_nodes, fit_energy
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.sampling import sample_spoke
@@ -19,7 +26,8 @@ OPTIONS = EnergyTableOptions(
     degrees=(6, 4), narrowing=1.0,
 )  # fmt: skip
 SAMPLE_FIELDS = ("coordinates", "energy", "force", "tangent")
-HEIGHT = SpokeGeometry().height_mm
+GEOMETRY = SpokeGeometry()
+HEIGHT = GEOMETRY.height_mm
 
 
 def manufactured(coordinates):
@@ -54,7 +62,7 @@ def grid_samples():
     return manufactured(np.stack(np.meshgrid(*lines), axis=-1).reshape(-1, 3))
 
 
-TABLE = fit_energy(grid_samples(), OPTIONS, HEIGHT)
+TABLE = fit_energy(grid_samples(), OPTIONS, GEOMETRY)
 CHORDS = st.tuples(st.floats(-6.0, 3.0), st.floats(-0.045, 0.045), st.floats(-0.04, 0.04))
 
 
@@ -104,24 +112,87 @@ def test_the_table_ends_at_its_corners(corner):
             TABLE.evaluate(motion_of(beyond, HEIGHT)[0])
 
 
+LIMITS = (-40.0, 8.0)
+STRAIGHT = straight_elongation_mm(HEIGHT, GEOMETRY.leg_angle_deg, LIMITS[1])
+
+
+@given(st.floats(-40.0, 10.0))
+@settings(max_examples=40, deadline=None)
+def test_the_variable_of_the_elongation_has_these_derivatives(elongation):
+    s, step = np.array([elongation]), 1e-4
+    ahead, behind = (unit_elongation(s + d, LIMITS, STRAIGHT) for d in (step, -step))
+    _, slope, curve = unit_elongation(s, LIMITS, STRAIGHT)
+    assert (ahead[0] - behind[0]) / (2 * step) == pytest.approx(slope, rel=1e-6)
+    if abs(elongation - LIMITS[1]) > step:
+        assert (ahead[1] - behind[1]) / (2 * step) == pytest.approx(curve, rel=1e-5)
+
+
+@pytest.mark.parametrize("straight", [STRAIGHT, 1e12])
+def test_elongations_and_their_variable_belong_together(straight):
+    x = np.linspace(-1.0, 1.0, 9)
+    s = elongations_at(x, LIMITS, straight)
+    assert s[[0, -1]] == pytest.approx(LIMITS)
+    assert unit_elongation(s, LIMITS, straight)[0] == pytest.approx(x, abs=1e-9)
+
+
+def test_the_legs_are_in_one_line_beyond_the_table():
+    assert pytest.approx(HEIGHT / np.cos(np.radians(29.5)) - HEIGHT) == STRAIGHT
+    # steep legs would be straight within the range: they stretch there
+    assert straight_elongation_mm(HEIGHT, 10.0, 8.0) == 12.0
+
+
+def hinged_legs(s):
+    """Force and stiffness along the line of two rigid legs with a spring in the hinge, E = θ²/2."""
+    leg = HEIGHT / 2.0 / np.cos(np.radians(GEOMETRY.leg_angle_deg))
+    inclination = np.arccos((HEIGHT + s) / (2.0 * leg))
+    turn = 2.0 * (np.radians(GEOMETRY.leg_angle_deg) - inclination)
+    by_s = 1.0 / (leg * np.sin(inclination))
+    bend = np.cos(inclination) / (2.0 * leg**2 * np.sin(inclination) ** 3)
+    return 0.5 * turn**2, turn * by_s, by_s**2 + turn * bend
+
+
+def misfit(straight):
+    """Largest relative error of the stiffness of hinged legs, by a polynomial of degree 11."""
+    s = elongations_at(-np.cos(np.pi * np.arange(7) / 6), LIMITS, straight)
+    energy, force, stiffness = hinged_legs(s)
+    x, slope, curve = unit_elongation(s, LIMITS, straight)
+    along = force / slope
+    rows = [
+        np.array([np.polynomial.Chebyshev.basis(i).deriv(order)(x) for i in range(12)]).T
+        for order in range(3)
+    ]
+    data = np.concatenate([energy, along, (stiffness - along * curve) / slope**2])
+    terms = np.linalg.lstsq(np.concatenate(rows), data, rcond=None)[0]
+    fitted = np.polynomial.Chebyshev(terms)
+    s = np.linspace(*LIMITS, 200)
+    x, slope, curve = unit_elongation(s, LIMITS, straight)
+    found = fitted.deriv(2)(x) * slope**2 + fitted.deriv()(x) * curve
+    return float(np.abs(found / hinged_legs(s)[2] - 1.0).max())
+
+
+def test_legs_that_straighten_need_the_root():
+    assert misfit(STRAIGHT) < 1e-3
+    assert misfit(1e12) > 0.02
+
+
 def test_more_terms_than_data_are_refused():
     few = OPTIONS.model_copy(update={"degrees": (6, 12)})
     with pytest.raises(ValueError, match="lower degrees"):
-        fit_energy(grid_samples(), few, HEIGHT)
+        fit_energy(grid_samples(), few, GEOMETRY)
 
 
 def test_a_table_that_ends_early_has_a_lower_degree():
     samples = grid_samples()
     kept = samples.coordinates[:, 0] > -4.0
     short = SpokeSamples(*(getattr(samples, name)[kept] for name in SAMPLE_FIELDS))
-    table = fit_energy(short, OPTIONS, HEIGHT)
+    table = fit_energy(short, OPTIONS, GEOMETRY)
     assert table.exponents[:, 0].max() == 4
     assert table.low[0] > -4.0
 
 
 def test_the_table_of_a_spoke_predicts_states_between_its_samples():
     model = SpokeModel(spoke_design())
-    table = fit_energy(sample_spoke(model, OPTIONS), OPTIONS, HEIGHT)
+    table = fit_energy(sample_spoke(model, OPTIONS), OPTIONS, GEOMETRY)
     for motion in ([-4.1, 1.3, 0.02], [1.9, -0.7, -0.03]):
         state = model.move(model.rest(), np.array(motion))
         energy, force, _ = table.evaluate(np.array([motion]))
@@ -141,7 +212,7 @@ def test_a_level_of_the_unloaded_spoke_is_one_state():
 
 
 def test_a_half_turn_leaves_the_spoke_as_it_is():
-    """States at β and -β: rim and band change places, with coupled plies as with any."""
+    """States at β and -β: rim and band change places, with coupled plies too."""
     model = SpokeModel(spoke_design(angle_deg=30.0))
     coordinates = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
     motions = motion_of(coordinates, HEIGHT)[0]

@@ -6,6 +6,7 @@ from small_tyres import COARSE_SPOKE, spoke_design
 
 from nptcs.config.solvers.fe import EnergyTableOptions, FeModel, SpokeGeometry
 from nptcs.fe.energy_cache import shared_table
+from nptcs.fe.spoke.coordinates import coordinates_of
 from nptcs.fe.spoke.equilibrium import SpokeError, SpokeFields, SpokeModel
 from nptcs.fe.spoke.sampling import START, Grid, sampled_states
 
@@ -14,7 +15,6 @@ OPTIONS = EnergyTableOptions(
     degrees=(8, 4),
 )  # fmt: skip
 FEW = OPTIONS.model_copy(update={"samples": (4, 3, 3), "degrees": (5, 4)})
-HEIGHT = SpokeGeometry().height_mm
 MODEL = FeModel(spoke_mesh=COARSE_SPOKE, table=FEW)
 ANGLES = (20.0, 45.0)
 
@@ -42,7 +42,7 @@ def differences(states, others):
 
 
 def test_the_order_of_the_spokes_does_not_change_a_bit(tmp_path):
-    """A table knows no other spoke: neither those of this process nor those of the folder."""
+    """A table depends on no other spoke: neither those of this process nor those of the folder."""
     tables = {}
     for name, angles in {"up": ANGLES, "down": ANGLES[::-1]}.items():
         for angle in angles:
@@ -100,7 +100,7 @@ def test_stresses_of_another_state_do_not_reach_the_tangent():
 
 
 def test_rows_take_turns_and_the_middle_one_has_every_level():
-    grid = Grid(OPTIONS, HEIGHT)
+    grid = Grid(OPTIONS, SpokeGeometry())
     rows = grid.rows()
     middle = next(
         row for row in rows if row.beta == pytest.approx(0) and row.phi == pytest.approx(0)
@@ -116,7 +116,7 @@ def test_rows_take_turns_and_the_middle_one_has_every_level():
 
 def test_a_row_that_loses_its_stability_ends_the_table_at_its_last_level(monkeypatch):
     model = SpokeModel(spoke_design(angle_deg=30.0), OPTIONS.accepted_work)
-    grid = Grid(OPTIONS, HEIGHT)
+    grid = Grid(OPTIONS, SpokeGeometry())
     side = next(row for row in grid.rows() if row.beta > 0 and row.levels == (0, 2, 4, 5))
     limit = grid.motions(side, [1])[0]
     found = SpokeModel.next_state
@@ -136,3 +136,21 @@ def test_a_row_that_loses_its_stability_ends_the_table_at_its_last_level(monkeyp
     # level 0 fails in that row; level 1, which it leaves out, is found and kept
     assert levels == {START, 1, 2, 3, 4, 5}
     assert (side.number, 1) in states
+
+
+def test_a_foot_that_would_turn_by_itself_ends_the_table(monkeypatch):
+    model, geometry = (
+        SpokeModel(spoke_design(angle_deg=30.0), OPTIONS.accepted_work),
+        SpokeGeometry(),
+    )
+    limit = Grid(OPTIONS, geometry).lengths[:2].mean()
+    found = SpokeModel.next_state
+
+    def about_to_snap(self, before, last, motion):
+        state = found(self, before, last, motion)
+        if coordinates_of(motion[None], geometry.height_mm)[0][0, 0] < limit:
+            state.tangent[2, 2] = -1.0
+        return state
+
+    monkeypatch.setattr(SpokeModel, "next_state", about_to_snap)
+    assert min(level for _, level in sampled_states(model, OPTIONS) if level != START) == 1

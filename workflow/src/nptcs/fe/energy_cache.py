@@ -18,7 +18,7 @@ from nptcs.fe.spoke.stored import read_arrays, write_arrays
 from nptcs.files import sha256_of_text
 from nptcs.provenance import code_hash
 
-KIND = "energy table of a spoke 2"
+KIND = "energy table of a spoke 3"
 
 
 def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
@@ -37,17 +37,17 @@ def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
 
 @threadpool_limits.wrap(limits=1)
 def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeEnergyTable:
-    """Read a spoke's table from the folder, or compute it and leave it there.
+    """Read a spoke's table from the folder, or compute it and store it there.
 
-    Files are written whole under a name made from the key of what they depend on: of two workers
-    that compute the same spoke at the same time the later one replaces the file by an equal one.
+    Files are written atomically under the key of everything they depend on: if two workers compute
+    the same spoke at the same time, the later one replaces the file with an equal one.
 
     Parameters
     ----------
     model : FeModel
     design : SpokeDesign
     folder : Path or None
-        None computes without keeping.
+        None computes the table without storing it.
     """
     if folder is None:
         return computed_table(design, model.table)
@@ -65,6 +65,7 @@ def write_energy_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
     """Write a table atomically, with its key and a checksum."""
     arrays = {
         "height_mm": np.array(table.height_mm),
+        "straight_mm": np.array(table.straight_mm),
         "low": table.low,
         "high": table.high,
         "exponents": table.exponents,
@@ -82,6 +83,7 @@ def read_energy_table(path: Path, key: str) -> SpokeEnergyTable | None:
         return None
     return SpokeEnergyTable(
         float(data["height_mm"]),
+        float(data["straight_mm"]),
         data["low"],
         data["high"],
         data["exponents"].astype(np.int64),

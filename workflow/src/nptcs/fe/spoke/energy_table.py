@@ -2,7 +2,8 @@
 
 The polynomial is fitted to energies, forces and condensed tangents of finite element states
 together, so that forces and tangents in the tyre are exact derivatives of one energy. Its variables
-are those of `coordinates`: it is even in β, and only states with β ≥ 0 are computed.
+are those of `coordinates`, with √(a - s) in place of s: it is even in β, and only states with β ≥ 0
+are computed.
 """
 
 from __future__ import annotations
@@ -12,14 +13,19 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array, Index
-from nptcs.config.solvers.fe import EnergyTableOptions
-from nptcs.fe.spoke.coordinates import carried, coordinates_of
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeGeometry
+from nptcs.fe.spoke.coordinates import (
+    carried,
+    coordinates_of,
+    straight_elongation_mm,
+    unit_elongation,
+)
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-# what rounding in `coordinates_of` may add to a state on the table's edge, in parts of the range:
-# motions are differences of lengths of a hundred millimetres, known to 1e-14
+# what rounding in `coordinates_of` may add to a state on the table's edge, as a fraction of the
+# range: motions are differences of lengths of a hundred millimetres, known to 1e-14
 EDGE = 1e-12
-# part of the largest energy that is added to each state's own where its data are weighted
+# fraction of the largest energy that is added to each state's own to weight its data
 FLOOR = 0.1
 NAMES = ("elongation (mm)", "inclination β (rad)", "φ (rad)")
 
@@ -46,19 +52,22 @@ class SpokeEnergyTable:
     ----------
     height_mm : float
         Distance between the spoke's two feet before the load.
+    straight_mm : float
+        a, above the range of s.
     low, high : arrays (3,)
         Range of s (mm), β (rad), φ (rad).
     exponents : array (terms, 3)
-        Chebyshev degree of each term in each direction.
+        Chebyshev degree of each term in x(s) (`coordinates.unit_elongation`), β and φ.
     coefficients : array (terms,)
         N mm.
     narrowing : float
-        Part of the ranges of β and φ that is left at the lowest s, linear from s = 0.
+        Fraction of the ranges of β and φ that remains at the lowest s, linear from s = 0.
     force_residual_n : float
         Root mean square misfit of the force along the line between the feet at the sampled states.
     """
 
     height_mm: float
+    straight_mm: float
     low: Array
     high: Array
     exponents: Index
@@ -76,16 +85,15 @@ class SpokeEnergyTable:
         """
         coordinates, first, second = coordinates_of(motion, self.height_mm)
         self._check(coordinates)
-        scale = 2.0 / (self.high - self.low)
-        local = (coordinates - self.low) * scale - 1.0
-        lines = _lines(local, self.exponents)
+        local = _local(coordinates, self.low, self.high, self.straight_mm)
+        lines = _lines(*local, self.exponents)
         energy = _term(lines, (0, 0, 0)) @ self.coefficients
         force = np.empty((len(motion), 3))
         tangent = np.empty((len(motion), 3, 3))
         for i in range(3):
-            force[:, i] = _term(lines, _order(i)) @ self.coefficients * scale[i]
+            force[:, i] = _term(lines, _order(i)) @ self.coefficients
         for i, j in SECOND:
-            value = _term(lines, _order(i, j)) @ self.coefficients * scale[i] * scale[j]
+            value = _term(lines, _order(i, j)) @ self.coefficients
             tangent[:, i, j] = tangent[:, j, i] = value
         return energy, *carried(force, tangent, first, second)
 
@@ -110,13 +118,27 @@ def _order(*axes: int) -> tuple[int, int, int]:
     return counts[0], counts[1], counts[2]
 
 
-def _lines(local: Array, exponents: Index) -> list[list[Array]]:
+def _local(
+    coordinates: Array, low: Array, high: Array, straight_mm: float
+) -> tuple[Array, Array, Array]:
+    """Give the polynomials' variables, from -1 to 1, and their derivatives: arrays (n, 3)."""
+    slope = np.broadcast_to(2.0 / (high - low), coordinates.shape).copy()
+    values, curve = (coordinates - low) * slope - 1.0, np.zeros_like(coordinates)
+    limits = float(low[0]), float(high[0])
+    along = unit_elongation(coordinates[:, 0], limits, straight_mm)
+    values[:, 0], slope[:, 0], curve[:, 0] = along
+    return values, slope, curve
+
+
+def _lines(local: Array, slope: Array, curve: Array, exponents: Index) -> list[list[Array]]:
     """Chebyshev polynomials of each direction and their first two derivatives, by term."""
     lines: list[list[Array]] = []
     for axis in range(3):
         degrees = exponents[:, axis]
-        values = _polynomials(local[:, axis], int(degrees.max()))
-        lines.append([order[:, degrees] for order in values])
+        value, once, twice = _polynomials(local[:, axis], int(degrees.max()))
+        along, bend = slope[:, axis, None], curve[:, axis, None]
+        orders = value, along * once, along**2 * twice + bend * once
+        lines.append([order[:, degrees] for order in orders])
     return lines
 
 
@@ -148,19 +170,20 @@ def chebyshev_nodes(low: float, high: float, count: int) -> Array:
 
 
 def side_part(s: Array, lowest: float, narrowing: float) -> Array:
-    """Part of the ranges of β and φ that the table covers at these s."""
+    """Fraction of the ranges of β and φ that the table covers at these s."""
     part: Array = 1.0 - (1.0 - narrowing) * np.clip(s / lowest, 0.0, 1.0)
     return part
 
 
 def fit_energy(
-    samples: SpokeSamples, options: EnergyTableOptions, height_mm: float
+    samples: SpokeSamples, options: EnergyTableOptions, geometry: SpokeGeometry
 ) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
-    All data enter in units of energy: forces times the half range, tangents times its square;
-    those of a state in parts of its energy plus a tenth of the largest. So small loads are met as
-    well as large ones. A table that ends early has fewer levels of s, and for them a lower degree.
+    All data enter in units of energy, as derivatives with respect to the polynomials' variables;
+    those of a state are divided by its energy plus a tenth of the largest, so that small loads are
+    fitted as well as large ones. A table that ends early has fewer levels of s, and so a lower
+    degree in s.
 
     Raises
     ------
@@ -171,8 +194,8 @@ def fit_energy(
     low, high = np.array([options.elongation_mm, sides, options.phi_rad]).T
     low[0] = samples.coordinates[:, 0].min()
     narrowing = float(side_part(low[:1], options.elongation_mm[0], options.narrowing)[0])
-    half = 0.5 * (high - low)
-    local = (samples.coordinates - low) / half - 1.0
+    straight = straight_elongation_mm(geometry.height_mm, geometry.leg_angle_deg, float(high[0]))
+    local, slope, curve = _local(samples.coordinates, low, high, straight)
     radial, side = options.degrees
     radial = min(radial, 2 * len(np.unique(samples.coordinates[:, 0].round(6))) - 2)
     exponents = np.array(
@@ -183,15 +206,17 @@ def fit_energy(
             for k in range(side + 1 - j)
         ]
     )
-    lines = _lines(local, exponents)
+    lines = _lines(local, np.ones_like(slope), np.zeros_like(curve), exponents)
     design = [_term(lines, (0, 0, 0))]
     data = [samples.energy]
+    force = samples.force / slope
     for i in range(3):
         design.append(_term(lines, _order(i)))
-        data.append(samples.force[:, i] * half[i])
+        data.append(force[:, i])
     for i, j in SECOND:
         design.append(_term(lines, _order(i, j)))
-        data.append(samples.tangent[:, i, j] * half[i] * half[j])
+        bend = force[:, i] * curve[:, i] if i == j else 0.0
+        data.append((samples.tangent[:, i, j] - bend) / (slope[:, i] * slope[:, j]))
     matrix, target = np.concatenate(design), np.concatenate(data)
     weight = 1.0 / (FLOOR + samples.energy / samples.energy.max())
     weight = np.tile(weight, len(data))
@@ -200,10 +225,17 @@ def fit_energy(
     if rank < len(exponents):
         raise ValueError(
             f"{len(exponents)} terms cannot be determined from {len(samples.coordinates)} states "
-            f"(rank {rank}): lower degrees or take more samples"
+            f"(rank {rank}): lower the degrees or take more samples"
         )
-    force = _term(lines, _order(0)) @ coefficients / half[0]
-    residual = float(np.sqrt(np.mean((force - samples.force[:, 0]) ** 2)))
+    along = _term(lines, _order(0)) @ coefficients * slope[:, 0]
+    residual = float(np.sqrt(np.mean((along - samples.force[:, 0]) ** 2)))
     return SpokeEnergyTable(
-        height_mm, low, high, exponents, coefficients.astype(float), narrowing, residual
+        geometry.height_mm,
+        straight,
+        low,
+        high,
+        exponents,
+        coefficients.astype(float),
+        narrowing,
+        residual,
     )

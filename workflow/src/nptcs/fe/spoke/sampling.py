@@ -9,8 +9,14 @@ from itertools import product
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.config.solvers.fe import EnergyTableOptions
-from nptcs.fe.spoke.coordinates import carried, coordinates_of, motion_of
+from nptcs.config.solvers.fe import EnergyTableOptions, SpokeGeometry
+from nptcs.fe.spoke.coordinates import (
+    carried,
+    coordinates_of,
+    elongations_at,
+    motion_of,
+    straight_elongation_mm,
+)
 from nptcs.fe.spoke.energy_table import (
     SpokeEnergyTable,
     SpokeSamples,
@@ -25,11 +31,13 @@ from nptcs.fe.spoke.period import SpokeDesign
 Place = tuple[int, int]
 # level of s = 0, where each row starts
 START = -1
+# fraction of the range of s
+NEXT_TO_REST = 0.03
 
 
 @dataclass(frozen=True)
 class SampledRow:
-    """States of equal β and φ (at full range), and the numbers of their levels, rising."""
+    """States of equal β and φ (at full range), and the numbers of their levels in rising order."""
 
     number: int
     beta: float
@@ -41,21 +49,25 @@ class Grid:
     """Where a table is sampled: levels of s, and the rows of states across them.
 
     The row β = φ = 0 has a state at every level. The other rows have one at both ends and at every
-    second level between them, where they take turns as the colours of a chessboard, unless the
-    options ask for every state.
+    second level between them, alternating from row to row like the squares of a chessboard, unless
+    the options ask for every state.
 
     Parameters
     ----------
     options : EnergyTableOptions
-    height_mm : float
-        Distance between the spoke's two feet before the load.
+    geometry : SpokeGeometry
+        Its height is the distance between the spoke's two feet before the load.
     """
 
-    def __init__(self, options: EnergyTableOptions, height_mm: float) -> None:
-        self._options, self._height_mm = options, height_mm
-        self.lengths = chebyshev_nodes(*options.elongation_mm, options.samples[0])
-        # a level of s = 0, up to rounding, is the rows' start itself
-        zero = np.abs(self.lengths) < 1e-9 * np.ptp(self.lengths)
+    def __init__(self, options: EnergyTableOptions, geometry: SpokeGeometry) -> None:
+        self._options, self._height_mm = options, geometry.height_mm
+        low, high = options.elongation_mm
+        straight = straight_elongation_mm(geometry.height_mm, geometry.leg_angle_deg, high)
+        nodes = chebyshev_nodes(-1.0, 1.0, options.samples[0])
+        self.lengths = elongations_at(nodes, (low, high), straight)
+        self.lengths[[0, -1]] = low, high
+        # a level next to s = 0 would repeat the rows' start
+        zero = np.abs(self.lengths) < NEXT_TO_REST * np.ptp(self.lengths)
         self._levels = [int(level) for level in np.flatnonzero(~zero)]
 
     def rows(self) -> list[SampledRow]:
@@ -105,19 +117,20 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
     Raises
     ------
     SpokeError
-        If a state in tension or of the unloaded radius is not found.
+        If a state in tension or at the unloaded radius is not found.
     """
-    grid = Grid(options, model.design.geometry.height_mm)
+    grid = Grid(options, model.design.geometry)
     walk = _Walk(model, grid)
     rest, lowest = model.rest(), 0
     starts: dict[float, SpokeState] = {}
     for row in grid.rows():
-        # on from the row of equal φ and the next smaller β
+        # start from the row of equal φ and the next smaller β
         start = starts[row.phi] = walk.begun(row, starts.get(row.phi, rest))
         up = [level for level in row.levels if grid.lengths[level] > 0.0]
         walk.along(row, start, up)
         try:
-            walk.along(row, start, [level for level in reversed(row.levels) if level not in up])
+            down = [level for level in reversed(row.levels) if level not in up and level >= lowest]
+            walk.along(row, start, down)
         except SpokeError:
             lowest = max(lowest, _last_level(model, grid, row, walk.found))
     return {at: state for at, state in walk.found.items() if not 0 <= at[1] < lowest}
@@ -125,7 +138,7 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
 
 @dataclass(frozen=True)
 class _Walk:
-    """Goes along rows and collects what it finds."""
+    """Goes along rows and collects their states."""
 
     model: SpokeModel
     grid: Grid
@@ -139,18 +152,34 @@ class _Walk:
         return self.along(row, near, [START])
 
     def along(self, row: SampledRow, start: SpokeState, levels: Sequence[int]) -> SpokeState:
-        """Go from a state through these levels of a row, and give the last state."""
+        """Go from a state through these levels of a row, and return the last state."""
         before, last = None, start
         for level, motion in zip(levels, self.grid.motions(row, levels), strict=True):
             before, last = last, self.model.next_state(before, last, motion)
+            if level != START and self.grid.lengths[level] < 0.0:
+                _check_stability(last)
             self.found[row.number, level] = last
         return last
+
+
+def _check_stability(state: SpokeState) -> None:
+    """Refuse a compressed state in which the foot on the band, if it were free, would turn.
+
+    The spoke is about to snap there: its tangents change too fast for a polynomial to follow.
+
+    Raises
+    ------
+    SpokeError
+        If ∂²E/∂φ² is not positive.
+    """
+    if not state.tangent[2, 2] > 0.0:
+        raise SpokeError(f"the foot turns by itself at u_r, u_θ, φ = {np.round(state.motion, 4)}")
 
 
 def _last_level(
     model: SpokeModel, grid: Grid, row: SampledRow, found: dict[Place, SpokeState]
 ) -> int:
-    """Lowest level that a row reaches, with the one that it leaves out next to its last state."""
+    """Lowest level that a row reaches, including the level it skips next to its last state."""
     inside = int(np.searchsorted(grid.lengths, 0.0))
     reached = [level for number, level in found if number == row.number and 0 <= level < inside]
     last = min(reached, default=START)
@@ -159,14 +188,16 @@ def _last_level(
         return between + 1
     try:
         motion = grid.motions(row, [between])[0]
-        found[row.number, between] = model.move(found[row.number, last], motion)
+        state = model.move(found[row.number, last], motion)
+        _check_stability(state)
     except SpokeError:
         return between + 1
+    found[row.number, between] = state
     return between
 
 
 def samples_of(states: Mapping[Place, SpokeState], height_mm: float) -> SpokeSamples:
-    """Energies and derivatives of states by the table's coordinates."""
+    """Energies of states and their derivatives with respect to the table's coordinates."""
     motion = np.array([state.motion for state in states.values()])
     force = np.array([state.force for state in states.values()])
     tangent = np.array([state.tangent for state in states.values()])
@@ -186,4 +217,4 @@ def sample_spoke(model: SpokeModel, options: EnergyTableOptions) -> SpokeSamples
 def computed_table(design: SpokeDesign, options: EnergyTableOptions) -> SpokeEnergyTable:
     """Compute the energy table of one spoke."""
     samples = sample_spoke(SpokeModel(design, options.accepted_work), options)
-    return fit_energy(samples, options, design.geometry.height_mm)
+    return fit_energy(samples, options, design.geometry)

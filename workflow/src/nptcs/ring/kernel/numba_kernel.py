@@ -21,8 +21,8 @@ OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     """Compile the loops.
 
-    numba's cache goes by the text of a function, not by that of the functions it calls: the hash
-    `formulas`, which the loops close over, makes it compile again when one of them changes.
+    numba's cache depends on the text of a function, not on that of the functions it calls: the
+    hash `formulas`, which the loops close over, makes it compile again when one of these changes.
     """
 
     @njit(**OPTIONS)
@@ -88,22 +88,31 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     def spoke(table, chains, radial, motion, point, push, stiff):  # type: ignore[no-untyped-def]
         """Set (s, β, φ), forces and stiffness of a spoke at a motion."""
         assert formulas != ""
-        height, low, high, coefficients, sides, degrees = table
+        height, straight, low, high, coefficients, sides, degrees = table
+        limits = (low[0], high[0])
         count, terms = coefficients.shape
         first, second = np.zeros(3), np.zeros((3, 3))
         s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
         point[0], point[1], point[2] = s, beta, phi
         for axis in range(3):
             scale = 2.0 / (high[axis] - low[axis])
-            x = (point[axis] - low[axis]) * scale - 1.0
+            x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
+            if axis == 0:
+                # the formula is written for arrays and also takes numbers
+                x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
             value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
             value[0], value[1] = 1.0, x
             once[0], once[1] = 0.0, scale
-            twice[0], twice[1] = 0.0, 0.0
+            twice[0], twice[1] = 0.0, bend
             for i in range(2, degrees[axis]):
                 value[i] = 2.0 * x * value[i - 1] - value[i - 2]
                 once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
-                twice[i] = 4.0 * scale * once[i - 1] + 2.0 * x * twice[i - 1] - twice[i - 2]
+                twice[i] = (
+                    2.0 * bend * value[i - 1]
+                    + 4.0 * scale * once[i - 1]
+                    + 2.0 * x * twice[i - 1]
+                    - twice[i - 2]
+                )
         radial[:] = 0.0
         for i in range(count):
             for order in range(3):
@@ -130,11 +139,11 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     def spokes(ring, wide, u, coordinates, diagonal, force, lever, hold):  # type: ignore[no-untyped-def]
         """Add all spokes."""
         assert formulas != ""
-        w, theta, feet, height, low, high, coefficients, sides = ring
+        w, theta, feet, height, straight, low, high, coefficients, sides = ring
         place, covered, angle, mean, turn, squeeze = wide
         count, terms = coefficients.shape
         degrees = (count, sides[:, 0].max() + 1, sides[:, 1].max() + 1)
-        table = height, low, high, coefficients, sides, degrees
+        table = height, straight, low, high, coefficients, sides, degrees
         chains = np.zeros((3, 3, max(count, sides.max() + 1)))
         radial = np.empty((3, terms))
         push, face = np.empty(3), np.empty(3)
@@ -246,6 +255,7 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
             ring.theta,
             ring.feet,
             ring.height_mm,
+            ring.straight_mm,
             ring.low,
             ring.high,
             ring.coefficients,

@@ -9,9 +9,10 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from nptcs.arrays import Array, Index
+from nptcs.fe.spoke.coordinates import unit_elongation
 from nptcs.fe.spoke.energy_table import NAMES, SpokeEnergyTable
 
-# places of the derivatives of E by the coordinates, and how often by each
+# derivatives of E in the order of `evaluate`: how often with respect to each coordinate
 ORDERS = (
     (0, 0, 0),
     (1, 0, 0),
@@ -28,15 +29,16 @@ ORDERS = (
 
 @dataclass(frozen=True)
 class SpokePolynomial:
-    """E(s, β, φ) = Σ a_im T_i(s) T_j(m)(β) T_k(m)(φ) on the table's range.
+    """E(s, β, φ) = Σ a_im T_i(x(s)) T_j(m)(β) T_k(m)(φ) on the table's range.
 
     Parameters
     ----------
-    height_mm : float
+    height_mm, straight_mm : float
+        As in the table; x(s) is `fe.spoke.coordinates.unit_elongation`.
     low, high : arrays (3,)
         Range of s (mm), β and φ (rad) at s ≥ 0.
     narrowing : float
-        Part of the ranges of β and φ at the lowest s, linear from s = 0.
+        Fraction of the ranges of β and φ at the lowest s, linear from s = 0.
     coefficients : array (degrees of s, side terms)
         N mm.
     sides : array (side terms, 2)
@@ -44,6 +46,7 @@ class SpokePolynomial:
     """
 
     height_mm: float
+    straight_mm: float
     low: Array
     high: Array
     narrowing: float
@@ -56,7 +59,15 @@ class SpokePolynomial:
         sides, place = np.unique(table.exponents[:, 1:], axis=0, return_inverse=True)
         dense = np.zeros((int(table.exponents[:, 0].max()) + 1, len(sides)))
         dense[table.exponents[:, 0], place.ravel()] = factor * table.coefficients
-        return cls(table.height_mm, table.low, table.high, table.narrowing, dense, sides)
+        return cls(
+            height_mm=table.height_mm,
+            straight_mm=table.straight_mm,
+            low=table.low,
+            high=table.high,
+            narrowing=table.narrowing,
+            coefficients=dense,
+            sides=sides,
+        )
 
     def outside(self, coordinates: Array) -> str:
         """Say which coordinate (spokes, 3) is outside the range; empty if none is."""
@@ -80,6 +91,8 @@ class SpokePolynomial:
     def evaluate(self, coordinates: Array) -> Array:
         """Energy and derivatives (10, spokes) in the order of `ORDERS` at (spokes, 3)."""
         local = (coordinates - self.low) * self._scale - 1.0
+        limits = float(self.low[0]), float(self.high[0])
+        local[:, 0], slope, curve = unit_elongation(coordinates[:, 0], limits, self.straight_mm)
         counts = (len(self.coefficients), *(self.sides.max(axis=0) + 1))
         values = chebyshev_values(local, max(counts))
         terms = len(self.sides)
@@ -87,7 +100,10 @@ class SpokePolynomial:
             np.matmul(values[:count, :, axis].T, matrix).reshape(-1, 3, terms)
             for axis, (count, matrix) in enumerate(zip(counts, self._derivatives, strict=True))
         ]
-        s, beta, phi = lines
+        along, beta, phi = lines
+        bend = curve[:, None] * along[:, 1]
+        s = along * np.stack([np.ones_like(slope), slope, slope**2], axis=1)[:, :, None]
+        s[:, 2] += bend
         return np.stack(
             [np.einsum("nt,nt,nt->n", s[:, i], beta[:, j], phi[:, k]) for i, j, k in ORDERS]
         )
@@ -105,14 +121,15 @@ class SpokePolynomial:
 
     @cached_property
     def _derivatives(self) -> list[Array]:
-        """What Chebyshev values of s, β and φ are multiplied by: arrays (degrees, 3 × terms).
+        """Matrices that multiply Chebyshev values of x, β and φ: arrays (degrees, 3 × terms).
 
         The three are the factor of each side term and its first two derivatives.
         """
+        scale = np.array([1.0, *self._scale[1:]])
         sides = [np.eye(own.max() + 1)[:, own] for own in self.sides.T]
         return [
             np.concatenate(
-                [self._scale[axis] ** order * differentiated(factor, order) for order in range(3)],
+                [scale[axis] ** order * differentiated(factor, order) for order in range(3)],
                 axis=1,
             )
             for axis, factor in enumerate([self.coefficients, *sides])

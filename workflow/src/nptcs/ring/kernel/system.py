@@ -55,10 +55,10 @@ class Ring:
     feet : array (spokes,)
         Node of each spoke.
     wide : WideFeet
-        Those that are felt over their width.
+        Feet that act over their width.
     squeeze : array (2,)
-        What u_r and φ of a wide foot give to its force (mm/N) and moment (1/(N mm)).
-    height_mm, narrowing : float
+        Compliance of the band under a wide foot: u_r per force (mm/N), φ per moment (1/(N mm)).
+    height_mm, straight_mm, narrowing : float
         Of the spokes' table.
     low, high : arrays (3,)
     coefficients : array (degrees, side terms)
@@ -76,6 +76,7 @@ class Ring:
     wide: WideFeet
     squeeze: Array
     height_mm: float
+    straight_mm: float
     narrowing: float
     low: Array
     high: Array
@@ -86,7 +87,13 @@ class Ring:
     def polynomial(self) -> SpokePolynomial:
         """The spokes' energy."""
         return SpokePolynomial(
-            self.height_mm, self.low, self.high, self.narrowing, self.coefficients, self.sides
+            height_mm=self.height_mm,
+            straight_mm=self.straight_mm,
+            low=self.low,
+            high=self.high,
+            narrowing=self.narrowing,
+            coefficients=self.coefficients,
+            sides=self.sides,
         )
 
 
@@ -101,11 +108,11 @@ class System:
     force : array (n, 5)
         Residual, internal minus external.
     slope : array (n, 5)
-        Its derivative by the ground's rise.
+        Its derivative with respect to the ground's rise.
     row : array (n, 5)
-        Derivative of the reaction by the unknowns.
+        Derivative of the reaction with respect to the unknowns.
     reaction_n, reaction_slope : float
-        Vertical force on the ground and its derivative by the rise.
+        Vertical force on the ground and its derivative with respect to the rise.
     coordinates : array (spokes, 3)
         (s, β, φ) of the spokes.
     feet : FootTangent

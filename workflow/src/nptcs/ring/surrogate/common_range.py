@@ -1,7 +1,8 @@
-"""Energy tables of different ranges on one range, so that they can be interpolated.
+"""Energy tables of different ranges brought to one range, so that they can be interpolated.
 
 A spoke that loses its stability in compression has a shorter table. A polynomial on a shorter range
-is the same polynomial: its coefficients are carried over exactly.
+is the same polynomial, since x(s) of one range is linear in that of another: its coefficients are
+converted exactly.
 """
 
 from __future__ import annotations
@@ -13,6 +14,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 
 from nptcs.arrays import Array, Index
+from nptcs.fe.spoke.coordinates import elongations_at, unit_elongation
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable, side_part
 
 
@@ -33,7 +35,8 @@ def _restricted(table: SpokeEnergyTable, lowest: float, exponents: Index) -> Spo
     sides, place = np.unique(table.exponents[:, 1:], axis=0, return_inverse=True)
     dense = np.zeros((int(exponents[:, 0].max()) + 1, len(sides)))
     dense[table.exponents[:, 0], place.ravel()] = table.coefficients
-    carried = _carried(dense, (float(table.low[0]), float(table.high[0])), lowest)
+    limits = float(table.low[0]), float(table.high[0])
+    carried = _carried(dense, limits, table.straight_mm, lowest)
     number = {tuple(side): column for column, side in enumerate(sides.tolist())}
     coefficients = np.array(
         [carried[i, number[j, k]] if (j, k) in number else 0.0 for i, j, k in exponents.tolist()]
@@ -50,13 +53,14 @@ def _restricted(table: SpokeEnergyTable, lowest: float, exponents: Index) -> Spo
     )
 
 
-def _carried(coefficients: Array, limits: tuple[float, float], lowest: float) -> Array:
+def _carried(
+    coefficients: Array, limits: tuple[float, float], straight_mm: float, lowest: float
+) -> Array:
     """Chebyshev coefficients (degrees, columns) on [lowest, high] of those on [low, high]."""
-    low, high = limits
     degree = len(coefficients) - 1
     unit = -np.cos(np.pi * (np.arange(degree + 1) + 0.5) / (degree + 1))
-    s = 0.5 * (lowest + high) + 0.5 * (high - lowest) * unit
-    local = (2.0 * s - low - high) / (high - low)
+    s = elongations_at(unit, (lowest, limits[1]), straight_mm)
+    local = unit_elongation(s, limits, straight_mm)[0]
     values = chebyshev.chebvander(local, degree) @ coefficients
     found: Array = np.asarray(np.linalg.solve(chebyshev.chebvander(unit, degree), values), float)
     return found

@@ -55,6 +55,7 @@ def dump_surrogate(stored: StoredSurrogate) -> str:
         "unfitted": surrogate.unfitted.tolist(),
         "thetas": [kernel.theta.tolist() for kernel in surrogate.kernels],
         "height_mm": first.height_mm,
+        "straight_mm": first.straight_mm,
         "low": first.low.tolist(),
         "high": first.high.tolist(),
         "narrowing": first.narrowing,
@@ -66,7 +67,7 @@ def dump_surrogate(stored: StoredSurrogate) -> str:
 
 
 def read_surrogate(path: str | Path) -> StoredSurrogate:
-    """Read a file that holds what `dump_surrogate` has written.
+    """Read a file that contains what `dump_surrogate` wrote.
 
     Raises
     ------
@@ -77,7 +78,7 @@ def read_surrogate(path: str | Path) -> StoredSurrogate:
         content = open_object(read_stored(path, "surrogate of the spokes"), KIND)
     except BrokenSealError as error:
         remedy = "write it again: nptcs surrogate fit"
-        raise InputError(f"this surrogate is not sound: {error}", remedy, path) from None
+        raise InputError(f"this surrogate cannot be used: {error}", remedy, path) from None
     return StoredSurrogate(
         SpokeSurrogate(
             np.array(content["designs"]),
@@ -97,6 +98,7 @@ def _tables(content: Mapping[str, Any]) -> list[SpokeEnergyTable]:
     return [
         SpokeEnergyTable(
             height_mm=content["height_mm"],
+            straight_mm=content["straight_mm"],
             low=np.array(content["low"]),
             high=np.array(content["high"]),
             exponents=np.array(content["exponents"], dtype=np.int64),
