@@ -104,6 +104,23 @@ def test_snakemakes_chatter_is_suppressed_and_errors_are_not(handler):
     assert shown == ["Nothing to be done (all requested files are present).", "disk quota exceeded"]
 
 
+@pytest.mark.parametrize("recorded", [False, True])
+def test_results_that_were_copied_here_are_not_believed_in_silence(handler, tmp_path, recorded):
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results/report.html").touch()
+    folder = tmp_path / ".snakemake/metadata"
+    folder.mkdir(parents=True)
+    if recorded:
+        # the name that Snakemake gives it
+        (folder / "cmVzdWx0cy9yZXBvcnQuaHRtbA==").touch()
+    handler.emit(record("Nothing to be done (all requested files are present)."))
+    handler.close()
+    shown = handler.stream.getvalue()
+    assert "report: results/report.html" in shown
+    assert ("no record of how this was made" in shown) != recorded
+    assert ("snakemake -j2 --forceall" in shown) != recorded
+
+
 def test_of_an_error_only_the_users_message_is_left():
     raw = 'WorkflowError in file "/a/workflow/rules/common.smk", line 64:\nno such key\n  File "x"'
     assert error_message(raw) == "no such key"

@@ -14,7 +14,14 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from nptcs.monitor.run import Run
-from nptcs.monitor.words import SAID, closing_lines, error_message, page_lines, status_line
+from nptcs.monitor.words import (
+    SAID,
+    closing_lines,
+    error_message,
+    page_lines,
+    status_line,
+    unrecorded_lines,
+)
 from nptcs.processes.scratch import hold_temporary_files
 
 REFRESH_S = 0.5
@@ -134,7 +141,7 @@ class RunHandler(LogHandlerBase):
             lines = closing_lines(self.run, time.monotonic() - self.began, _newest_log())
             self._say("\n".join(lines))
         elif not already and self.idle:
-            self._say("\n".join(page_lines()))
+            self._say("\n".join([*page_lines(), *unrecorded_lines()]))
         super().close()
 
 
