@@ -42,7 +42,7 @@ def rewritten(archive, target, change):
     return target
 
 
-def test_an_archive_holds_what_the_study_was_made_from_and_verifies(finished, archive):
+def test_an_archive_contains_what_the_study_was_made_from_and_verifies(finished, archive):
     done = verify(finished, archive)
     assert done.returncode == 0, done.stderr
     assert "all as packed" in done.stdout
@@ -119,7 +119,7 @@ def test_half_an_archive_is_refused(finished, archive, tmp_path):
     half.write_bytes(archive.read_bytes()[: archive.stat().st_size // 2])
     done = verify(finished, half)
     assert done.returncode == 2
-    assert "not a whole zip file" in done.stderr
+    assert "not a complete zip file" in done.stderr
 
 
 def test_results_that_are_not_current_are_not_archived(project, tmp_path):
@@ -203,7 +203,7 @@ def test_snakemakes_own_report_has_the_main_outputs_with_captions(project):
 
 
 def test_a_second_run_on_one_folder_is_refused(project):
-    """While one run makes the report, another one is told so and ends; the first ends well."""
+    """While one run makes the report, another one is refused and ends; the first succeeds."""
     project.path("results/report.html").unlink()
     first = subprocess.Popen(
         [sys.executable, "-m", "snakemake", "-j1", "--configfile", "config/small.yaml"],
@@ -216,12 +216,12 @@ def test_a_second_run_on_one_folder_is_refused(project):
     while not list(locks.glob("*.lock")):
         assert first.poll() is None, "the first run ended before it had locked the folder"
         time.sleep(0.05)
-    first.send_signal(signal.SIGSTOP)  # else it may have ended before the second one has planned
+    first.send_signal(signal.SIGSTOP)  # otherwise it may end before the second one has planned
     second = project.snakemake()
     first.send_signal(signal.SIGCONT)
     assert first.wait() == 0
     assert second.returncode != 0
-    # the second words are Snakemake's where a file goes while it plans, before it asks for the lock
+    # the second is Snakemake's where a file vanishes while it plans, before it asks for the lock
     refusals = ("cannot be locked", "could be that a concurrent process")
     assert any(words in second.stdout + second.stderr for words in refusals), second.stderr
     assert project.path("results/report.html").exists()

@@ -1,4 +1,4 @@
-# Surfaces, cards and tolerances → how sure each response is, and designs that meet the goals.
+# Surfaces, cards and tolerances → uncertainty of each response, and designs that meet the goals.
 
 from nptcs.campaign.queue import confirmation_memory_mb, confirmation_minutes
 

@@ -14,7 +14,7 @@ from nptcs.uncertainty.propagate import assessed, distribution, moments, shares_
 
 
 class Model:
-    """f(x + changes) of given factors, without an own error unless stated."""
+    """f(x + changes) of given factors; the model itself has no error unless stated."""
 
     def __init__(self, function, factors, sd=0.0):
         self.function, self.factors, self.sd = function, factors, sd

@@ -10,9 +10,9 @@ from nptcs.campaign.schedule import Needs
 from nptcs.config.root import Campaign
 
 JOB_MEMORY_MB = 800.0
-"""Memory of a job besides its cases: Snakemake, the script and the server that starts the cases."""
+"""Memory of a job on top of its cases: Snakemake, the script and the server that starts cases."""
 JOB_MINUTES = 2.0
-"""Time of a job besides its cases: Snakemake and the imports start again on the node."""
+"""Time of a job on top of its cases: Snakemake and the imports start again on the node."""
 ANSWER_MINUTES = 10.0
 """Time for the uncertainty and the decisions of a run without their confirming cases, which takes
 less than two minutes for the default study."""
@@ -37,19 +37,19 @@ class JobNeeds(Needs, Protocol):
 
 
 def cases_at_a_time(cores: int, options: JobNeeds) -> int:
-    """Return the cases that run side by side on these cores."""
+    """Return how many cases run side by side on these cores."""
     return max(1, cores // options.cores_per_case())
 
 
 def batch_count(cases: int, campaign: Campaign, options: JobNeeds) -> int:
-    """Return the jobs into which the cases of a study are divided for one solver.
+    """Return the number of jobs into which the cases of a study are divided for one solver.
 
     Parameters
     ----------
     cases : int
         Cases of the study.
     campaign : Campaign
-        `minutes_per_batch` decides where it is given, otherwise `batches`.
+        `minutes_per_batch` decides if it is given, otherwise `batches`.
     options : JobNeeds
         Of the solver.
 
@@ -133,7 +133,7 @@ def confirmation_minutes(solvers: Iterable[tuple[JobNeeds, int]], attempt: int =
 
 
 def licence_request(tokens: int, queue_licence: str) -> str:
-    """Return the option by which Slurm holds licence tokens for a job; empty without any.
+    """Return the option by which Slurm reserves licence tokens for a job; empty without any.
 
     Examples
     --------

@@ -171,7 +171,7 @@ def _files_of_specimens(run: FinishedRun) -> dict[str, frozenset[str]]:
 
 
 def _notes(one: CardConstant, two: CardConstant) -> Iterator[str]:
-    """Say what else differs of a constant."""
+    """Say what else differs in a constant."""
     if one.origin != two.origin:
         yield tr("{a} in A, {b} in B", a=tr(one.origin), b=tr(two.origin))
     if one.rule != two.rule:

@@ -32,7 +32,7 @@ class NamedDesign:
     Parameters
     ----------
     name : str
-        ``reference``, or that of a decision.
+        ``reference``, or the name of a decision.
     source : Source
     point : ndarray of shape (n,)
         Factors of the study, as the solver uses them.
@@ -94,7 +94,7 @@ NO_BIAS: Mapping[str, object] = {
 
 
 def _published_response(design: NamedDesign) -> ResponseName:
-    """Return what the published values are of: the secant stiffness at the study's load only."""
+    """Return the only response with published values: secant stiffness at the study's load."""
     return ResponseName("secant_stiffness", f"{design.source.results.study.load_n:g} N")
 
 

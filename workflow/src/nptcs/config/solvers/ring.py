@@ -10,6 +10,7 @@ from pydantic import Field
 from nptcs.config.base import Strict
 from nptcs.config.solvers.fe import (
     AXIAL_BULK_TO_SHEAR,
+    SECTIONS,
     AxialFreedom,
     EnergyTableOptions,
     FeSpokeModel,
@@ -18,11 +19,11 @@ from nptcs.config.solvers.fe import (
 
 
 class RingElements(Strict):
-    """Elements of the ring, two-node."""
+    """Two-node elements of the ring."""
 
     elements_per_pitch: int = Field(2, ge=1, description="Elements between two spokes' feet")
     refinement: int = Field(
-        5, ge=1, description="How many times as many there are near the contact"
+        5, ge=1, description="How many times as many elements there are near the contact"
     )
     refined_deg: float = Field(
         12.0, ge=0, le=180, description="Up to this angle from the middle of the contact"
@@ -39,8 +40,8 @@ class RingOptions(Strict):
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     axial: AxialFreedom = Field(
         "free_edges",
-        description="Freedom of band and tread along the axis, as in `fe_tyre`. free_edges: of a "
-        "tyre as wide as the paper's; plane_strain: none, incompressible",
+        description="Freedom of band and tread along the axis, as in `fe_tyre`. free_edges: as in "
+        "a tyre of the paper's width; plane_strain: none, incompressible",
     )
     wire_row_mm: float = Field(
         0.05,
@@ -48,6 +49,10 @@ class RingOptions(Strict):
         description="Depth of rubber around each layer of wires that turns with them and does not "
         "shear, as in the mesh of `fe_tyre`",
     )
+
+    def foot_width_mm(self) -> float:
+        """Return the width of a spoke's foot along the circumference."""
+        return SECTIONS["converged"].foot_width_mm()
 
     def band_bulk_to_shear(self) -> float:
         """Return κ/2C10 of band and tread."""
@@ -70,6 +75,10 @@ class RingModel(FeSpokeModel, RingOptions):
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
     )
     load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")
+
+    def foot_width_mm(self) -> float:
+        """Return the width of a spoke's foot along the circumference, that of the section."""
+        return self.geometry.foot_width_mm()
 
     @classmethod
     def spoke_parts(cls) -> tuple[str, ...]:
