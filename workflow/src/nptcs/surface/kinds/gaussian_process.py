@@ -338,7 +338,8 @@ def _fitted(
     generator = np.random.RandomState(0)
     starts: list[Array] = [start]
     if not given:
-        starts += [generator.uniform(*bounds.T) for _ in range(RESTARTS)]
+        low, high = bounds.T
+        starts += [generator.uniform(low, high) for _ in range(RESTARTS)]
     try:
         found = [maximise(likelihood, one, bounds) for one in starts]
     except SearchError as error:
