@@ -16,7 +16,7 @@ def properties(*rows):
     return pd.DataFrame(rows, columns=columns)
 
 
-EARLY = "failure after {} min, ASTM D3039 asks for 1 to 10 min"
+EARLY = "failure after {} min, ASTM D3039 requires 1 to 10 min"
 
 
 def test_flags_that_differ_in_numbers_are_one_with_the_range():
@@ -58,7 +58,7 @@ def test_specimens_without_flags_give_no_rows():
 @pytest.mark.parametrize(
     ("flag", "kind"),
     [
-        ("crosshead strain: the compliance of machine and grips is in it", "deviation"),
+        ("crosshead strain: it includes the compliance of machine and grips", "deviation"),
         ("source of the strain not stated", "deviation"),
         ("thickness measured at 2 of 3 stations", "deviation"),
         ("width not given, area: stated in the sheet", "deviation"),
@@ -71,15 +71,15 @@ def test_kinds(flag, kind):
     assert flag_kind(flag, "ASTM D3039") == kind
 
 
-def test_names_with_digits_are_no_numbers():
+def test_names_with_digits_are_not_numbers():
     one, other = "mean of the runs T0-1, T0-2", "mean of the runs T0-1, T0-3"
     assert NUMBER.sub("#", one) == one
     assert NUMBER.sub("#", other) != NUMBER.sub("#", one)
 
 
 @given(st.lists(st.floats(-1e6, 1e6, allow_nan=False), min_size=1, max_size=6))
-def test_the_range_holds_every_value(values):
-    flags = [f"failure after {value:.4g} min, asks for 1 to 10" for value in values]
+def test_the_range_contains_every_value(values):
+    flags = [f"failure after {value:.4g} min, requires 1 to 10" for value in values]
     ends = [float(text) for text in NUMBER.findall(with_ranges(flags))][:-2]
     shown = [float(f"{value:.4g}") for value in values]
     assert (ends[0], ends[-1]) == (min(shown), max(shown))

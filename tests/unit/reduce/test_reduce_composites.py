@@ -22,7 +22,7 @@ reduce_specimen = partial(nptcs.reduce.reduce_specimen, failure_seen=True)
 SETTINGS = ReductionSettings()
 
 
-def test_tension_gives_back_modulus_poisson_ratio_and_strength(
+def test_tension_recovers_modulus_poisson_ratio_and_strength(
     make_specimen: Make, make_curve: Make, value_of: Make
 ) -> None:
     strain = np.linspace(0, 0.012, 241)
@@ -113,9 +113,9 @@ def test_deviations_from_the_standard_go_with_every_value(
         assert table["flags"].str.contains(words).all(), words
 
 
-def test_crosshead_strain_is_said_once(make_specimen: Make, make_curve: Make) -> None:
+def test_crosshead_strain_is_named_once(make_specimen: Make, make_curve: Make) -> None:
     strain = np.linspace(0, 0.012, 241)
-    told = ["crosshead strain: modulus and strains hold machine and grips"]
+    told = ["crosshead strain: modulus and strains include the compliance of machine and grips"]
     table = reduce_specimen(
         make_curve(strain, 1e5 * strain), make_specimen(), SETTINGS, "crosshead", told
     )
@@ -193,7 +193,7 @@ def test_shear_modulus_offset_strength_and_cut_at_5_percent(
     assert value_of(table, "offset_shear_strength") == pytest.approx(tau(low), rel=1e-6)
 
 
-def test_iso_14129_takes_its_range_and_knows_no_offset_strength(
+def test_iso_14129_takes_its_range_and_has_no_offset_strength(
     make_specimen: Make, make_curve: Make, value_of: Make, flags_of: Make
 ) -> None:
     specimen = make_specimen("S-1", "shear")
@@ -228,7 +228,7 @@ def test_recorded_shear_chord_outside_the_standard_is_flagged(
     gamma = np.concatenate([np.arange(0, 0.005, 0.0001), [0.0057, 0.0068, 0.008]])
     curve = make_curve(0.6 * gamma, 6000 * gamma, -0.4 * gamma)
     table = reduce_specimen(curve, make_specimen("S-1", "shear"), SETTINGS)
-    assert "chord spans 0.0037, ASTM D3518 asks for 0.0038 to 0.0042" in flags_of(
+    assert "chord spans 0.0037, ASTM D3518 requires 0.0038 to 0.0042" in flags_of(
         table, "shear_modulus"
     )
 
@@ -260,7 +260,7 @@ def test_property_table_survives_a_csv_round_trip(
 
 def test_an_interval_that_runs_backwards_is_refused() -> None:
     with pytest.raises(
-        ValueError, match=r"chord_range\n.*runs from low to high, got 0.003 to 0.001"
+        ValueError, match=r"chord_range\n.*must run from low to high, got 0.003 to 0.001"
     ):
         AstmD3039(chord_range=(0.003, 0.001))
 

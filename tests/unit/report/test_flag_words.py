@@ -51,7 +51,7 @@ def test_a_stage_writes_each_sentence(sentence):
     ("flag", "chinese"),
     [
         (
-            "failure after 0.948 to 0.983 min, ASTM D3039 asks for 1 to 10 min",
+            "failure after 0.948 to 0.983 min, ASTM D3039 requires 1 to 10 min",
             "0.948 至 0.983 min 后破坏，ASTM D3039 要求 1 至 10 min",
         ),
         ("not assessed: the curve reaches 136.4 to 146.7 %", "未评估：曲线只到 136.4 至 146.7 %"),

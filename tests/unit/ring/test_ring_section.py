@@ -57,7 +57,7 @@ def test_hardening_is_the_third_derivative_of_neo_hooke():
 def test_a_second_rubber_for_the_tread_changes_the_tread_only():
     both = ring_section(TyreGeometry(), BAND, Rubber(2.0, np.inf), 0.05)
     same = ring_section(TyreGeometry(), BAND, BAND, 0.05)
-    assert both.stiffness[5, 5] == same.stiffness[5, 5]
+    assert both.stiffness[5, 5] == pytest.approx(same.stiffness[5, 5], rel=1e-12)
     assert 0.3 < both.stiffness[6, 6] / same.stiffness[6, 6] < 0.6
 
 

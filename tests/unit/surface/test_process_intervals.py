@@ -1,4 +1,4 @@
-"""The interval of a Gaussian process: its mean's coefficients, its variance, untold lengths."""
+"""A Gaussian process's interval: its mean's coefficients, its variance, undetermined lengths."""
 
 from pathlib import Path
 
@@ -35,13 +35,13 @@ def plates():
 
 
 def drawn(length_along, seed, points):
-    """A sample of a Matérn process that reaches as far along the first axis as is said."""
+    """A sample of a Matérn process with the stated length along the first axis."""
     spread = covariance(np.log([1.0, length_along, 0.7]), points, points)
     spread += 1e-10 * np.eye(len(points))
     return np.linalg.cholesky(spread) @ np.random.default_rng(seed).normal(size=len(points))
 
 
-def test_one_value_of_a_length_where_the_cases_tell_it_two_where_they_do_not():
+def test_one_value_of_a_length_where_the_cases_determine_it_two_where_they_do_not():
     theta = np.log([1.0, 0.05, 0.7])
     y = drawn(0.05, 3, LEVELS)
     likelihood = MaternLikelihood(LEVELS, y, 1e-8, noisy=False)
@@ -56,7 +56,7 @@ def test_one_value_of_a_length_where_the_cases_tell_it_two_where_they_do_not():
     assert len(surface.spread) == 1
 
 
-def test_between_levels_the_interval_holds_what_it_promises():
+def test_between_levels_the_interval_has_its_stated_coverage():
     """Many functions, cases at three levels of one factor: half of the points lie between them."""
     between = np.stack(
         np.meshgrid(np.linspace(-0.9, 0.9, 7), np.linspace(-0.95, 0.95, 6)), -1
@@ -75,7 +75,7 @@ def test_between_levels_the_interval_holds_what_it_promises():
 
 
 def test_far_from_all_cases_the_interval_has_the_error_of_the_means_coefficients():
-    """A process that reaches no other case: the prediction interval of least squares is left."""
+    """A process that reaches no other case leaves the prediction interval of least squares."""
     rng = np.random.default_rng(2)
     x = np.linspace(0.0, 1.0, 5)[:, None]
     y = 1 + 2 * x[:, 0] + rng.normal(0, 0.1, 5)
@@ -103,7 +103,7 @@ def test_unseen_spacings_and_left_out_cases_of_the_finite_elements(plates):
     assert 90 <= left_out.coverage_percent <= 99
 
 
-def test_two_spacings_do_not_tell_how_spacing_acts(plates):
+def test_two_spacings_do_not_determine_how_spacing_acts(plates):
     kept = plates.x[:, 0] != np.unique(plates.x[:, 0])[1]
     cases = FitCases(plates.x[kept], plates.y[kept], PLATES, (), PUBLISHED_PLY)
     with pytest.raises(InputError, match="do not determine the 7 coeff.*2 of spacing_mm"):

@@ -38,7 +38,7 @@ def test_plates_that_touch_are_refused():
 
 
 def test_a_section_out_of_order_is_refused():
-    with pytest.raises(ValueError, match="must grow in this order"):
+    with pytest.raises(ValueError, match="must increase in this order"):
         SpokeGeometry(plate_foot_gap_mm=9.0, foot_taper_mm=7.0)
 
 
@@ -78,7 +78,7 @@ def test_more_and_thicker_plates_along_the_leg_stiffen(ply, model):
 
 
 def test_plates_that_may_bow_are_softer_where_the_fibres_are_oblique(ply):
-    """Along and across the plate lamination theory has next to no difference."""
+    """For fibres along or across the plate, lamination theory has next to no difference."""
     added = {}
     for angle in (0.0, 45.0, 90.0):
         held, free = (

@@ -15,7 +15,7 @@ MODULUS_N = 1e6
 
 
 def strain_at(time):
-    """Standing for 5 s, then a ramp to 1 %, then broken."""
+    """At rest for 5 s, then a ramp to 1 %, then broken."""
     return np.where(time < DURATION, 0.0001 * np.clip(time - 5, 0, None), 0.0)
 
 
@@ -116,7 +116,7 @@ def test_nothing_in_common_is_refused(read):
 def test_time_that_goes_back_is_refused(read):
     force = machine(read)
     force.values["time"][50:] -= 10
-    with pytest.raises(InputError, match="does not grow from reading 50 to 51"):
+    with pytest.raises(InputError, match="does not increase from reading 50 to 51"):
         pair(force, camera(read), None, Pairing(), "A")
 
 

@@ -83,7 +83,7 @@ def test_columns_with_another_decimal_mark_are_read_by_their_own(lab, tmp_path, 
         row[place] = row[place].replace(".", ",")
     table = ["Time [s];Load [N];Strain [%]", *(";".join(row) for row in cells)]
     (tmp_path / "a.csv").write_text("\n".join(table))
-    check(lab, tmp_path, "a.csv", "each read by its own")
+    check(lab, tmp_path, "a.csv", "each read with its own mark")
 
 
 @pytest.mark.parametrize(
@@ -149,7 +149,7 @@ def test_a_summary_to_the_right_in_a_text_is_left_out_if_the_names_are_as_wide(l
     body = [f"{line};;" for line in lines()]
     body[2] = body[2][:-2] + ";Fmax;8925"
     (tmp_path / "a.csv").write_text("\n".join(["Time [s];Load [N];Strain [%];;", *body]))
-    check(lab, tmp_path, "a.csv", "with notes left out")
+    check(lab, tmp_path, "a.csv", "with notes but no name left out")
 
 
 def test_a_full_column_without_a_name_stays_refused_in_a_text(lab, tmp_path):

@@ -27,7 +27,7 @@ from nptcs.tables.laboratory.hyperelastic import ModelComparison, RangeTable
 from nptcs.tables.laboratory.specimens import Specimen
 
 NAN = float("nan")
-# a constant that its standard error exceeds cannot be told from zero, nor its sign
+# a constant smaller than its standard error cannot be told from zero, nor its sign be known
 UNCERTAIN = "standard error larger than the value: "
 
 
@@ -44,7 +44,7 @@ def compare_models(
     ----------
     name, curves, specimens, settings, origins
         As for `nptcs.calibrate.rubber.calibrate_rubber`. ``comparison_range`` sets the strain
-        range, or else the card's.
+        range; without it, the range is the card's.
 
     Returns
     -------

@@ -100,8 +100,8 @@ def fit_model(
     ModelFit
         The covariance is the delete-one jackknife over specimens within each mode,
         Σ_h (n_h - 1)/n_h Σ_i (c_hi - c̄_h)(c_hi - c̄_h)ᵀ, which is s²/n for a mean; with a
-        single specimen in some mode it is the regression's (HC1), and says so. The errors of the
-        strain origins are added: with scatter between specimens their common part alone.
+        single specimen in some mode it is the regression's (HC1), and the rule says so. The errors
+        of the strain origins are added: with scatter between specimens only their common part.
 
     Examples
     --------

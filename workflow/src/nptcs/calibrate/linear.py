@@ -13,7 +13,7 @@ def solve_linear(design: Array, target: Array, weight: Array) -> tuple[Array, in
     """Minimise Σ w (X c - y)², columns scaled to equal length first.
 
     A singular value below `SMALLEST_SINGULAR` times the largest counts as zero: beyond that
-    conditioning the coefficients would carry fewer than some five right digits.
+    conditioning the coefficients would have fewer than about five correct digits.
 
     Parameters
     ----------
@@ -49,7 +49,7 @@ def robust_covariance(jacobian: Array, residual: Array, weight: Array) -> Array:
     """Covariance of weighted least-squares estimates, shape (k, k).
 
     n/(n-k) · B (Jᵀ W R² W J) B with B = (Jᵀ W J)⁻¹ and R the residuals: MacKinnon and White's
-    HC1, right also where the weights are not the inverse variances. NaN where n leaves no
+    HC1, valid even where the weights are not the inverse variances. NaN where n leaves no
     degree of freedom or the Jacobian is singular.
     """
     n, k = jacobian.shape

@@ -11,7 +11,7 @@ from nptcs.config.materials.calibration import ModelName
 
 
 def model_named(name: ModelName, ogden_terms: int) -> HyperelasticModel:
-    """Return a hyperelastic model; `ogden_terms` is the number of terms of Ogden's."""
+    """Return a hyperelastic model; `ogden_terms` is the number of terms of Ogden's model."""
     match name:
         case "neo_hookean":
             return NEO_HOOKEAN

@@ -37,7 +37,7 @@ class Observation:
     weight : ndarray, shape (n,)
         Factor of each squared residual.
     origin : StrainOrigin
-        What was added to the strain before it came here, and the error of the strain's origin.
+        What was added to the strain before the fit, and the error of the strain's origin.
     """
 
     specimen: str
@@ -118,10 +118,10 @@ def observations(
 
 
 def specimens_in_fit(name: str, specimens: Sequence[Specimen], only: str | None) -> list[Specimen]:
-    """Specimens of a rubber that the sheet takes into the fit, or the one that is fitted alone.
+    """Specimens of a rubber that the sheet includes in the fit, or the one that is fitted alone.
 
     A disc between dry or bonded platens barrels: its curve is not that of a uniform stress, and
-    it does not enter.
+    it is left out.
 
     Raises
     ------
@@ -180,7 +180,8 @@ def observe(
     Raises
     ------
     InputError
-        If fewer than three points lie in the range, or none has a tensile stress.
+        If fewer than three points lie in the range, or none has a stress in the direction of the
+        test.
     """
     low, high = strain_range
     branch = loading_branch(curve, specimen)

@@ -26,7 +26,7 @@ RATIO = {
     "rubber_compression": 0.5,
 }
 LARGEST_EXPONENT = 30.0
-# exponents that published rubbers have: the starts of the search, tried one after the other
+# exponents of published rubbers: the starts of the search, tried one after the other
 STARTS = {
     1: ((2.0,), (-2.0,), (5.0,)),
     2: ((1.3, 5.0), (2.0, -2.0), (1.0, 10.0), (2.0, 8.0), (-1.0, 4.0)),
@@ -94,7 +94,7 @@ class OgdenModel:
 
         The μ_i are linear once the α_i are given, so the search runs over the α_i alone
         (variable projection, Golub and Pereyra 1973), from each of a fixed set of starts, or
-        from `start` alone; the best end is taken, terms in the order of |α|.
+        from `start` alone; the best result is taken, with the terms in the order of |α|.
 
         Raises
         ------

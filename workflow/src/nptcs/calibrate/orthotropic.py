@@ -11,7 +11,7 @@ from nptcs.arrays import Array
 from nptcs.errors import InputError
 from nptcs.tables.laboratory.material_card import CardConstant
 
-# a normal variable lies further out once in 370 times
+# a normal variable is further out once in 370 times
 LARGEST_DISTANCE = 3.0
 
 

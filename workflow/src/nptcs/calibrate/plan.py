@@ -1,4 +1,4 @@
-"""Which cards a sheet can give, and which of them a study takes: known before anything runs."""
+"""Which cards a sheet can give and which of them a study uses, known before anything runs."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ def plies(specimens: Sequence[Specimen], settings: CalibrationSettings) -> list[
 
 
 def ply_of(study: Study, specimens: Sequence[Specimen], settings: CalibrationSettings) -> str:
-    """Name of the ply that a study's solvers take.
+    """Name of the ply that a study's solvers use.
 
     Raises
     ------
@@ -113,7 +113,8 @@ def check_materials(
         errors += [
             InputError(
                 f"study {study.name} names rubber {name}, but no specimen of it enters a fit",
-                f"add or include its specimens, or name one of {', '.join(known) or 'none'}",
+                "add or include its specimens"
+                + (f", or name one of {', '.join(known)}" if known else ""),
                 column=f"studies: {study.name}",
                 value=name,
             )

@@ -42,7 +42,7 @@ def calibrate_ply(
     settings : CalibrationSettings
         Sources and assumptions.
     material : str, optional
-        Name of the ply in the sheet; needed only where the sheet holds several.
+        Name of the ply in the sheet; needed only where the sheet contains several.
 
     Returns
     -------
@@ -97,7 +97,7 @@ def only_ply(specimens: Sequence[Specimen]) -> str:
     names = sorted({s.material for s in specimens if s.test in COMPOSITE_TESTS})
     if len(names) != 1:
         raise InputError(
-            f"the sheet holds {len(names)} composites",
+            f"the sheet contains {len(names)} composites",
             "name the one that the card is for",
             column="material",
             value=", ".join(names),
@@ -188,7 +188,7 @@ def _crosshead(
         rows = rows_of(table, source)
         found = with_crosshead_strain(rows[rows["specimen"].isin(samples[name].index)])
         if found:
-            words.append(f"warning: {name} rests on {CROSSHEAD}: {', '.join(found)}")
+            words.append(f"warning: {name} is based on {CROSSHEAD}: {', '.join(found)}")
         out = rows.loc[rows["flags"].str.startswith(TRAVEL_NEXT_TO_SENSORS), "specimen"]
         if len(out):
             reason = why_not(TRAVEL_NEXT_TO_SENSORS)
@@ -199,7 +199,7 @@ def _crosshead(
 def _origin_words(
     samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
 ) -> list[str]:
-    """Say what the correction of the strain origin did to the values behind each constant."""
+    """Say what the correction of the strain origin did to the values that each constant is from."""
     words = []
     for name, source in sources.items():
         rows = rows_of(table, source)
@@ -216,7 +216,7 @@ def _origin_words(
 def _ranges(
     samples: dict[str, pd.Series], sources: dict[str, ConstantSource], table: pd.DataFrame
 ) -> list[str]:
-    """Warn of a constant whose specimens were reduced over different ranges, or another one."""
+    """Warn of a constant whose specimens were reduced over several ranges, or not the rule's."""
     words = []
     for name, source in sources.items():
         rows = rows_of(table, source)

@@ -31,7 +31,7 @@ def calibrate_rubber_tables(
         Material in the sheet.
     curves : mapping of str to DataFrame
         `nptcs.tables.laboratory.curves.Curve` by specimen; an empty one was not read and is
-        passed over.
+        skipped.
     specimens : sequence of Specimen
         Rows of the sheet, repeated data left out.
     settings : CalibrationSettings

@@ -16,9 +16,9 @@ def without_travel_next_to_sensors(
 ) -> tuple[list[Specimen], list[str]]:
     """Leave out specimens with crosshead strain where others of the same test have a sensor.
 
-    Travel holds the compliance of machine and grips and the slip in them: together with measured
-    strains it would soften the fitted constants. A test in which no specimen has a sensor keeps
-    all of them: discs are always measured between the platens.
+    Travel includes the compliance of machine and grips and the slip in them: together with measured
+    strains it would make the fitted constants too soft. A test in which no specimen has a sensor
+    keeps all of them: discs are always measured between the platens.
 
     Parameters
     ----------

@@ -1,4 +1,4 @@
-"""The bias of C10 from a toe: what is left of it in the curves, and what it does."""
+"""The bias of C10 from a toe that remains in the curves."""
 
 from __future__ import annotations
 

@@ -21,7 +21,7 @@ class Signature(Strict):
 class Laboratory(Strict):
     """Who made the study, for whom and when; shown at the head of report and workbook.
 
-    None of it changes a number: another value writes report and workbook anew, nothing else.
+    None of it changes a number: a change rewrites report and workbook, nothing else.
     """
 
     name: str = Field("", description="Name of the laboratory, shown under the title")

@@ -29,7 +29,7 @@ class LabData(Strict):
 
     specimen_sheet: str = Field(
         "raw_data/example/specimens.csv",
-        description="Specimen sheet; its folder holds the raw files that it names",
+        description="Specimen sheet; its folder contains the raw files that it names",
     )
     formats: str = Field(
         "config/formats", description="Folder with the format profiles of test machines"
@@ -48,8 +48,9 @@ class Campaign(Strict):
     bulk_from: int = Field(
         1000,
         ge=1,
-        description="Cases of a study from which solvers that can solve a table of cases do so: "
-        "minutes instead of hours, one file of columns, but no neutral lines and no plate stress",
+        description="Number of cases of a study from which solvers that can solve a whole table of "
+        "cases at once do so: minutes instead of hours, one file of columns, but no neutral lines "
+        "and no plate stress",
     )
     batches: int = Field(
         1,
@@ -97,7 +98,7 @@ class LcaValidationSettings(Strict):
 
 
 class ReportSettings(Strict):
-    """The report's title, and templates that a laboratory has instead of the package's."""
+    """The report's title, and a laboratory's templates that replace the package's."""
 
     title: str = Field("Load-bearing study of a non-pneumatic tyre with composite spokes")
     templates: str | None = Field(
@@ -201,7 +202,7 @@ class Config(Strict):
         if len(set(names)) < len(names):
             raise ValueError(f"decisions: a name is used twice: {names}")
         if "reference" in names:
-            raise ValueError("decisions: the name 'reference' is that of the reference design")
+            raise ValueError("decisions: the name 'reference' is reserved for the reference design")
         for study in self.studies:
             for decision in study.decisions:
                 if decision.study not in ("", study.name):
@@ -261,7 +262,7 @@ def read_config(values: Mapping[str, Any], file: str = "config/config.yaml") -> 
     Parameters
     ----------
     values : mapping
-        What the YAML file holds.
+        Content of the YAML file.
     file : str
         Name of the file, for the message.
 

@@ -42,7 +42,7 @@ def augment(surface: ResponseSurface, candidates: Array, cases: int) -> tuple[Ar
     """Choose candidates one after the other where the prediction interval is widest.
 
     After each choice the surface is fitted again as if the new case had returned the predicted
-    value, so that the next choice lies elsewhere.
+    value, so that the next choice is elsewhere.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def augment(surface: ResponseSurface, candidates: Array, cases: int) -> tuple[Ar
     Raises
     ------
     InputError
-        When fewer unsolved candidates remain than cases are asked for.
+        When fewer unsolved candidates remain than `cases`.
     """
     span = np.ptp(surface.x, axis=0)
     free = np.array(

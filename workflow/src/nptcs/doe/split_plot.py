@@ -22,17 +22,18 @@ def split_plot(
 ) -> Array:
     """Coded points of shape (whole_plots × cases_per_plot, hard + easy), hard factors first.
 
-    Whole plots are the corners of the box, if asked for, and an even Latin hypercube whose points
-    are moved half-way to those of a cosine, which are denser near the faces: a surface is least
-    sure there. A single easy factor takes the Chebyshev points of the second kind, both ends
-    included, on every plot; several take a Latin hypercube, another one on each plot. All plots'
-    first cases come first, then their second ones: cases that are solved side by side do not wait
-    for the same spoke.
+    Whole plots are the corners of the box, if `corners` is set, and an even Latin hypercube whose
+    points are moved half-way to those of a cosine, which are denser near the faces: a surface is
+    least sure there. A single easy factor takes the Chebyshev points of the second kind, both ends
+    included, on every plot; several take a Latin hypercube, a different one on each plot. All
+    plots' first cases come first, then their second ones: cases that are solved at the same time
+    do not wait for the same spoke.
 
     Raises
     ------
     InputError
-        If there are more corners than whole plots.
+        If fewer than two whole plots remain besides the corners, or there are more than
+        `MOST_CORNERS` of them.
     """
     plots = _whole_plots(hard, whole_plots, corners, seed)
     rows = [_on_plot(easy, cases_per_plot, seed + 1 + number) for number in range(len(plots))]

@@ -39,7 +39,7 @@ def yeoh_c10(neo_hookean_c10_mpa: float) -> float:
     """Yeoh C10 whose neo-Hookean fit over `FIT_RANGE` gives the requested value.
 
     The fit is the closed form C10 = Σ fP / Σ f², f = 2(λ - λ⁻²), over evenly spread strains;
-    P is proportional to C10, so one division does.
+    P is proportional to C10, so one division is enough.
     """
     strain = np.linspace(0, FIT_RANGE, 1001)
     shape = 2 * ((1 + strain) - (1 + strain) ** -2)

@@ -1,4 +1,4 @@
-"""Simulated tests: a specimen drawn from its series, loaded to its end and measured."""
+"""Simulated tests: a specimen drawn from its series, loaded to failure and measured."""
 
 from __future__ import annotations
 
@@ -20,7 +20,7 @@ LOAD_CELL_NOISE = 2e-4
 
 @dataclass(frozen=True)
 class Readings:
-    """What the machine and the strain measurement would show, free of their noise.
+    """What the machine and the strain measurement would show without noise.
 
     Strains are those of the material; forces and strains are negative in compression.
     """
@@ -33,7 +33,7 @@ class Readings:
 
 @dataclass(frozen=True)
 class Draw:
-    """One specimen: stations in mm, and its own truth."""
+    """One specimen: stations in mm, and its true properties."""
 
     name: str
     width_mm: tuple[float, ...]

@@ -1,6 +1,6 @@
 """Raw files of test machines and cameras made into one tidy curve per specimen.
 
-The files of one specimen come in, its curve and a record of how it came about go out:
+The files of one specimen come in; its curve and a record of how it was made go out:
 `ingest_specimen`. Files are read in `reading`, readings are made into a curve in `conditioning`;
 properties belong to `nptcs.reduce`.
 """
@@ -23,7 +23,7 @@ _HOMES = {
 
 
 def __getattr__(name: str) -> Any:
-    """Import what is asked for when it is: the rules need the names of files, not the readers."""
+    """Import a name on first use: the rules need only the names of files, not the readers."""
     if name not in _HOMES:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")
     return getattr(import_module(_HOMES[name]), name)

@@ -1,4 +1,4 @@
-"""What a run would find in the files of a sheet: said before it begins."""
+"""What a run would find wrong with the files of a sheet, reported before it begins."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ def check_files(
     settings: IngestSettings,
     profiles: Mapping[str, FormatProfile],
 ) -> tuple[list[InputError], list[str]]:
-    """Ingest the included specimens of a sheet, and keep nothing but what is said of them.
+    """Ingest the included specimens of a sheet, and keep only their faults and notes.
 
     Parameters
     ----------
@@ -33,18 +33,19 @@ def check_files(
     sheet : Path
         The sheet, next to its files.
     settings : IngestSettings
-        As a run has them.
+        As in a run.
     profiles : mapping of str to FormatProfile
         All known formats.
 
     Returns
     -------
     faults : list of InputError
-        A file that is missing or cannot be read, a length without which a travel cannot become a
-        strain, whatever else stops a specimen, and data that are those of another specimen.
+        A file that is missing or cannot be read, a missing length without which travel cannot
+        be converted to strain, anything else that stops a specimen, and data that repeat those
+        of another specimen.
     notes : list of str
-        What specimens that can be reduced do not give for want of a length: one line for each
-        reason, with the specimens.
+        What specimens that can be reduced will lack because a length is missing: one line for
+        each reason, with the specimens.
     """
     faults = [
         InputError(

@@ -58,7 +58,7 @@ _OWN_WORDS = frozenset(
 )
 _LARGEST_MM = 500.0
 _LARGEST_HEAD = 30
-"""Rows in which the names are, and of a table whose specimens are its columns."""
+"""Rows searched for the names, and rows of a table whose columns are the specimens."""
 
 
 @dataclass(frozen=True)
@@ -79,9 +79,9 @@ def read_dimensions(
 ) -> list[Dimensions]:
     """Read a table of dimensions; empty if the file is not one.
 
-    The first row of names that holds a specimen, and a width or a thickness, counts; every row
+    The first row of names that contains a specimen, and a width or a thickness, counts; every row
     below with a specimen and numbers is one specimen. A table whose columns are the specimens is
-    turned. A unit may be in the names; else mm.
+    transposed. A unit may be in the names; otherwise mm is assumed.
     """
     try:
         rows = _rows(open_file(path, profiles, profiles[PLAIN], limits))
@@ -141,7 +141,7 @@ def _dimensions(
     own = Counter({word: n for word, n in tokens(_spaced(name)).items() if word not in _OWN_WORDS})
     words = own | Counter(tokens(_number_of(row[specimen]) + ".x"))
     stated = any(split_unit(names[place])[1] for places in kinds.values() for place in places)
-    return Dimensions(name, words, cells, "" if stated else "no unit in it, mm taken")
+    return Dimensions(name, words, cells, "" if stated else "no unit stated, mm assumed")
 
 
 def _number_of(cell: str) -> str:
@@ -150,7 +150,7 @@ def _number_of(cell: str) -> str:
 
 
 def _spaced(name: str) -> str:
-    """Part words that are written together: ``DimensionsUD`` is two."""
+    """Separate words that are written together: ``DimensionsUD`` is two."""
     return re.sub(r"(?<=[a-zà-ÿ])(?=[A-Z])", "_", name)
 
 

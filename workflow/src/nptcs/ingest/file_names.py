@@ -77,7 +77,7 @@ ROLE_WORDS = frozenset(
         "messungen",
     ]
 )
-"""Words that say which device or which kind of file it is, and not which specimen."""
+"""Words that say which device or which kind of file it is, not which specimen."""
 _DATE = re.compile(
     r"(?<!\d)(?:(?:19|20)\d\d([-_.]?)(?:0[1-9]|1[0-2])\1(?:0[1-9]|[12]\d|3[01])"
     r"|(?:0?[1-9]|[12]\d|3[01])([-_.])(?:0?[1-9]|1[0-2])\2(?:19|20)\d\d)"
@@ -144,7 +144,7 @@ def _safe(text: str) -> str:
 
 
 def unique_ids(names: Mapping[int, tuple[str, str]]) -> dict[int, str]:
-    """Give each row an id of its own, whatever case: by its folders, then by a number.
+    """Give each row a unique id, ignoring case: by its folders, then by a number.
 
     Parameters
     ----------
@@ -180,7 +180,7 @@ def _doubles(ids: Mapping[int, str]) -> list[int]:
 def family(name: str) -> str:
     """Path without the number of the frame: what the files of a sequence share.
 
-    VIC's ``name-0012_0.csv`` counts its cameras behind the frame.
+    VIC's ``name-0012_0.csv`` counts its cameras after the frame.
     """
     path = PurePosixPath(name)
     stem = re.sub(r"(?<=\d)_\d$", "", path.stem)
@@ -204,7 +204,7 @@ def series_names(files: Iterable[str]) -> dict[str, str]:
 
 
 def _series(name: str) -> tuple[str, str]:
-    """Name of a file's series, and the folder that holds the series.
+    """Name of a file's series, and the folder that contains the series.
 
     A name that says nothing but a number, a device or a run leaves the name to the folder: of
     one specimen (``T0-1/machine.csv``), of the runs of a piece (``S1/run2.csv``), or of a series.
@@ -225,7 +225,7 @@ _SAYS_NOTHING = {
     "specimen": r"[ _.-]+\d+$",
     **dict.fromkeys(("run", "lauf", "pass"), r"[ _.-]*\d+$"),
 }
-"""Names that only their folder tells apart, and what of the folder's name is a number."""
+"""Names that only their folder tells apart, and which part of the folder's name is a number."""
 _OF_BLUEHILL = re.compile(r"\.is_\w+?_(?:RawData|Exports)$")
 
 
@@ -235,13 +235,13 @@ def _folder_name(folder: str) -> str:
 
 
 def _undated(stem: str) -> str:
-    """Take a day off a name, unless it is nothing else."""
+    """Take the date off a name, unless nothing else is left."""
     plain = _DATE.sub("", stem).strip("_.- ")
     return plain if any(mark.isalpha() for mark in plain) else stem
 
 
 def proposed_test(path: str, texts: Iterable[str]) -> str:
-    """Propose a test from the words of a path and of the file's head; empty if none tells."""
+    """Propose a test from the words of a path and of the file's head; empty if no word fits."""
     texts = list(texts)
     words = [path.replace("_", " "), *texts]
     known = {test.value for test in TestType}
@@ -262,7 +262,7 @@ def proposed_test(path: str, texts: Iterable[str]) -> str:
 
 
 def proposed_material(path: str) -> str:
-    """Propose a material from the words of a path; empty if none tells."""
+    """Propose a material from the words of a path; empty if no word fits."""
     words = path.replace("_", " ").replace("-", " ")
     for material, pattern in _MATERIALS.items():
         if re.search(f"(?i){pattern}", words):
@@ -274,6 +274,6 @@ def proposed_material(path: str) -> str:
 
 
 def proposed_angle(path: str) -> str:
-    """Propose a fibre angle from the names; empty if none tells."""
+    """Propose a fibre angle from the names; empty if they contain none."""
     found = _ANGLE.search(path)
     return next((group for group in found.groups() if group), "") if found else ""

@@ -46,7 +46,7 @@ def fill_rows(
     Raises
     ------
     InputError
-        If no row belongs to a series; with the series that there are.
+        If no row belongs to a series; with the series that exist.
     """
     names = series_names(row["force_file"] for row in rows)
     known = list(dict.fromkeys(names.values()))

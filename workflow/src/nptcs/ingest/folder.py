@@ -1,4 +1,4 @@
-"""A laboratory's folder: which files it holds, and where to find a named one."""
+"""A laboratory's folder: which files it contains, and where to find a named one."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ NOTES = ("readme", "readme.md", "readme.txt")
 """Names, in any case, of files that are notes to the reader, not test data."""
 
 HIDDEN = (".", "~$")
-"""Beginnings of names of files that hold no data."""
+"""Beginnings of names of files that contain no data."""
 
 
 def raw_files(folder: Path) -> dict[str, Path]:
@@ -32,7 +32,7 @@ def raw_files(folder: Path) -> dict[str, Path]:
 
 
 def _stays_inside(path: Path, folder: Path) -> bool:
-    """Tell whether a file lies in the folder itself, and not behind a link out of it."""
+    """Tell whether a file is in the folder itself, not behind a link out of it."""
     return path.resolve().is_relative_to(folder.resolve())
 
 
@@ -65,7 +65,7 @@ def is_there(folder: Path, name: str) -> bool:
 
 
 def find_file(folder: Path, name: str) -> Path:
-    """Find a file that the sheet names, also if its accents are stored another way.
+    """Find a file that the sheet names, even if its accents are stored another way.
 
     Raises
     ------

@@ -45,12 +45,12 @@ class Inspection:
 
     @property
     def has_strain(self) -> bool:
-        """Tell whether a table holds more of the strain than the travel of the crosshead."""
+        """Tell whether a table contains a strain, not only the travel of the crosshead."""
         return any(set(STRAINS) & set(test.quantities) for test in self.tests)
 
     @property
     def usable(self) -> bool:
-        """Tell whether a table holds a load, or strains for one, and its units are known."""
+        """Tell whether a table contains a load, or strains for one, and its units are known."""
         return self.obstacle() == ""
 
     def obstacle(self) -> str:
@@ -68,8 +68,8 @@ class Inspection:
     def unread(self) -> str:
         """Return which load or strain of a usable file was not understood; empty if none.
 
-        A file of the load alone, or of strains alone, is whole next to another one; not so if it
-        holds a column that is probably the other of the two.
+        A file with only the load, or only strains, is complete together with another one, but not
+        if it contains a column that is probably the other of the two.
         """
         tests = [test for test in self.tests if any(test.serves(role) for role in NEEDS)]
         if not self.usable or any(test.serves("force and strain") for test in tests):
@@ -88,7 +88,7 @@ class Inspection:
         stated = any(column.unit for column in test.found_table.columns)
         for quantity, column in test.quantities.items():
             if quantity == "force" and "strain_xx" in test.quantities and not column.unit:
-                continue  # told from the machine's own file
+                continue  # determined from the machine's own file
             if quantity in ACROSS or (quantity == "time" and test.serves("force and strain")):
                 continue  # not needed: left out with a note
             try:
@@ -96,7 +96,9 @@ class Inspection:
             except InputError as error:
                 return f"{error.message} ('{column.name}')"
             if quantity in (*LOADS, *STRAINS) and (found := factor_in_name(column.name)):
-                return f"the name '{column.name}' holds a factor, '{found}': state it in the sheet"
+                return (
+                    f"the name '{column.name}' contains a factor, '{found}': state it in the sheet"
+                )
         return ""
 
 

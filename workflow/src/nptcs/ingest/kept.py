@@ -1,4 +1,4 @@
-"""Whether a specimen's curve and record are still those of its files, settings and code."""
+"""Whether a specimen's curve and record still match its files, settings and code."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from nptcs.tables.laboratory.curves import IngestRecord
 
 
 def is_kept(curve: str | Path, record: str | Path, made_from: str) -> bool:
-    """Tell whether nothing that a curve and its record rest on has changed.
+    """Tell whether everything that a curve and its record were made from is unchanged.
 
     Parameters
     ----------
@@ -34,5 +34,5 @@ def is_kept(curve: str | Path, record: str | Path, made_from: str) -> bool:
 
 
 def made_now(record: IngestRecord, made_from: str, curve: str | Path) -> IngestRecord:
-    """Return a record that says what it and its curve, a file by now, were made from."""
+    """Return a record that says what it and its curve, already a file, were made from."""
     return record.model_copy(update={"made_from": made_from, "curve_sha256": sha256_of_file(curve)})

@@ -16,7 +16,7 @@ _ROWS_OF_A_SUMMARY = 40
 
 
 def is_field(inspection: Inspection) -> bool:
-    """Tell whether a file holds the points of one frame: places, and strains at them."""
+    """Tell whether a file contains the points of one frame: positions, and the strains there."""
     return any(
         {"x", "y"} & set(test.quantities) and {"strain_xx", "strain_yy"} & set(test.quantities)
         for test in inspection.tests

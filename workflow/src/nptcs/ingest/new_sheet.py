@@ -48,7 +48,7 @@ class Proposal:
     rows: list[dict[str, str]] = field(default_factory=list)
     left: dict[str, str] = field(default_factory=dict)
     travel_only: set[str] = field(default_factory=set)
-    """Force files without a strain but the crosshead's travel."""
+    """Force files whose only strain is the crosshead's travel."""
     lengths_only: set[str] = field(default_factory=set)
     """Force files whose strain, if there is one, is in mm: an extension or a travel."""
 
@@ -93,9 +93,9 @@ class Proposal:
 
 @dataclass
 class _Found:
-    """What the files of a folder hold: tests with a force, strains alone, dimensions.
+    """What the files of a folder contain: tests with a force, strains alone, dimensions.
 
-    `with_force` are strain files that hold a copy of the machine's force.
+    `with_force` are strain files that contain a copy of the machine's force.
     """
 
     tests: list[tuple[str, Test, Inspection, bool]] = field(default_factory=list)
@@ -107,7 +107,7 @@ class _Found:
 
 _BENDING = {test.value for test in TestType if test.is_bending}
 _IN_STRAIN = set(STRAINS) - {"extension"}
-_ANGLES = {TestType.SHEAR.value: "45"}  # no other test has one of its own
+_ANGLES = {TestType.SHEAR.value: "45"}  # no other test implies an angle
 
 
 def propose_sheet(
@@ -117,17 +117,17 @@ def propose_sheet(
 ) -> Proposal:
     """Look into every file of a folder and propose a row for each test with a force.
 
-    A camera's file goes with the machine's file whose names, folders included, say the same
+    A camera's file goes with the machine's file whose names, folders included, name the same
     specimen: ``DIC/DIC_UD_1.csv`` with ``MTS/MTS_UD_1.csv``. Dimensions come from the heads of
     the files, or from tables of dimensions in the folder. Test, material and fibre angle are
-    proposed where names or heads hold a word for them, and marked in the remarks; where none
+    proposed where names or heads contain a word for them, and marked in the remarks; where none
     does, they stay empty and the sheet is refused until a person fills them in. Notes and
     summaries are left out with the reason; a copy of another file is proposed as left out.
 
     Raises
     ------
     InputError
-        If no file of the folder holds a test.
+        If no file of the folder contains a test.
     """
     proposal = Proposal()
     found = _look(folder, profiles, proposal, limits)
@@ -156,7 +156,7 @@ def propose_sheet(
 
 
 def _add_cameras_alone(found: _Found, proposal: Proposal) -> None:
-    """Propose a camera's file that holds a force as a test where no machine's file goes with it."""
+    """Propose a camera's file with a force as a test where no machine's file goes with it."""
     for name, (test, inspection) in found.with_force.items():
         force = test.quantities.get("force")
         if proposal.left.get(name) != NO_MACHINE or force is None:
@@ -174,7 +174,7 @@ def _add_cameras_alone(found: _Found, proposal: Proposal) -> None:
 def _look(
     folder: Path, profiles: Mapping[str, FormatProfile], proposal: Proposal, limits: FileLimits
 ) -> _Found:
-    """Read every file once and sort it; of the frames of a camera the first one only."""
+    """Read every file once and sort it; of a camera's frames only the first one."""
     found = _Found()
     seen: dict[str, str] = {}
     files = {name: path for name, path in raw_files(folder).items() if not is_note(name)}

@@ -55,7 +55,7 @@ def pair_cameras(rows: Sequence[dict[str, str]], strains: Sequence[str]) -> dict
 def _numbered_apart(machines: Mapping[int, Counter[str]], strains: Sequence[str]) -> dict[str, str]:
     """Find cameras' files that are numbered from 0 where the machine's are from 1, or the reverse.
 
-    Their names would pair all of them, but the first and last, with the wrong specimen.
+    Their names would pair all of them except the first or last with the wrong specimen.
     """
     series: dict[frozenset[str], tuple[set[int], dict[int, str]]] = {}
     for words in machines.values():
@@ -69,7 +69,7 @@ def _numbered_apart(machines: Mapping[int, Counter[str]], strains: Sequence[str]
     for numbers, named in series.values():
         shifted = any({number + step for number in named} == numbers for step in (1, -1))
         if len(named) > 1 and shifted:
-            why = "camera and machine are numbered from different numbers: pair them by hand"
+            why = "camera and machine files do not start at the same number: pair them by hand"
             left |= dict.fromkeys(named.values(), why)
     return left
 

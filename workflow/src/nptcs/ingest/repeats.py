@@ -16,7 +16,7 @@ from nptcs.tables.laboratory.specimens import Specimen
 
 _DIGITS = 9
 _SMALLEST_POWER = -300
-"""Of ten; the reciprocal of a smaller one is not a number."""
+"""Power of ten; the reciprocal of a smaller one is too large for a number."""
 
 
 def data_digest(tables: Sequence[RawFile]) -> str:
@@ -51,7 +51,7 @@ def _rounded(readings: Array) -> bytes:
 def records_that_repeat(
     records: Iterable[IngestRecord], pieces: Mapping[str, str] | None = None
 ) -> dict[str, str]:
-    """Specimens whose data an earlier one has: specimen → the first one with these data.
+    """Specimens that repeat the data of an earlier one: specimen → the first with these data.
 
     Parameters
     ----------
@@ -89,7 +89,7 @@ def repeated_specimens(
 def counted_once(specimens: Sequence[Specimen], records: Iterable[IngestRecord]) -> list[Specimen]:
     """Return the sheet with repeated data left out, with the reason.
 
-    Only included specimens count, so that leaving one out by hand keeps the other.
+    Only included specimens count, so leaving one out by hand keeps the other.
     """
     again = repeated_specimens(specimens, records)
     return [

@@ -12,7 +12,7 @@ _RUN = re.compile(
     r"ultimate|strength|final)))$"
 )
 _PROPERTIES = {"elastic": "modulus;poisson_ratio", "final": "strength;ultimate_strain"}
-"""What counts from a run that is named so, in the tests that have these properties."""
+"""What counts from a run with such a name, in the tests that have these properties."""
 _WITH_BOTH = ("tension", "compression")
 
 
@@ -51,7 +51,7 @@ def mark_runs(rows: Sequence[dict[str, str]]) -> None:
             note = (
                 f"properties by the word in its name ({piece}), to be checked"
                 if row.get("properties")
-                else f"a run of piece {piece}: name in properties what counts from it, "
-                "or runs that give the same count with their mean"
+                else f"a run of piece {piece}: state in properties what counts from it; "
+                "what several runs give counts with their mean"
             )
             row["remarks"] = "; ".join(text for text in (row.get("remarks", ""), note) if text)

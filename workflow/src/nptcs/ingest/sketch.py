@@ -13,14 +13,14 @@ from nptcs.ingest.reading.columns.names import LOADS, STRAINS
 from nptcs.ingest.reading.raw_file import RawFile
 
 DIGITS = 6
-"""Of each reading, of the largest one."""
+"""Digits that are kept of the largest reading; the others are rounded to the same decimal."""
 SIZE = 64
 FEWEST_PAIRS = 40
 LOADED = 0.05
 """Share of the largest load from which on a reading counts: idle ones are alike in all tests."""
 FINE = 50
-"""Different second differences of a load whose noise its resolution shows; with a coarser one, or
-without noise, specimens of equal strains meet by chance."""
+"""Distinct second differences of a load whose resolution shows its noise; with a coarser one, or
+without noise, specimens with equal strains agree by chance."""
 SHARED = 0.4
 """Share of the sampled pairs that two tests of different specimens never have in common."""
 
@@ -30,12 +30,12 @@ def data_sketch(tables: Sequence[RawFile]) -> tuple[int, ...]:
 
     Each pair, rounded, has a number that depends on nothing else; the smallest `SIZE` of them are
     the sample. The share that two samples have in common is about that of the tests (bottom-k
-    sketch). Without noise nothing tells two specimens apart from two copies, and there is none.
+    sketch). Without noise nothing tells two specimens from two copies, and the sketch is empty.
 
     Parameters
     ----------
     tables : sequence of RawFile
-        One file with load and strain; of two files the rows are not each other's, and the sketch is
+        One file with load and strain; the rows of two files do not correspond, and the sketch is
         empty.
     """
     table = tables[0]
@@ -54,7 +54,7 @@ def data_sketch(tables: Sequence[RawFile]) -> tuple[int, ...]:
     if not _shows_noise(steps):
         return ()
     mixed = _mixed(steps * 10 ** (DIGITS + 2) + _rounded(strain))
-    if len(mixed) > 4 * SIZE:  # pairs may be doubled, seldom four times
+    if len(mixed) > 4 * SIZE:  # a pair may occur twice, but seldom four times
         mixed = np.partition(mixed, 4 * SIZE)[: 4 * SIZE]
     smallest = np.unique(mixed)
     if len(smallest) < FEWEST_PAIRS:
@@ -63,7 +63,7 @@ def data_sketch(tables: Sequence[RawFile]) -> tuple[int, ...]:
 
 
 def _shows_noise(steps: npt.NDArray[np.int64]) -> bool:
-    """Tell whether the second differences of a load are many; the first are often enough."""
+    """Tell whether a load has many distinct second differences; its start often suffices."""
     second, least = np.diff(steps, 2), min(FINE, len(steps) // 2)
     return any(len(np.unique(part)) >= least for part in (second[: 4 * FINE], second))
 
@@ -90,7 +90,7 @@ class ChangedCopies:
         self._having: dict[int, list[str]] = defaultdict(list)
 
     def earlier(self, specimen: str, sketch: Sequence[int]) -> str:
-        """Add a sketch and return the first specimen of which it is a copy; empty if of none."""
+        """Add a sketch and return the first specimen that it is a copy of; empty if none."""
         mine = frozenset(sketch)
         common = Counter(name for number in mine for name in self._having[number])
         copied = [

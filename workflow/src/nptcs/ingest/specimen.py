@@ -1,4 +1,4 @@
-"""One specimen from its raw files to its tidy curve and the record of how."""
+"""One specimen from its raw files to its tidy curve and the record of how it was made."""
 
 from __future__ import annotations
 
@@ -65,7 +65,7 @@ def ingest_or_record(
     settings: IngestSettings,
     profiles: Mapping[str, FormatProfile],
 ) -> Ingested:
-    """Ingest a specimen, or record why it could not be: an empty curve and the error's words.
+    """Ingest a specimen, or record why that failed: an empty curve and the error's message.
 
     Parameters and result are those of `ingest_specimen`.
     """
@@ -183,7 +183,7 @@ def _pair(tables: tuple[RawFile, ...], specimen: Specimen, settings: IngestSetti
 
 
 def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None:
-    """Make sure of a force: the file's own, or its stress times the sheet's area."""
+    """Make sure that there is a force: the file's own, or its stress times the sheet's area."""
     if "force" not in signals.values:
         signals.values["force"] = signals.values["stress"] * specimen.force_per_stress_mm2
         signals.flags.append("stress as the file gives it; its area could not be checked")
@@ -199,10 +199,10 @@ def _require_force(signals: Signals, specimen: Specimen, table: RawFile) -> None
 
 
 def _flag_time(signals: Signals) -> None:
-    """Flag a time that goes back; it pairs files, but no property of one file rests on it."""
+    """Flag a time that goes back; it pairs files, but no property of a single file needs it."""
     time = signals.values.get("time")
     if time is not None and not (np.diff(time[~np.isnan(time)]) > 0).all():
-        signals.flags.append("time does not grow throughout")
+        signals.flags.append("time does not increase throughout")
 
 
 def _require_rows(signals: Signals, specimen: Specimen, table: RawFile, source: str) -> None:

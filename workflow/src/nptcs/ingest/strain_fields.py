@@ -29,8 +29,8 @@ def read_strain_fields(
     """Read every file of a folder as one frame and take the mean of its strains.
 
     The number of a frame is the last number in its file's name that differs between the files.
-    The mean is taken over the points
-    inside the profile's ``window``; a point without a strain does not count.
+    The mean is taken over the points inside the profile's ``window``; a point without a strain
+    does not count.
 
     Returns
     -------
@@ -40,7 +40,8 @@ def read_strain_fields(
     Raises
     ------
     InputError
-        If there are too few frames, two of one number, or no point of a frame in the window.
+        If there are too few frames, two with the same number, or a frame has no point in the
+        window.
     """
     paths = sorted(raw_files(folder).values(), key=lambda path: natural_key(path.name))
     if len(paths) < FEWEST_FRAMES:
@@ -51,7 +52,7 @@ def read_strain_fields(
     first = frames[0]
     numbers = _numbers_of(paths, folder)
     if len(set(numbers)) < len(numbers):
-        raise InputError("two files have one frame number", "remove one of them", folder)
+        raise InputError("two files have the same frame number", "remove one of them", folder)
     names = [name for name in MEANS if all(name in frame.values for frame in frames)]
     masks = [_inside(frame, folder) for frame in frames]
     values = {"frame": np.array(numbers, dtype=float)}
@@ -85,8 +86,8 @@ def read_strain_fields(
 def _numbers_of(paths: Sequence[Path], folder: Path) -> list[int]:
     """Return the number of each frame: the last of the numbers in the names that is not constant.
 
-    VIC's ``name-0012_0.csv`` counts its cameras behind the frame. Names with unlike many numbers
-    are told apart by their last one.
+    VIC's ``name-0012_0.csv`` counts its cameras after the frame. If the names contain different
+    counts of numbers, the last number of each is taken.
     """
     found = [[int(number) for number in re.findall(r"\d+", path.stem)] for path in paths]
     if any(not numbers for numbers in found):

@@ -93,7 +93,7 @@ def noise_of(course: Array) -> float:
     Parameters
     ----------
     course : ndarray, shape (n,)
-        Finite readings in the order of time; fewer than five tell nothing (0).
+        Finite readings in the order of time; fewer than five give 0.
     """
     if len(course) < 5:
         return 0.0

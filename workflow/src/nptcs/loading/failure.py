@@ -12,16 +12,16 @@ from nptcs.loading.cycles import loadings
 SMALLEST_DROP = 0.1
 """Share of its largest value that the force must lose: less is noise, relaxation or a slip."""
 ABRUPT = 10.0
-"""A force that falls so many times faster than it rose is not an unloading by the machine, ..."""
+"""A force that falls this many times faster than it rose is not an unloading by the machine, ..."""
 SNAP = 100.0
-"""... and so many times even where the strain goes back with it."""
+"""... and this many times even where the strain goes back with it."""
 ELASTIC, TOO_LITTLE = 0.7, 0.5
-"""Shares of the strain that an elastic unloading gives back: from the first on it is one; below the
-second it is none, since nothing unloads twice as stiffly as it ever was."""
+"""Shares of the strain that an elastic unloading gives back: from the first share on, a fall is an
+unloading; below the second it is not, since nothing unloads twice as stiffly as it was loaded."""
 UNLOADING_ROWS = 4
 """Readings over which strain and force go back together when the machine unloads."""
 SLOW_LOGGER_S = 0.4
-"""Time between readings within which a machine may return: a fall in one step tells nothing."""
+"""Time between readings within which a machine may return: a fall in one step proves nothing."""
 _FEWEST_UP, _FEWEST_DOWN = 20, 2
 _WAY_BACK = 5
 _LATE = 1
@@ -36,7 +36,7 @@ TOO_FEW = "so few readings that a break and a return of the machine look alike"
 
 @dataclass(frozen=True)
 class Failure:
-    """Whether the record shows the specimen fail, and in words what shows it or why nothing."""
+    """Whether the record shows that the specimen failed, and in words why or why not."""
 
     seen: bool
     words: str
@@ -98,7 +98,8 @@ def judge_failure(force: Array, strain: Array, time_s: Array | None = None) -> F
         return Failure(seen=False, words="unloaded: force and strain go back together")
     if np.isfinite(change):
         return Failure(seen=False, words="the force relaxes at a held strain")
-    return Failure(seen=False, words=f"{fell}, slowly, and no strain tells whether by unloading")
+    words = f"{fell}, slowly, and without a strain it is not clear whether by unloading"
+    return Failure(seen=False, words=words)
 
 
 def unloads_along(
@@ -108,16 +109,16 @@ def unloads_along(
 
     Every reading between 85 and 15 % of the force must have a strain within 15 % of the one at
     which the loading had that force: a broken specimen has hardly any, since it breaks within a
-    reading of most loggers. So it is if the strain goes back by what the steepest part of the
-    loading gives for the fall of the force (`ELASTIC`): a laminate that yielded. Where no
-    reading lies between, the fall in one step is a break if the strain stays behind, or the
-    readings follow each other so fast that no machine returns between two of them; else the two
-    cannot be told apart, and it is not a failure seen.
+    reading of most loggers. It is an unloading, too, if the strain goes back by what the steepest
+    part of the loading gives for the fall of the force (`ELASTIC`): a laminate that yielded. Where
+    no reading lies between, the fall in one step is a break if the strain does not follow, or the
+    readings follow each other so fast that no machine returns between two of them; otherwise the
+    two cannot be told apart, and no failure was seen.
 
     Parameters
     ----------
     force, strain : ndarray, shape (n,)
-        Positive in the direction of the test; the strain may hold NaN.
+        Positive in the direction of the test; the strain may contain NaN.
     begin : int
         Last reading before the fall.
     start : int
@@ -186,13 +187,13 @@ def _given_back(force: Array, strain: Array, near: int, start: int) -> tuple[flo
 def returns_at_one_speed(force: Array, strain: Array, near: int, start: int) -> bool:
     """Whether the strain goes back at one speed, from the fall of the force to near its start.
 
-    Between a reading above and one below 15 % of the force at least one must lie: a break takes
-    hardly longer, and its strain stands still until the machine returns, or springs back at once.
+    The fall to 15 % of the force must take more than one step between readings: a break hardly
+    does, and its strain stands still until the machine returns, or springs back at once.
 
     Parameters
     ----------
     force, strain : ndarray, shape (n,)
-        Positive in the direction of the test; the strain may hold NaN, which tell nothing.
+        Positive in the direction of the test; with NaN in the strain after the fall: False.
     near, start : int
         Last reading before the fall; first reading of the loading.
     """

@@ -1,4 +1,4 @@
-"""Runs of Snakemake in one folder: which of them live, and the locks that dead ones left."""
+"""Runs of Snakemake in one folder: which of them are alive, and the locks that dead ones left."""
 
 from __future__ import annotations
 
@@ -34,7 +34,7 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
     Returns
     -------
     bool
-        Whether an earlier run had died without an end in order.
+        Whether an earlier run had died without ending cleanly.
     """
     release_temporary_files()
     os.environ[RUN] = process_name().text()
@@ -70,7 +70,7 @@ def _read(file: Path) -> ProcessName | None:
 
 
 def _remove_temporary(note: Path) -> None:
-    """Remove the temporary folder that Snakemake had made for a run that is dead."""
+    """Remove the temporary folder that Snakemake had made for a run that has died."""
     with suppress(OSError, UnicodeDecodeError):
         folder = Path(note.read_text(encoding="utf-8").partition("\n")[2].strip())
         if folder.name.startswith("snakemake") and folder.is_dir() and not folder.is_symlink():
@@ -82,7 +82,7 @@ def _settle(
     runs: Mapping[Path, ProcessName | None],
     state: Mapping[Path, bool | None],
 ) -> None:
-    """Lift the locks if every run is dead; name runs of which this machine cannot tell."""
+    """Lift the locks if every run is dead; name the runs that this machine cannot check."""
     if any(state.values()):
         return
     foreign = [runs[file] for file, alive in state.items() if alive is None]

@@ -24,14 +24,14 @@ LONGEST = 70
 """Characters of a folder's name; a socket's whole name may have 107 (macOS: 103)."""
 
 YOUNG_S = 3600.0
-"""A folder without an owner's name may be one that is just being made."""
+"""A younger folder without an owner's name may just be being made."""
 
 
 def scratch_folder() -> Path:
     """Return the temporary folder of this process.
 
-    It is made at the first call. A small process of its own, the warden, removes it once this
-    process has ended in whatever way, and ends what still carries its mark
+    It is made at the first call. A small separate process, the warden, removes it once this
+    process has ended, however it ended, and ends the processes that still carry its mark
     (`nptcs.processes.marked`). Folders whose owner and warden were both killed are removed here.
     """
     return _folder_of(os.getpid(), tempfile.gettempdir())

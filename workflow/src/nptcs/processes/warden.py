@@ -1,7 +1,7 @@
 """A small process that outlives the one it watches: it ends what is left of it and cleans up.
 
 Run as a script: ``warden.py FOLDER PID``. Its input closes when the process PID ends, however it
-ends. When the run of Snakemake ends first, PID is asked to end, and made to.
+ends. If the run of Snakemake ends first, PID is asked to end, and then killed.
 """
 
 from __future__ import annotations

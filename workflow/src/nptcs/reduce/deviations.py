@@ -1,4 +1,4 @@
-"""Deviations of a test from its standard: said with every value, never a reason to hide it."""
+"""Deviations of a test from its standard: reported with every value, never a reason to hide it."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def deviations(
 
 def _source(strain_source: str) -> Iterator[str]:
     if strain_source == "crosshead":
-        yield f"{CROSSHEAD}: the compliance of machine and grips is in it"
+        yield f"{CROSSHEAD}: it includes the compliance of machine and grips"
     elif strain_source in ("", "unspecified"):
         yield "source of the strain not stated"
 
@@ -85,7 +85,7 @@ def _duration(branch: pd.DataFrame, rules: ChordRules) -> Iterator[str]:
     limits, minutes = rules.time_to_failure_min, time_to_failure(branch)
     if limits is not None and np.isfinite(minutes) and not limits[0] <= minutes <= limits[1]:
         low, high = limits
-        yield f"failure after {minutes:.3g} min, {rules.title} asks for {low:g} to {high:g} min"
+        yield f"failure after {minutes:.3g} min, {rules.title} requires {low:g} to {high:g} min"
 
 
 def _speed(branch: pd.DataFrame, specimen: Specimen, rules: RubberRules) -> Iterator[str]:
@@ -102,7 +102,7 @@ def _speed(branch: pd.DataFrame, specimen: Specimen, rules: RubberRules) -> Iter
 
 
 def _disc(branch: Branch, specimen: Specimen, rules: RubberCompressionRules) -> Iterator[str]:
-    """Size of a disc, and its conditioning: the last of so many loadings is measured."""
+    """Size of a disc, and its conditioning: only the last of several loadings is measured."""
     height = specimen.gauge_length_mm
     diameter = _mean(specimen.diameter_mm)
     sizes = (("diameter", diameter, rules.disc_mm[0]), ("height", height, rules.disc_mm[1]))

@@ -1,4 +1,4 @@
-"""A reported value passes the same limits as the curve that it comes from."""
+"""A reported value must be within the same limits as the curve that it comes from."""
 
 from __future__ import annotations
 
@@ -11,11 +11,11 @@ from nptcs.reduce.rows import NAN, Property
 POISSON = (-1.0, 3.0)
 """Bounds of a laminate's Poisson's ratio that no layup of the project comes near."""
 FREE = ("bending_percent", "bending_at_failure_percent", "strain_rate", "time_to_failure")
-"""Conditions of the test: of any sign, no property of the material."""
+"""Conditions of the test: of any sign, and not properties of the material."""
 
 
 def only_plausible(row: Property, test: TestType, limits: Plausible) -> Property:
-    """Return the property, or one that is not assessed where its value cannot be.
+    """Return the property, or one that is not assessed where its value is impossible.
 
     Moduli have the limits of the curve's apparent modulus (a shear modulus is a third to a half
     of them, as in E = 2 (1 + ν) G), strains those of the curve's strain; strengths, stresses and

@@ -1,4 +1,4 @@
-"""All tables that the properties of the specimens end in, by the output that holds them."""
+"""All tables that are made of the specimens' properties, by the output that they go to."""
 
 from __future__ import annotations
 

@@ -24,7 +24,7 @@ def reduce_series(
     settings: ReductionSettings,
     plausible: Plausible,
 ) -> tuple[pd.DataFrame, pd.DataFrame]:
-    """Reduce the specimens that could be read; one that cannot be reduced is a problem.
+    """Reduce the specimens that could be read; one that cannot be reduced becomes a problem.
 
     Parameters
     ----------
@@ -33,11 +33,12 @@ def reduce_series(
     curves : mapping of str to DataFrame
         `nptcs.tables.laboratory.curves.Curve` by specimen.
     records : mapping of str to IngestRecord
-        How each curve came about; one that failed is listed as a problem of the stage ``ingest``.
+        How each curve was made; one that failed is skipped here: it is a problem of the stage
+        ``ingest``.
     settings : ReductionSettings
         The section ``reduction`` of the configuration.
     plausible : Plausible
-        Limits that a reported value passes, as the curve does.
+        Limits for a reported value, the same as for the curve.
 
     Returns
     -------

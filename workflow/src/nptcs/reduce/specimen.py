@@ -51,11 +51,11 @@ def reduce_specimen(
     strain_source : str
         Where the strain came from, as the ingest record says; "crosshead" is flagged.
     flags : iterable of str
-        Flags of the ingest record; they go with every value.
+        Flags of the ingest record; they are added to every value.
     failure_seen : bool
         Whether the ingest saw the specimen fail, before it cut what follows. Without it (and
-        without the sheet's word) the curve itself must show a failure, or strength, ultimate
-        strain and energy are not assessed.
+        without a statement in the sheet) the curve itself must show a failure, or strength,
+        ultimate strain and energy are not assessed.
     plausible : Plausible, optional
         The limits of the curve; a value outside them is not assessed either.
     origin : StrainOrigin, optional

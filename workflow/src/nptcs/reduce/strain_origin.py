@@ -24,10 +24,11 @@ class StrainOrigin:
     added : mapping of str to float
         What was added to each strain column of the curve; empty where nothing was.
     random_error : float
-        From the scatter of the readings: of each specimen's own. Where a shift was found and not
-        applied because it is not significant, it counts as an error.
+        From the scatter of the readings: independent for each specimen. A shift that was found
+        but not applied because it is not significant counts as an error.
     model_error : float
-        From the parabola that replaces the curve above the toe: the same way in all specimens.
+        From the parabola that replaces the curve above the toe: in the same direction for all
+        specimens.
     """
 
     added: Mapping[str, float] = field(default_factory=dict)
@@ -87,14 +88,14 @@ def with_origin(
     sign : int
         That of the test's load, by which the branch was turned.
     reduce : callable
-        The reduction, which is done again with the strains shifted.
+        The reduction, which is repeated with the strains shifted.
 
     Returns
     -------
     list of Property
-        ``origin_effect_percent``: value over the value without the correction, less one. The
-        standard error of a slope or stress holds half the difference between the values with
-        the origin one error to either side, added in squares.
+        ``origin_effect_percent``: value over the value without the correction, minus one. The
+        standard error of a slope or stress includes half the difference between the values with
+        the origin moved one error to either side, added in quadrature.
     """
     back = {name: -sign * value for name, value in origin.added.items()}
     before = _values(reduce(_shifted(branch, back))) if back else {}

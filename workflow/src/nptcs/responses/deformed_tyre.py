@@ -1,4 +1,4 @@
-"""One solved tyre once more, for the outlines of its spokes: figure 10 a of the paper."""
+"""One solved tyre, solved again for the outlines of its spokes: figure 10 a of the paper."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def outlines_of_study(
     ply: Mapping[str, float],
     store: Path,
 ) -> pd.DataFrame:
-    """Draw the first solved one of the cases whose neutral line a study requests.
+    """Draw the first solved case among those whose neutral line a study requests.
 
     Parameters
     ----------
@@ -73,8 +73,8 @@ def deformed_tyre(
 ) -> pd.DataFrame:
     """Draw the outlines of the first of some cases that was solved, as `DeformedTyre`.
 
-    Records hold no motions of the spokes: the case is solved again, from the same inputs, unless
-    its outlines are stored.
+    Records do not contain motions of the spokes: the case is solved again, from the same inputs,
+    unless its outlines are stored.
 
     Parameters
     ----------
@@ -93,7 +93,7 @@ def deformed_tyre(
     Returns
     -------
     DataFrame
-        No rows where none of the cases was solved.
+        No rows if none of the cases was solved, or if solving it again fails.
     """
     columns = list(DeformedTyre.to_schema().columns)
     solved = {r.case_id: r for r in records if r.result.displacement_mm is not None and r.load_n}

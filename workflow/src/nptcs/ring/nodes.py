@@ -40,7 +40,7 @@ class RingNodes:
 def ring_nodes(mesh: RingElements, section: RingSection, spoke_count: int) -> RingNodes:
     """Divide the ring: a node at each spoke's foot, equal elements between two of them.
 
-    A pitch is finer if any of it lies within `refined_deg` of the contact's middle.
+    A pitch is finer if any part of it is within `refined_deg` of the contact's middle.
     """
     pitch = 2.0 * np.pi / spoke_count
     start = np.radians(mesh.first_spoke_deg)

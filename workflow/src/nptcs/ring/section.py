@@ -55,18 +55,18 @@ class RingSection:
     width_mm : float
         Axial width.
     stiffness : array (7, 7)
-        C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products ask.
+        C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products require.
     hardening : array (4, 4, 4)
         D for the strains (e, κs, κf, s').
     core : array (6,)
-        Pull of the wires on the core's thickness by (e, κs, κf) (N, N mm, N mm), the core's
-        compliance (mm²/N), the wires' stiffness (N) and the curvature 1/R (1/mm).
+        Pull of the wires on the core's thickness per unit of (e, κs, κf) (N, N mm, N mm), the
+        core's compliance (mm²/N), the wires' stiffness (N) and the curvature 1/R (1/mm).
     thickening : array (3,)
-        Growth of the tread's thickness by κs and κf (mm²) and by s' (mm).
+        Growth of the tread's thickness per unit of κs and κf (mm²) and of s' (mm).
     compliance_mm_per_mpa : float
         Thinning of tread and band under the pressure of the ground; 0 for incompressible rubber.
     shear_compliance_mm_per_mpa : float
-        What a shear of the ground moves the tread's surface more than the shape f does.
+        Movement of the tread's surface per shear of the ground, beyond that of the shape f.
     """
 
     radius_mm: float
@@ -165,7 +165,7 @@ class _Depths:
 def _assembled(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
 ) -> tuple[Array, Array, Array]:
-    """Give stiffness, hardening and thickening by one shape of the tread's shear.
+    """Give stiffness, hardening and thickening for one shape of the tread's shear.
 
     An infinite radius is a flat section.
     """
@@ -256,9 +256,11 @@ def _tread(half: float, row: float, surface: float, z: Array) -> Array:
 
 
 def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float) -> None:
-    """Add a layer of wires: two fibres at a quarter of the diameter from its axis bend as they do.
+    """Add a layer of wires as two fibres at a quarter of the diameter from its axis.
 
-    Their transverse shear stiffness holds the faces square to them.
+    The two fibres have the bending stiffness of the round wires.
+
+    The wires' transverse shear stiffness holds the faces square to them.
     """
     area = _wire_area_mm2(tyre)
     z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm
@@ -274,7 +276,7 @@ def _core_under_wires(
 ) -> Array:
     """Give the wires' pull on the core by (e, κs, κf), its compliance, their stiffness and 1/R.
 
-    The core is 2 `inside` deep and moves nowhere along the ring as it is squeezed; each face moves
+    The core is 2 `inside` deep and does not move along the ring as it is squeezed; each face moves
     by δ: ½ δ²/a with a = inside/(2 b (κ + 4G/3)).
     """
     area = _wire_area_mm2(tyre)

@@ -1,4 +1,4 @@
-"""Pressing a ring on the ground: Newton's method bordered by the load, along a path of loads."""
+"""Pressing a ring against the ground: Newton's method bordered by the load, along a load path."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ CALM_ITERATIONS = 6
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
 FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
-# an iteration whose step is below it leaves an error of about the step's square
+# an iteration whose step is below this leaves an error of about the step's square
 TOLERANCE_MM = 1e-5
 BACKTRACKS = 6
 # unknowns of a node that are lengths: u_x, u_y, s
@@ -27,7 +27,7 @@ LENGTHS = [0, 1, 4]
 
 
 class RingError(RuntimeError):
-    """A load could not be reached; `states` holds those that were."""
+    """A load could not be reached; `states` are those that were."""
 
     def __init__(self, message: str, states: list[RingState]) -> None:
         # both in args, so that the exception can be pickled by a worker process
@@ -63,9 +63,9 @@ class RingState:
     force_n : float
         Vertical load.
     anchor : array (nodes,)
-        Place x at which each element's surface comes to rest from here on.
+        Place x at which each element's surface rests after this state.
     anchor_before : array (nodes,)
-        The same before this state, with which it was computed.
+        The same before this state, which was computed with it.
     iterations : int
     """
 
@@ -78,9 +78,9 @@ class RingState:
 
 
 def press_through_loads(tyre: RingTyre, loads_n: Sequence[float]) -> list[RingState]:
-    """Press a tyre on the ground through a rising sequence of loads.
+    """Press a tyre against the ground through a rising sequence of loads.
 
-    Friction remembers: the states depend, a little, on the loads before them.
+    Because of friction the states depend, a little, on the loads before them.
 
     Parameters
     ----------
@@ -120,7 +120,7 @@ def press_through_loads(tyre: RingTyre, loads_n: Sequence[float]) -> list[RingSt
 
 
 def _first_touch(tyre: RingTyre, first_load_n: float) -> RingState:
-    """Equilibrium at a small rise that stays below the first load."""
+    """Equilibrium at a small rise, with a force below the first load."""
     count = len(tyre.nodes.theta)
     x, _ = tyre.surface(np.zeros((count, UNKNOWNS)))
     rest = RingState(np.zeros((count, UNKNOWNS)), 0.0, 0.0, x, x, 0)
@@ -151,7 +151,7 @@ def _next(tyre: RingTyre, states: list[RingState], target: float) -> RingState:
 
 
 def _predicted(states: list[RingState], goal: float) -> tuple[Array, float]:
-    """Start (u, rise) for a load: the line through the last two states."""
+    """Start (u, rise) for a load: on the line through the last two states."""
     last = states[-1]
     if len(states) < 2:
         return last.u, last.rise_mm
@@ -225,7 +225,7 @@ def _newton_step(tyre: RingTyre, system: System, load_n: float | None) -> tuple[
 
 
 def tangent_stiffness(tyre: RingTyre, state: RingState) -> float:
-    """dF/dδ at a state, N/mm, with the ground's shear remembered from the state before."""
+    """dF/dδ at a state, N/mm, with the anchors of the ground's shear from the state before."""
     system = tyre.kernel.assemble(tyre.ring, state.u, state.rise_mm, state.anchor_before)
     rhs = system.slope[:, :, None]
     follow = -tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)[:, :, 0]

@@ -34,7 +34,7 @@ class RingTyre:
     spokes : SpokePolynomial
     contact : GroundContact
     ring : Ring
-        The same as arrays.
+        The same data as arrays.
     kernel : module
         `numpy_kernel` or `numba_kernel`; both give the same numbers up to rounding.
     """
@@ -74,7 +74,7 @@ class RingTyre:
     def anchors(self, u: Array, rise_mm: float, anchor: Array) -> Array:
         """Place (nodes,) at which each element's surface rests after a converged state.
 
-        Off the ground it forgets: there it rests where it is.
+        Off the ground this is the surface's own place.
         """
         x, pressure, shear = self.traction(u, rise_mm, anchor)
         rest = np.where(pressure > 0.0, shear / self.ring.dimensions[elementwise.SLIP_STIFF], 0.0)
@@ -130,7 +130,7 @@ def ring_tyre(
     spoke_factor : float
         Multiplies the spokes' energy.
     kernel : {"numpy", "numba"}, optional
-        numba where it is installed.
+        numba if it is installed.
 
     Raises
     ------
@@ -162,8 +162,8 @@ def _check_spokes(tyre: TyreGeometry, section: RingSection, table: SpokeEnergyTa
     room = inner - tyre.rim_diameter_mm / 2.0
     if abs(room - table.height_mm) > HEIGHT_TOLERANCE * table.height_mm:
         raise ValueError(
-            f"the spokes of this table are {table.height_mm:g} mm high, the room between rim and "
-            f"band is {room:g} mm"
+            f"the spokes of this table are {table.height_mm:g} mm high, but the distance between "
+            f"rim and band is {room:g} mm"
         )
 
 

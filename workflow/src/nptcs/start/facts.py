@@ -22,7 +22,7 @@ PACKAGE = Path(__file__).parents[1]
 
 @dataclass(frozen=True)
 class SolverFacts:
-    """What the rules ask of a solver with its options, as plain values."""
+    """What the rules need to know of a solver with its options, as plain values."""
 
     module: str
     about: str
@@ -71,9 +71,9 @@ class RuleFacts:
     tables : tuple of str
         Names of all result tables.
     files : dict of str to str
-        Hash of each file that was looked into; another content, and the facts are found anew.
+        Hash of each file that was examined; if its content changes, the facts are found again.
     code : dict of str to str
-        Hashes of code that were asked for.
+        Hashes of code that were requested.
     """
 
     solvers: dict[str, dict[str, SolverFacts]]
@@ -105,11 +105,11 @@ def known_facts(
     Parameters
     ----------
     file : str or Path
-        Where they are kept; written when Python ends. One that was edited is not believed.
+        Where they are kept; written when Python ends. An edited file is ignored.
     given : mapping
-        Plain values that they rest on: the configuration.
+        Plain values that they depend on: the configuration.
     inputs : sequence of str or Path
-        Files that they rest on; the code of the package is added.
+        Files that they depend on; the code of the package is added.
     find : callable
         Finds them; it raises `InputError` where a run must not begin.
     """

@@ -1,4 +1,4 @@
-"""Snakemake looks at each parameter for pandas objects, and imports pandas to do so."""
+"""Keep Snakemake from importing pandas only to look for pandas objects among parameters."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Finds the facts for the rules, and every fault of a configuration that is known before a run."""
+"""Find the facts for the rules, and every fault of a configuration that is known before a run."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""All result tables: the one list from which rules, report, workbook and reference page follow.
+"""All result tables: the one list from which rules, report, workbook and reference page are made.
 
 A new table is its contract, one row here, its rule and its script. Its row decides its sheet in
 the workbook and the section of the report that shows it; no other place needs to know it.
@@ -98,7 +98,7 @@ TABLES: dict[str, ResultTable] = {
         FlagsTable,
         "What was flagged: deviations from the standards, values not assessed, remarks",
         "statistics",
-        "the flags of the specimens' properties; flags that differ in their numbers only are one",
+        "the flags of the specimens' properties; flags that differ only in their numbers are one",
         section=ReportSection.SPECIMENS,
         mark=RowMark.DEVIATION,
     ),
@@ -249,7 +249,7 @@ TABLES: dict[str, ResultTable] = {
         "Surfaces of every response, and how they predict cases that were left out",
         "surface, sensitivity",
         "cases.csv and the responses of solved tyres, realised values; left-out cases predicted by "
-        "surfaces that were fitted anew",
+        "surfaces that were fitted again",
         section=ReportSection.SURFACES,
         headings=headings.RESPONSE_SURFACES,
         synthetic=SyntheticBy.ROWS,
@@ -305,7 +305,8 @@ TABLES: dict[str, ResultTable] = {
         DecisionFront,
         "Pareto front of decisions with two objectives or more",
         "decide",
-        "the same surfaces as decisions.csv; acceptable candidates and designs that none betters",
+        "the same surfaces as decisions.csv; acceptable candidates and designs that no other one "
+        "betters",
         section=ReportSection.DECISION,
         headings=headings.of(headings.DECISION, DecisionFront),
         synthetic=SyntheticBy.STUDIES,
@@ -405,9 +406,9 @@ TABLES: dict[str, ResultTable] = {
     ),
     "stiffness_exponents.csv": ResultTable(
         StiffnessExponents,
-        "Exponents of the stiffness by each modulus, computed and published",
+        "Exponents of the stiffness with respect to each modulus, computed and published",
         "compare_published",
-        "stiffness_against_published.csv, logarithms of stiffness by those of each modulus",
+        "stiffness_against_published.csv, logarithm of the stiffness against that of each modulus",
         section=ReportSection.PUBLISHED_STIFFNESS,
         headings=headings.EXPONENTS,
         synthetic=SyntheticBy.ROWS,
@@ -441,7 +442,7 @@ TABLES: dict[str, ResultTable] = {
         DisplacementByLoad,
         "Displacement by finite elements and by the load-bearing model (figure 15)",
         "displacement_by_load",
-        "the curves of the tyres that are those of table 11, and lca_validation.csv",
+        "the curves of the tyres of table 11, and lca_validation.csv",
         section=ReportSection.LCA,
         mark=RowMark.STATUS,
         synthetic=SyntheticBy.PLIES,
@@ -473,7 +474,7 @@ def result_files(surface_studies: Sequence[str]) -> Iterator[tuple[str, ResultTa
     Yields
     ------
     file, table, study : str, ResultTable, str
-        Name of the file, its row of `TABLES`, and the study if it holds one study alone.
+        Name of the file, its row of `TABLES`, and the study if it is the table of one study.
     """
     for name, table in TABLES.items():
         for study in surface_studies if PER_STUDY in name else [""]:
@@ -481,7 +482,7 @@ def result_files(surface_studies: Sequence[str]) -> Iterator[tuple[str, ResultTa
 
 
 def file_of(contract: type[pa.DataFrameModel], study: str = "") -> str:
-    """Return the name of the file that keeps a contract; for one study, that of the study.
+    """Return the name of the file that a contract is for; of a table per study, that of `study`.
 
     Raises
     ------

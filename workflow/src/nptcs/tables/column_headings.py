@@ -126,7 +126,7 @@ UNCERTAINTY = {
     }.items()
 }
 DECISION = {
-    "with_probability": Heading("probability asked for"),
+    "with_probability": Heading("required probability"),
     "search_cpu_s": Heading("fit and search, CPU", "s"),
     "mean": Heading("mean", "unit of the row"),
     "sd": Heading("SD", "unit of the row"),

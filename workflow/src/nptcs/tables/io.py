@@ -75,7 +75,7 @@ def _as_written(path: str | Path, contract: type[pa.DataFrameModel]) -> pd.DataF
 def read_alike(
     paths: Iterable[str | Path], contract: type[pa.DataFrameModel]
 ) -> list[pd.DataFrame]:
-    """Read tables of one contract that asks the same of each row, and check them all at once.
+    """Read tables of one contract whose rules concern single rows, and check them all at once.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def read_alike(
         try:
             checked = contract.validate(pd.concat(written, ignore_index=True), lazy=False)
         except (SchemaError, SchemaErrors):
-            pass  # the table by itself says which file and line it is
+            pass  # checking each table by itself tells which file and line it is
         else:
             ends = np.cumsum([len(table) for table in written])[:-1]
             parts = zip([0, *ends], [*ends, len(checked)], strict=True)
@@ -115,7 +115,7 @@ def read_tables(paths: Iterable[str | Path], contract: type[pa.DataFrameModel]) 
 
 
 def empty_table(contract: type[pa.DataFrameModel]) -> pd.DataFrame:
-    """Return a table without rows that keeps the contract."""
+    """Return a table without rows that fulfils the contract."""
     columns = contract.to_schema().columns
     return check(pd.DataFrame({name: [] for name in columns}), contract, contract.__name__)
 

@@ -1,4 +1,4 @@
-"""Contract of the list of all that went wrong in a run."""
+"""Contract of the list of everything that went wrong in a run."""
 
 from collections.abc import Sequence
 

@@ -1,4 +1,4 @@
-"""What the catalogue says of a result table, as plain data for the report and the workbook."""
+"""What the catalogue says about a result table, as plain data for the report and the workbook."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ class SyntheticBy(StrEnum):
 
 @dataclass(frozen=True)
 class ResultTable:
-    """One row of the catalogue: all that is said of a table outside its contract.
+    """One row of the catalogue: everything about a table besides its contract.
 
     Parameters
     ----------
@@ -95,8 +95,8 @@ class ResultTable:
     sheet : str
         Name of its sheet in the workbook, if not that of its file; `PER_STUDY` as there.
     raw : bool
-        Whether it holds curves, shapes or fields point by point: a CSV file next to the workbook,
-        which draws what matters of it.
+        Whether it contains curves, shapes or fields point by point: a CSV file next to the
+        workbook, which draws what matters of it.
     """
 
     contract: type[pa.DataFrameModel]

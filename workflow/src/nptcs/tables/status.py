@@ -30,7 +30,7 @@ class Status(StrEnum):
 
     @property
     def from_outside(self) -> bool:
-        """Tell whether the same case may end otherwise the next time it runs."""
+        """Tell whether the same case may end differently the next time it runs."""
         match self:
             case Status.TIMEOUT | Status.LICENCE:
                 return True

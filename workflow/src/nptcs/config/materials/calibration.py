@@ -15,7 +15,7 @@ ModelName = Literal["neo_hookean", "mooney_rivlin", "yeoh", "ogden"]
 
 def _from_zero(interval: tuple[float, float]) -> tuple[float, float]:
     if interval[0] < 0:
-        raise ValueError(f"begins at zero strain or above it, got {interval[0]:g}")
+        raise ValueError(f"must begin at zero strain or above, got {interval[0]:g}")
     return interval
 
 

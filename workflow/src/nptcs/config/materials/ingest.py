@@ -1,4 +1,4 @@
-"""The section ``ingest:`` of the configuration: each conditioning step can be switched."""
+"""The section ``ingest:`` of the configuration: switches and limits of the conditioning steps."""
 
 from __future__ import annotations
 
@@ -14,18 +14,21 @@ from nptcs.yaml_files import read_yaml
 class MissingValues(Strict):
     """Dead channels and frames without a strain."""
 
-    enabled: bool = Field(True, description="Drop dead channels and rows that hold no number")
+    enabled: bool = Field(True, description="Drop dead channels and rows that contain no number")
     dead_values: tuple[float, ...] = Field(
         (-1000000.0,), description="Values that a data logger writes for a dead channel"
     )
     spike_share: float = Field(
         0.2,
         gt=0,
-        description="A single reading that leaves both neighbours by more than this share of "
+        description="A single reading that differs from both neighbours by more than this share of "
         "the channel's range is emptied and flagged",
     )
     largest_share: float = Field(
-        0.5, gt=0, le=1, description="A strain channel that lacks more than this share is dead"
+        0.5,
+        gt=0,
+        le=1,
+        description="A strain channel that lacks more than this share of its readings is dead",
     )
 
 
@@ -79,7 +82,7 @@ class OriginOfStrain(Strict):
     )
     smallest_points: int = Field(8, ge=4, description="Fewer points: not corrected, flagged")
     significance: float = Field(
-        3.0, ge=0, description="A shift within so many of its standard errors is not applied"
+        3.0, ge=0, description="A shift within this many of its standard errors is not applied"
     )
     worst_r_squared: float = Field(
         0.98, gt=0, lt=1, description="Poorer fit: not corrected, flagged"
@@ -103,14 +106,14 @@ class ForceZero(Strict):
 
 
 class Signs(Strict):
-    """Tension positive: which part of a record is the test, where force has both signs."""
+    """Tension positive: which part of a record is the test, where the force has both signs."""
 
     smallest_share: float = Field(
         0.05,
         gt=0,
         lt=1,
         description="Force of the other sign up to this share of the largest is a disturbance; "
-        "beyond, the part is left out and named",
+        "beyond that, the part is left out and named",
     )
     clear_share: float = Field(
         0.25,
@@ -134,14 +137,14 @@ class Pairing(Strict):
     clock_tolerance: float = Field(
         0.03,
         ge=0,
-        description="Onsets of loading that lie further apart, as a share of the time to the "
-        "largest force, stop the specimen",
+        description="Onsets of loading that are further apart than this share of the time to the "
+        "largest force stop the specimen",
     )
     force_tolerance: float = Field(
         0.05,
         gt=0,
         lt=1,
-        description="Largest difference of the peaks of a force that both files hold",
+        description="Largest difference of the peaks of a force that both files contain",
     )
 
 
@@ -150,13 +153,13 @@ class FileLimits(Strict):
 
     file_mb: float = Field(500.0, gt=0, description="Size of a raw file in MB")
     unpacked_mb: float = Field(1000.0, gt=0, description="Size of a workbook when unpacked, in MB")
-    rows: int = Field(2_000_000, gt=0, description="Lines of a text or rows of a sheet")
+    rows: int = Field(2_000_000, gt=0, description="Lines of a text file or rows of a sheet")
     columns: int = Field(2_000, gt=0, description="Columns of a table")
     line_length: int = Field(100_000, gt=0, description="Characters of a line")
 
 
 class Plausible(Strict):
-    """What physics allows; outside, a unit or an area must be wrong and the specimen stops."""
+    """What physics allows; outside it, a unit or an area must be wrong and the specimen stops."""
 
     modulus_composite_mpa: tuple[float, float] = Field(
         (300.0, 1.0e6), description="Apparent modulus of a composite or metal test"
@@ -189,7 +192,7 @@ class IngestSettings(Strict):
 
     @classmethod
     def as_recorded(cls) -> IngestSettings:
-        """Return settings that change nothing: every step off."""
+        """Return settings with every step off that can be switched off."""
         return cls(
             missing_values=MissingValues(enabled=False),
             end_of_test=EndOfTest(enabled=False),
@@ -199,7 +202,7 @@ class IngestSettings(Strict):
 
 
 def limits_in(config: Path) -> FileLimits:
-    """Read the limits on the size of files of a configuration; the defaults if it has none.
+    """Read a configuration's limits on the size of files; the defaults if it has none.
 
     Raises
     ------

@@ -57,7 +57,7 @@ class AbaqusModel(Strict):
         first, smallest, largest = self.increments
         if not 0.0 < smallest <= first <= largest <= 1.0:
             raise ValueError(
-                "increments must hold 0 < smallest <= first <= largest <= 1, "
+                "increments must satisfy 0 < smallest <= first <= largest <= 1, "
                 f"got first, smallest, largest = {self.increments}"
             )
         return self

@@ -22,7 +22,7 @@ CALIBRATION = frozenset({"calibrated_with", "calibrated_axial"})
 class SpokeGeometry(Strict):
     """The '<' spoke's section, symmetric about its mid-height; lengths along the radius.
 
-    The paper only draws it (figure 6e): the defaults are calibrated by ``nptcs fe-calibrate`` on
+    The paper shows only a drawing (figure 6e): ``nptcs fe-calibrate`` calibrates the defaults on
     table 10 and five cases of table 5 with the ring ``paper_mesh``; ``fe_tyre`` and ``fe_spoke``
     take the section that was calibrated with their own ``ring`` (`SECTIONS`).
     """
@@ -50,8 +50,8 @@ class SpokeGeometry(Strict):
     calibrated_with: RingKind | None = Field(
         None,
         description="Ring of the tyres that the section was calibrated with, as `nptcs "
-        "fe-calibrate` prints it: no other ring takes it; null for a section that was drawn or "
-        "measured",
+        "fe-calibrate` prints it: it is refused with any other ring; null for a section that was "
+        "drawn or measured",
     )
     calibrated_axial: AxialFreedom | None = Field(
         None,
@@ -72,7 +72,7 @@ class SpokeGeometry(Strict):
         }
         heights = list(breaks.values())
         if any(b - a < 1e-3 for a, b in zip(heights[:-1], heights[1:], strict=True)):
-            raise ValueError(f"heights along a leg must grow in this order, got {breaks}")
+            raise ValueError(f"heights along a leg must increase in this order, got {breaks}")
         thinnest = min(self.leg_thickness_mm, self.block_thickness_mm, self.foot_thickness_mm)
         if self.plate_layer_mm >= thinnest:
             raise ValueError("plate_layer_mm must be thinner than leg, block and foot")
@@ -83,7 +83,7 @@ class SpokeGeometry(Strict):
         return self.model_copy(update=dict.fromkeys(CALIBRATION))
 
     def axial_notes(self, axial: AxialFreedom) -> list[str]:
-        """Say if the section was calibrated with tyres of another axial freedom than this one."""
+        """Say if the section was calibrated with tyres of an axial freedom other than this one."""
         if self.calibrated_axial in (None, axial):
             return []
         return [
@@ -120,7 +120,7 @@ def _without_layer(section: SpokeGeometry) -> SpokeGeometry:
     return section
 
 
-# section of a spoke whose mesh has no layer of its own for the plates
+# section of a spoke whose mesh has no separate layer for the plates
 LayerlessGeometry = Annotated[SpokeGeometry, AfterValidator(_without_layer)]
 
 
@@ -169,7 +169,7 @@ class EnergyTableOptions(Strict):
         gt=0,
         le=1,
         description="Part of the ranges of β and φ that is left at the lowest elongation, linear "
-        "from the unloaded one: the most compressed spokes stand on the ground and hardly turn",
+        "from the unloaded one: the most compressed spokes are over the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
         (7, 3, 3),
@@ -179,8 +179,8 @@ class EnergyTableOptions(Strict):
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
         description="States other than β = φ = 0: alternate has one at both ends and at every "
-        "second level of the elongation, neighbouring rows taking turns; every has all of them, "
-        "for half as much time again",
+        "second level of the elongation, alternating between neighbouring rows; every has all of "
+        "them, which takes half as much time again",
     )
     accepted_work: float = Field(
         1e-7,
@@ -218,7 +218,7 @@ class TyreMesh(Strict):
         0.05,
         gt=0,
         le=0.2,
-        description="Depth of the rows of elements that the wires bend in; it takes its part from "
+        description="Depth of the rows of elements in which the wires bend; it replaces part of "
         "the rubber between the wires, which then shears less, so it must stay thin",
     )
     first_spoke_deg: float = Field(
@@ -231,10 +231,10 @@ PAPER_COLUMNS = 270
 
 
 class PaperMesh(Strict):
-    """Mesh of the ring as table 4 counts it: quadrilaterals of four nodes with one pressure each.
+    """Mesh of the ring as in table 4: quadrilaterals of four nodes with one pressure each.
 
-    Two rows in the band and two in the tread; the wires are membranes embedded in them, and the
-    ground is felt at the nodes.
+    Two rows in the band and two in the tread; the wires are membranes embedded in them, and
+    contact with the ground acts at the nodes.
     """
 
     around: int = Field(PAPER_COLUMNS, ge=120, description="Elements around the circumference")
@@ -248,7 +248,7 @@ class PaperMesh(Strict):
         if around > PAPER_COLUMNS:
             raise ValueError(
                 f"at most {PAPER_COLUMNS} elements: the wires are membranes, which wrinkle in the "
-                "compressed layer at the length of the elements, so that a finer ring gets softer "
+                "compressed layer at the length of the elements, so a finer ring gets softer "
                 "without a limit; refine the ring `converged`, whose wires bend"
             )
         return around
@@ -286,7 +286,7 @@ SECTIONS: Mapping[RingKind, SpokeGeometry] = {
         calibrated_axial="free_edges",
     ),
 }
-"""Sections that `nptcs fe-calibrate` has found with each ring."""
+"""Sections that `nptcs fe-calibrate` found with each ring."""
 
 
 class FeSpokeModel(Strict):
@@ -296,8 +296,8 @@ class FeSpokeModel(Strict):
         "converged",
         description="Ring of the tyre, and with it the section of the spoke that was calibrated "
         "with it. converged: wires that bend, results that do not depend on the mesh; paper_mesh: "
-        "the ring as table 4 of the paper counts it, of membranes in coarse elements, to compare "
-        "with the paper",
+        "the ring as in table 4 of the paper, membranes in coarse elements, to compare with the "
+        "paper",
     )
     geometry: SpokeGeometry = Field(
         default_factory=SpokeGeometry,
@@ -307,15 +307,15 @@ class FeSpokeModel(Strict):
     spoke_mesh: SpokeMesh = Field(default_factory=SpokeMesh, description="Mesh of the spoke")
     plate_coupling: PlateCoupling = Field(
         "embedded",
-        description="embedded: the plates' mid-surface stays straight across their width, as that "
-        "of the paper's shells in bricks as wide as the plates; conforming: it moves with the "
+        description="embedded: the plates' mid-surface stays straight across their width, like "
+        "that of the paper's shells in bricks as wide as the plates; conforming: it moves with the "
         "rubber and may bow",
     )
 
     @model_validator(mode="before")
     @classmethod
     def _section_of_the_ring(cls, values: Any) -> Any:
-        """Complete the section by that of the ring, calibrated only if nothing is changed."""
+        """Complete the section from that of the ring; it is calibrated only if left unchanged."""
         if not isinstance(values, dict):
             return values
         section = SECTIONS.get(values.get("ring", cls.model_fields["ring"].default))
@@ -343,7 +343,7 @@ class FeSpokeModel(Strict):
 
 AXIAL_BULK_TO_SHEAR = 10.0
 """κ/2C10 with which a ring in plane strain is as soft as one 215 mm wide with free edges on ground
-that neither slips nor sticks altogether along the axis (``benchmarks/fe_axial_freedom.py``,
+that neither slips nor sticks completely along the axis (``benchmarks/fe_axial_freedom.py``,
 docs/methods/fe-theory.md)."""
 
 
@@ -352,8 +352,8 @@ class FeModel(FeSpokeModel):
 
     axial: AxialFreedom = Field(
         "free_edges",
-        description="Freedom of band and tread along the axis. free_edges: of a tyre as wide as "
-        "the paper's, by a bulk to shear ratio of 10 in plane strain, with which the sections "
+        description="Freedom of band and tread along the axis. free_edges: as in a tyre of the "
+        "paper's width, by a bulk-to-shear ratio of 10 in plane strain, with which the sections "
         "were calibrated; plane_strain: none, nearly incompressible",
     )
     table: EnergyTableOptions = Field(

@@ -18,11 +18,11 @@ from nptcs.config.solvers.fe import (
 
 
 class RingElements(Strict):
-    """Elements of the ring, two-node."""
+    """Two-node elements of the ring."""
 
     elements_per_pitch: int = Field(2, ge=1, description="Elements between two spokes' feet")
     refinement: int = Field(
-        5, ge=1, description="How many times as many there are near the contact"
+        5, ge=1, description="How many times as many elements there are near the contact"
     )
     refined_deg: float = Field(
         12.0, ge=0, le=180, description="Up to this angle from the middle of the contact"
@@ -39,8 +39,8 @@ class RingOptions(Strict):
     contact: GroundContact = Field(default_factory=GroundContact, description="The ground")
     axial: AxialFreedom = Field(
         "free_edges",
-        description="Freedom of band and tread along the axis, as in `fe_tyre`. free_edges: of a "
-        "tyre as wide as the paper's; plane_strain: none, incompressible",
+        description="Freedom of band and tread along the axis, as in `fe_tyre`. free_edges: as in "
+        "a tyre of the paper's width; plane_strain: none, incompressible",
     )
     wire_row_mm: float = Field(
         0.05,

@@ -1,4 +1,4 @@
-"""The section ``decisions:`` of the configuration: what is asked of a design."""
+"""The section ``decisions:`` of the configuration: what is required of a design."""
 
 from __future__ import annotations
 

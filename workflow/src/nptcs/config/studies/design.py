@@ -53,7 +53,7 @@ class CentralComposite(Strict):
 
 
 class BoxBehnken(Strict):
-    """Middles of the box's edges, and the centre; no case in a corner. Three to five factors."""
+    """Midpoints of the box's edges, and the centre; no case in a corner. Three to five factors."""
 
     kind: Literal["box_behnken"]
     centre_cases: int = Field(
@@ -97,16 +97,18 @@ class SplitPlot(Strict):
         "of the spokes; the others vary on each whole plot",
     )
     whole_plots: int = Field(
-        ge=2, description="How many values of the factors that are costly to change"
+        ge=2, description="Number of values of the factors that are costly to change"
     )
     cases_per_plot: int = Field(ge=2, description="Cases on each of them")
     corners: bool = Field(
-        True, description="Corners of the box of the costly factors are among the whole plots"
+        True, description="Whether the corners of the costly factors' box are among the whole plots"
     )
     log_spaced: tuple[str, ...] = Field(
         (), description="Factors that are spread evenly in their logarithm, such as moduli"
     )
-    seed: int = Field(1, ge=0, description="Of the random numbers: the same seed, the same cases")
+    seed: int = Field(
+        1, ge=0, description="Seed of the random numbers: the same seed gives the same cases"
+    )
     whole_plates: bool = Field(
         False, description="Move each spacing to the nearest one with a whole number of plates"
     )

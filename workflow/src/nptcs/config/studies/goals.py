@@ -26,7 +26,7 @@ ALIASES = {"K": "secant_stiffness"}
 
 
 class GoalKind(StrEnum):
-    """What is asked of a response."""
+    """What a goal requires of a response."""
 
     TARGET = "target"
     AT_LEAST = "at least"
@@ -65,7 +65,7 @@ class Goal:
     kind : GoalKind
         Targets and bounds must hold; minimise and maximise order the designs that meet them.
     response : ResponseName
-        What it is asked of.
+        The response that it concerns.
     value, plus_minus : float
         Target with its half width, or bound; not a number where the kind has none.
     weight : float
@@ -83,7 +83,7 @@ class Goal:
 
     @property
     def must_hold(self) -> bool:
-        """Whether a design that misses it is not acceptable."""
+        """Whether a design must meet it to be acceptable."""
         return self.kind in NEEDS_VALUE
 
     @property

@@ -90,7 +90,7 @@ class ResponseChoice(Strict):
         return self
 
     def at(self, study_load_n: float) -> str:
-        """Return where the response is taken, with its unit, as ``tyre_responses.csv`` says it."""
+        """Return where the response is taken, with its unit, as in ``tyre_responses.csv``."""
         if RESPONSE_KINDS[self.name].taken is Taken.UNLOADED:
             return ""
         if self.displacement_mm is not None:

@@ -18,7 +18,8 @@ class TyreResponseSettings(Strict):
     displacements_mm: tuple[float, ...] = Field(
         (25.0,),
         description="Displacements of the secant and tangent stiffness (section 4.3.1 names 25 "
-        "mm); a curve that ends before is reported as not reached, see `curve_to_mm` of fe_tyre",
+        "mm); a curve that ends before one is reported as not reached, see `curve_to_mm` of "
+        "fe_tyre",
     )
     plate_density_kg_per_m3: float | None = Field(
         None,

@@ -48,7 +48,7 @@ class RubberUncertainty(Strict):
 
 
 class Uncertainty(Strict):
-    """What the responses of a design are uncertain by, apart from the solver's own bias."""
+    """What makes the responses of a design uncertain, apart from the solver's own bias."""
 
     card: CardUncertainty = Field(
         "standard_error",

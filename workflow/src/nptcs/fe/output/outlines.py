@@ -1,4 +1,4 @@
-"""Outlines of the spokes, plates and band of a loaded tyre: what figure 10 a of the paper shows."""
+"""Outlines of the spokes, plates and band of a loaded tyre, as in figure 10 a of the paper."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ CELLS = 1
 """Drawn cells along each side of an element."""
 
 SAME_MM = 1e-6
-"""Corners of neighbouring cells that are no further apart are one point."""
+"""Corners of neighbouring cells that are no further apart than this are one point."""
 
 RIM_POINTS = 180
 
@@ -34,7 +34,7 @@ def outlines(cells: Array) -> list[list[int]]:
     Returns
     -------
     list of lists of int
-        Places of each line's points in the flattened corners, in order along it.
+        Indices of each line's points in the flattened corners, in order along it.
 
     Examples
     --------
@@ -56,7 +56,7 @@ def outlines(cells: Array) -> list[list[int]]:
 
 
 def _chained(edges: list[list[int]]) -> list[list[int]]:
-    """Put edges one behind the other until each line closes."""
+    """Join edges end to end until each line closes."""
     at: dict[int, list[int]] = {}
     for number, (start, end) in enumerate(edges):
         at.setdefault(start, []).append(number)
@@ -97,7 +97,7 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
     Raises
     ------
     SpokeError
-        If a spoke finds no equilibrium at its motion.
+        If a spoke has no equilibrium at its motion.
     """
     last = spoke.rest()
     rest = section_stress(spoke, last, CELLS)
@@ -123,7 +123,7 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
 
 
 CELLS_OF = {"spoke": "rubber", "plate": "plate"}
-"""Cells of a section that make each part."""
+"""Cells of a section that make up each part."""
 
 
 def _placed(points: Array, angle: float, rim_mm: float) -> Array:

@@ -12,7 +12,7 @@ from nptcs.ingest.reading.profiles import normalise
 from nptcs.tables.laboratory.specimens import Specimen
 
 SMALLEST_RATIO = 0.05
-"""Slope of one strain on the other below which its sign is not told from noise."""
+"""Slope of one strain on the other below which its sign cannot be told from noise."""
 OF_EQUAL_GAUGES = (0.5, 2.0)
 """Slope of one strain on the other where both are measured along the load."""
 _SAYS_ACROSS = ("trans", "lat", "quer", "width", "y", "x", "поперечн", "poprzeczn", "横")
@@ -24,7 +24,8 @@ def settle_transverse(signals: Signals, specimen: Specimen, columns: Mapping[str
     A laminate contracts across the load. A channel that grows with the axial strain is a
     contraction written as positive (the sheet's ``transverse_factor`` -1 turns it), or another
     gauge along the load: one that is only numbered (``Strain 2``) and as large as the first is
-    taken for the other face's. In both cases Poisson's ratio and the shear strain would be wrong.
+    taken as the gauge on the other face. In both cases Poisson's ratio and the shear strain would
+    be wrong.
 
     Parameters
     ----------
@@ -66,7 +67,7 @@ def settle_transverse(signals: Signals, specimen: Specimen, columns: Mapping[str
 def _ratio(force: Array, axial: Array, transverse: Array) -> float | None:
     """Slope of the transverse on the axial strain; None if not measured.
 
-    Up to half of the largest strain before the largest force: a gauge may leave later.
+    Taken up to half of the largest strain before the largest force: a gauge may come off later.
     """
     rows = np.arange(len(force)) <= int(np.nanargmax(np.abs(force)))
     rows &= np.isfinite(axial) & np.isfinite(transverse)

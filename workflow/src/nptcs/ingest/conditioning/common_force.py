@@ -1,4 +1,4 @@
-"""A force that both files recorded: its unit, its agreement, and the offset of the clocks."""
+"""A force recorded in both files: its unit, its agreement, and the offset of the clocks."""
 
 from __future__ import annotations
 
@@ -18,7 +18,7 @@ _DRIFT = 0.02
 
 
 def settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
-    """Tell the unit of the strain file's force from the force that the machine recorded.
+    """Determine the unit of the strain file's force from the force that the machine recorded.
 
     Raises
     ------
@@ -44,19 +44,20 @@ def settle_force_unit(force: RawFile, strain: RawFile, settings: Pairing, specim
         )
     strain.units["force"] = fitting[0]
     strain.values["force"] = readings * FACTORS["force"][fitting[0]]
-    strain.notes = (*strain.notes, f"force: taken as {fitting[0]}, its size is the machine's")
+    note = f"force: taken as {fitting[0]}, whose peak agrees with the machine's"
+    strain.notes = (*strain.notes, note)
 
 
 def scale_raw_force(force: RawFile, strain: RawFile, specimen: str) -> None:
-    """Bring the camera's force in volts to the machine's: by the peak, if the shapes agree.
+    """Scale the camera's force in volts to the machine's by the peak, if the shapes agree.
 
-    The differences of the times at which both reach the same shares of the peak are equal if they
-    are one signal; if the camera's record ends below the peak, or it is another signal, they drift.
+    If both are the same signal, they reach each share of the peak a constant time apart; if the
+    camera's record ends below the peak, or it is another signal, these times drift.
 
     Raises
     ------
     InputError
-        If they drift by more than `_DRIFT` of the time to the peak, or the machine has no time.
+        If they drift by more than `_DRIFT` of the camera's record, or a file has no time.
     """
     readings = strain.values["force"] - np.nanmedian(strain.values["force"][:3])
     ours, theirs = largest(force.values["force"]), largest(readings)
@@ -68,8 +69,8 @@ def scale_raw_force(force: RawFile, strain: RawFile, specimen: str) -> None:
     if not drift <= _DRIFT:
         raise InputError(
             f"force in {strain.units['force']} does not follow the machine's force",
-            "state its unit in a profile under 'wrong_units', or leave it out there and give "
-            "time_offset_s in the sheet",
+            "state its unit in a profile under 'wrong_units', or leave the force column out of the "
+            "profile and give time_offset_s in the sheet",
             strain.path,
             None,
             strain.columns["force"],
@@ -81,7 +82,7 @@ def scale_raw_force(force: RawFile, strain: RawFile, specimen: str) -> None:
 
 
 def require_equal_force(force: RawFile, strain: RawFile, settings: Pairing, specimen: str) -> None:
-    """Compare the force of both files: by the peak, or where one record ends before it.
+    """Compare the force of both files: by the peak, or by the slope where one ends before it.
 
     Raises
     ------
@@ -126,7 +127,7 @@ def _agreement(force: RawFile, strain: RawFile, theirs: Array) -> float:
 
 
 def _slope_difference(force: RawFile, strain: RawFile, theirs: Array) -> float:
-    """Relative difference from 1 of the slope of one force on the other at equal times."""
+    """Difference from 1 of the slope of one force on the other at equal times."""
     offset = _offset(force, strain, theirs)
     time = strain.values["time"] + offset
     ours_time, ours = force.values["time"], np.abs(force.values["force"])

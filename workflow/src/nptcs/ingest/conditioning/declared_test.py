@@ -49,11 +49,11 @@ _IN_NAMES: dict[NamedLoading, re.Pattern[str]] = {
     "compression": re.compile(r"(?i)\bdruck\b|\bdruckprobe|\bcomp\b|\bclc\b"),
     "flexure": re.compile(r"(?i)\bbiegung|\bbend\b|\b[34]pb\b|\bflex\b"),
 }
-"""Words that name the loading in a file's name, but may mean another thing in a text."""
+"""Words that name the loading in a file's name, but may mean something else in a text."""
 
 
 def loadings_in_name(path: str) -> set[NamedLoading]:
-    """Collect the loadings that the names of a file and its folders speak of."""
+    """Collect the loadings that the names of a file and its folders mention."""
     words = re.sub(r"[_/.-]", " ", path)
     short = {loading for loading, pattern in _IN_NAMES.items() if pattern.search(words)}
     return loadings_named([path.replace("_", " ")]) | short
@@ -81,9 +81,9 @@ def loading_of(test: TestType) -> NamedLoading:
 def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, name: str) -> None:
     """Stop if a file calls itself compression or flexure and the sheet says another loading.
 
-    The column names count, and the lines of the head that speak of test, method or standard; a
-    loading that the profile states replaces both. A name of file or folder that disagrees is
-    flagged only.
+    The column names count, and the lines of the head that mention a test, method or standard; a
+    loading that the profile states replaces both. A file or folder name that disagrees is only
+    flagged.
 
     Raises
     ------
@@ -100,7 +100,7 @@ def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, 
             continue
         own = " and ".join(sorted(named))
         if named == {"tension"}:
-            signals.flags.append(f"{where} of {table.path.name} speak of {own}")
+            signals.flags.append(f"{table.path.name} calls itself {own} ({where})")
             continue
         words = next((text for text in texts if loadings_named([text])), table.profile.name)
         raise InputError(
@@ -113,5 +113,5 @@ def require_declared_test(signals: Signals, specimen: Specimen, table: RawFile, 
     in_name = loadings_in_name(name)
     if in_name and stated not in in_name and not table.profile.loading:
         signals.flags.append(
-            f"the name '{name}' speaks of {' and '.join(sorted(in_name))}, the sheet of {stated}"
+            f"the name '{name}' says {' and '.join(sorted(in_name))}, the sheet says {stated}"
         )

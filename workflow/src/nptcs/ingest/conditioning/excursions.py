@@ -1,4 +1,4 @@
-"""Channels that leave for some readings and come back: a loose cable, an overloaded amplifier."""
+"""Channels that jump away for some readings and back: a loose cable, an overloaded amplifier."""
 
 from __future__ import annotations
 
@@ -10,12 +10,12 @@ from nptcs.ingest.conditioning.signals import STRAIN_CHANNELS, Signals
 from nptcs.ingest.reading.raw_file import RawFile
 
 SMALLEST_SHARE = 0.1
-"""Share of the channel's range: a smaller leap is not looked at, ..."""
+"""Share of the channel's range: a smaller leap is ignored, ..."""
 HELD_SHARE = 0.02
 """... unless the channel then stands still to the last digit, as a lost one does at zero."""
 USUAL_STEPS = 20.0
 LONGEST_SHARE = 0.05
-"""Share of the readings for which a channel may be away."""
+"""Largest share of the readings that an excursion may last."""
 SHORTEST = 5
 _BACK = 0.3
 _FEWEST = 20
@@ -24,9 +24,9 @@ _FEWEST = 20
 def empty_excursions(signals: Signals, settings: MissingValues) -> None:
     """Empty readings between a leap and the leap back, and what leaps up just before a break.
 
-    Only where the other channel, strain for a force and force for a strain, does not leap along: a
-    machine that unloads and loads within one reading moves both. Without another channel, at most
-    `SHORTEST` readings are emptied at a time.
+    Only where the other channel, strain for a force and force for a strain, does not leap at the
+    same time: a machine that unloads and loads within one reading moves both. Without another
+    channel, at most `SHORTEST` readings are emptied at a time.
 
     Parameters
     ----------
@@ -51,7 +51,7 @@ def empty_excursions(signals: Signals, settings: MissingValues) -> None:
     if found:
         words = ", ".join(f"{number} of {name}" for name, number in found.items())
         first = next(iter(found))
-        signals.flags.append(f"readings that leap away and back emptied: {words}")
+        signals.flags.append(f"readings that jump away and back were emptied: {words}")
         signals.note("excursions", f"emptied: {words}", **{f"{first}_readings": found[first]})
 
 
@@ -70,14 +70,14 @@ def empty_in_table(table: RawFile, settings: MissingValues) -> list[str]:
 
 
 def find_excursions(readings: Array, other: Array | None, before_break: bool) -> np.ndarray:
-    """Mark the readings of a channel that are away.
+    """Mark the readings of a channel that belong to an excursion.
 
     Parameters
     ----------
     readings, other : ndarray, shape (n,)
-        The channel, and the one that must not leap along.
+        The channel, and the one that must not leap at the same time.
     before_break : bool
-        Whether a leap up that ends below where it began counts, too.
+        Whether a leap up that ends below where it began counts as well.
 
     Returns
     -------
@@ -119,7 +119,7 @@ def find_excursions(readings: Array, other: Array | None, before_break: bool) ->
 
 
 def _along(other: Array | None, row: int, later: int, step: float, span: float) -> bool:
-    """Tell whether the other channel leaps along; without one, it does not."""
+    """Tell whether the other channel leaps at the same time; False without one."""
     if other is None or np.isnan(other[[row, later]]).any():
         return False
     finite = other[~np.isnan(other)]

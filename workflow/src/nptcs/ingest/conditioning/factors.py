@@ -45,10 +45,10 @@ def apply_factors(tables: Sequence[RawFile], specimen: Specimen) -> list[str]:
 
 
 def refuse_scaled_names(tables: Sequence[RawFile], specimen: Specimen) -> None:
-    """Refuse a column whose name holds a factor (``Load x10``), unless the sheet settles it.
+    """Refuse a column whose name contains a factor (``Load x10``), unless the sheet settles it.
 
-    Whether the readings are to be multiplied, or were, no name tells. A factor in the sheet settles
-    it, also one of 1, and so does a profile that the sheet names.
+    No name tells whether the readings are still to be multiplied, or already were. A factor in the
+    sheet settles it, even a factor of 1, and so does a profile that the sheet names.
 
     Raises
     ------
@@ -63,8 +63,8 @@ def refuse_scaled_names(tables: Sequence[RawFile], specimen: Specimen) -> None:
                 if not found or key in specimen.model_fields_set or not table.detected:
                     continue
                 raise InputError(
-                    f"the column's name holds a factor, '{found}': whether the readings still have "
-                    "to be multiplied by it cannot be told",
+                    f"the column's name contains a factor, '{found}': whether the readings still "
+                    "have to be multiplied by it cannot be told",
                     f"write the factor of the readings as {key} in the sheet, 1 if they are right "
                     "as they are",
                     table.path,

@@ -1,4 +1,4 @@
-"""Where a specimen breaks: told apart from an unloading, and from a record that just ends."""
+"""Where a specimen breaks, as opposed to an unloading, or to a record that just ends."""
 
 from __future__ import annotations
 
@@ -20,13 +20,13 @@ def failure_row(
 
     A fall of the force by `drop` of its maximum is failure if it is sudden (within 1 % of the
     readings up to the maximum, at least three) or if the specimen does not shorten meanwhile. A
-    gradual fall with a strain that goes back is an unloading: the search goes on behind it, since
+    gradual fall with a strain that goes back is an unloading: the search goes on after it, since
     the final pull of a cyclic test may stay below the first cycle.
 
     Parameters
     ----------
     force : ndarray, shape (n,)
-        In any unit and sign; NaN are passed over.
+        In any unit and sign; NaN are skipped.
     elongation : ndarray, shape (n,), or None
         Strain or travel in any unit and sign; None: only a sudden fall counts as failure.
     drop : float
@@ -56,7 +56,7 @@ def failure_row(
         back = stretch is not None and _goes_back(load, np.abs(stretch), begin, start, time)
         if not back and _is_failure(stretch, begin, end, peak):
             return int(rows[end])
-        # to the end of the unloading: what is left of it is not a fall of its own
+        # to the end of the unloading: the rest of it is not another fall
         start = end
         while start + 1 < len(load) and load[start + 1] <= load[start]:
             start += 1
@@ -64,7 +64,7 @@ def failure_row(
 
 
 def _goes_back(load: Array, stretch: Array, begin: int, start: int, time_s: Array | None) -> bool:
-    """Tell an unloading, elastic or of a specimen that softened, however fast."""
+    """Tell whether this is an unloading, elastic or of a softened specimen, however fast."""
     return unloads_along(load, stretch, begin, start, time_s) or returns_at_one_speed(
         load, stretch, begin, start
     )

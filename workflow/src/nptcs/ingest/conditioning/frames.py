@@ -17,7 +17,7 @@ def rows_by_trigger(force: RawFile, strain: RawFile) -> Rows | None:
     Returns
     -------
     ndarray of int, shape (frames,), or None
-        None if there is no trigger, or its edges are not as many as the frames.
+        None if there is no trigger, or the number of its edges is not that of the frames.
     """
     trigger = force.values.get("trigger")
     if trigger is None or np.isnan(trigger).any() or not np.ptp(trigger):
@@ -28,7 +28,7 @@ def rows_by_trigger(force: RawFile, strain: RawFile) -> Rows | None:
 
 
 def rows_by_number(force: RawFile, strain: RawFile) -> tuple[Rows, Rows] | None:
-    """Machine row of each frame, by a frame counter that both files hold.
+    """Machine row of each frame, by a frame counter that both files contain.
 
     The machine's counter stands still between two frames; the row in which it first shows a
     number is the row of that frame.

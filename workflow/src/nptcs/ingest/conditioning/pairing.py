@@ -23,7 +23,7 @@ from nptcs.ingest.reading.units import VOLTS
 
 FEWEST_COMMON_ROWS = 5
 _FRAMES_EXTENDED = 4
-"""Frames whose line is extended to the largest force, at most one frame further."""
+"""Frames whose line is extended to the largest force, by at most one frame."""
 
 
 def pair(
@@ -39,22 +39,22 @@ def pair(
     The rows are those of the slower file, so that no reading is counted twice; the reading of
     the largest force is added, so that no strength is lost between two camera frames. Between
     rows the faster file is interpolated linearly, but never across the failure of the specimen:
-    readings after it are left out of both files. The strain at the largest force, which lies
-    behind the last frame, is extended from the last frames by at most one frame, and flagged.
+    readings after it are left out of both files. The strain at the largest force, which comes
+    after the last frame, is extended from the last frames by at most one frame, and flagged.
 
     Parameters
     ----------
     force, strain : RawFile
         The two files.
     offset_s : float or None
-        Added to the strain file's time. None: from the force that both recorded, else 0 and
+        Added to the strain file's time. None: from the force that both recorded; otherwise 0, and
         the onsets of loading are compared.
     settings : Pairing
         Tolerances.
     specimen : str
         For messages.
     force_drop : float
-        Fall of the force that is failure (``end_of_test.force_drop``).
+        Fall of the force that counts as failure (``end_of_test.force_drop``).
 
     Raises
     ------
@@ -85,7 +85,7 @@ def pair(
     raise InputError(
         "strain and force cannot be paired: the files share neither time nor force, and no "
         "trigger or frame number that fits",
-        "export the time in both, or the force as analog channel in the strain file",
+        "export the time in both, or the force as an analog channel in the strain file",
         strain.path,
         specimen=specimen,
     )
@@ -198,7 +198,7 @@ def _by_time(
         )
     if len(signals) < FEWEST_COMMON_ROWS:
         raise InputError(
-            f"only {len(signals)} rows are common in time",
+            f"only {len(signals)} rows overlap in time",
             "give time_offset_s in the sheet, or check that both belong to one specimen",
             strain.path,
             specimen=specimen,
@@ -222,7 +222,7 @@ def _require_growing_time(table: RawFile, specimen: str) -> None:
     if bad.any():
         first = int(np.argmax(bad)) + 1
         raise InputError(
-            f"time does not grow from reading {first} to {first + 1}",
+            f"time does not increase from reading {first} to {first + 1}",
             "delete the reading, or export one test per file",
             table.path,
             column=table.columns["time"],

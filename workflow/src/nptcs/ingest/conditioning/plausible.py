@@ -69,7 +69,7 @@ def check_labels(signals: Signals, specimen: Specimen, table: RawFile, settings:
 def check_physics(
     signals: Signals, specimen: Specimen, tables: Sequence[RawFile], settings: Plausible
 ) -> None:
-    """Stop if strain or apparent modulus cannot be.
+    """Stop if the strain or the apparent modulus is physically impossible.
 
     Raises
     ------
@@ -109,7 +109,7 @@ def check_physics(
 
 MAY_BE_PERCENT = {False: (0.05, 1e4), True: (1.0, 0.2)}
 """Strain beyond which, and modulus in MPa below which, readings without a unit may as well be
-percent (rubber: True): a hundred times that modulus is still one of such a material."""
+percent (rubber: True): a hundred times that modulus is still plausible for such a material."""
 
 
 def _check_assumed_unit(
@@ -125,7 +125,8 @@ def _check_assumed_unit(
         raise InputError(
             f"no unit for strain, and its largest reading {largest:.4g} may be a strain or a "
             "percentage",
-            "state the unit in a profile under 'units' ('1' or '%'), name the profile in the sheet",
+            "state the unit in a profile under 'units' ('1' or '%') and name the profile in the "
+            "sheet",
             table.path,
             column=table.columns[assumed[0]],
             specimen=specimen.specimen,
@@ -134,7 +135,7 @@ def _check_assumed_unit(
 
 
 LARGE_STRAIN = 0.1
-"""Strain of a laminate that is worth a look at its unit, where the modulus is low as well, ..."""
+"""Strain of a laminate beyond which its unit is worth a look, if the modulus is low as well, ..."""
 STIFF_IF_PERCENT = (1e4, 3e5)
 """... and a hundred times the modulus would be that of a laminate (MPa)."""
 
@@ -161,7 +162,7 @@ SMALL_STRAIN = 0.2
 
 
 def _flag_small_strain(signals: Signals, specimen: Specimen, largest: float) -> None:
-    """Flag a rubber that breaks at a strain which would be usual a hundred times larger."""
+    """Flag a rubber that breaks at a strain that would be usual a hundred times larger."""
     if signals.failure_seen and specimen.test.load_sign > 0 and largest < SMALL_STRAIN:
         signals.flags.append(
             f"a rubber that breaks at a strain of {100 * largest:.3g} % by the unit of the file; "
@@ -170,7 +171,7 @@ def _flag_small_strain(signals: Signals, specimen: Specimen, largest: float) -> 
 
 
 def apparent_modulus(signals: Signals) -> float | None:
-    """Secant modulus between 10 and 50 % of the largest stress that has a strain, in MPa."""
+    """Secant modulus between 10 and 50 % of the largest stress with a measured strain, in MPa."""
     stress, strain = np.abs(signals.values["stress"]), np.abs(signals.values["strain_axial"])
     measured = ~np.isnan(strain)
     stress, strain = stress[measured], strain[measured]

@@ -9,31 +9,33 @@ from nptcs.ingest.conditioning.signals import Signals
 from nptcs.ingest.conditioning.strains import NO_STRAIN
 
 WINDOW, FEWEST = 30, 8
-"""Readings on each side of a leap of which the slopes are taken, and the fewest of them."""
+"""Readings on each side of a leap from which the slopes are taken, and the fewest allowed."""
 SMALLEST = 0.1
 """Share of the force by which it must leap: less may be a tow or a ply that breaks."""
 ALIKE = 0.1
-"""Difference of slopes that are the same; a specimen that broke in part is softer by its share."""
+"""Largest relative difference of slopes that count as equal; a specimen that broke in part is
+softer by the part that broke."""
 STEADY = 5.0
-"""Of a leap the step of the force is at least so many usual ones, that of the strain at most."""
+"""At a leap the step of the force is at least this many usual steps, that of the strain at most."""
 CERTAIN = 0.03
 """Largest standard error of a slope, as a share of it."""
 RANGES = (10.0, 100.0, 1000.0, 0.1, 0.01, 0.001)
 
 
 def cut_rescaled(signals: Signals, source: str) -> None:
-    """Cut the record where the force leaps while the gauge goes on, and the stiffness stays.
+    """Cut the record where the force leaps while the strain goes on and the stiffness stays.
 
     A specimen that breaks in part has lost its share of the stiffness; one that slips in the grips
-    gives back strain. A load cell that was tared again goes on with the slope of before, and one
-    whose range was switched with a slope and a force that both are a power of ten of those before.
+    gives back strain. A load cell that was tared again goes on with the same slope as before, and
+    one whose range was switched with a slope and a force that are both the same power of ten times
+    those before.
 
     Parameters
     ----------
     signals : Signals
         With ``force`` and ``strain_axial``; is cut and flagged.
     source : str
-        Source of the strain; travel tells nothing, since it goes on when a specimen slips.
+        Source of the strain; travel shows nothing, since it goes on when a specimen slips.
     """
     if source in ("crosshead", NO_STRAIN):
         return
@@ -50,11 +52,11 @@ def cut_rescaled(signals: Signals, source: str) -> None:
     signals.flags.append(
         f"the force leaps from {before:.5g} to {after:.5g} N while the strain goes on, and then "
         "grows as stiffly as before: the load cell was probably set to zero again; cut from there, "
-        "so that neither strength nor failure is known"
+        "so neither strength nor failure is known"
         if factor == 1
         else f"the force leaps from {before:.5g} to {after:.5g} N while the strain goes on, and "
         f"then grows at {factor:g} times that scale: its range was probably switched; cut from "
-        "there, so that neither strength nor failure is known"
+        "there, so neither strength nor failure is known"
     )
 
 
@@ -66,7 +68,7 @@ def rescaled_from(load: Array, strain: Array) -> tuple[int, float] | None:
     load : ndarray, shape (n,)
         Magnitude of the force.
     strain : ndarray, shape (n,)
-        Strain of a gauge, of one sign; may hold NaN.
+        Strain of a gauge, of one sign; may contain NaN.
     """
     known = np.flatnonzero(np.isfinite(strain) & np.isfinite(load))
     if len(known) < 2 * FEWEST:
@@ -82,7 +84,7 @@ def rescaled_from(load: Array, strain: Array) -> tuple[int, float] | None:
 
 
 def _goes_on(force: Array, strain: Array, last: int) -> float | None:
-    """Factor of the scale with which the force goes on after reading `last`; None if it does not.
+    """Factor of the scale at which the force goes on after reading `last`; None if it does not.
 
     It is 1 where the zero was set again.
     """

@@ -12,7 +12,7 @@ FEWEST_READINGS = 5
 LAST_DIGIT = 2e-4
 """Share of the largest force by which such readings may differ: the last digit of a converter."""
 LONGER = 4
-"""So many times longer than any other standstill of the force on its way up."""
+"""The standstill must be this many times longer than any other of the force on its way up."""
 STRETCHED = 0.05
 """Share of the whole elongation that the specimen must gain meanwhile."""
 FULL_RATE = 0.5
@@ -23,8 +23,8 @@ goes over a maximum slows down first."""
 def cut_saturated(signals: Signals) -> None:
     """Cut the record where the load cell, or its channel, reached the end of its range.
 
-    What is read from there on is not the force, so that neither strength nor failure is known; what
-    lies before it stays.
+    What is read from there on is not the force, so neither strength nor failure is known; the
+    readings before it are kept.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def cut_saturated(signals: Signals) -> None:
     signals.note("load cell", f"stands still at {highest:.5g} N: {rows} rows cut", rows=rows)
     signals.flags.append(
         f"load cell saturated: the force stands still at {highest:.5g} N while the specimen is "
-        "stretched; cut from there, so that neither strength nor failure is known"
+        "stretched; cut from there, so neither strength nor failure is known"
     )
 
 
@@ -57,7 +57,7 @@ def saturated_from(load: Array, elongation: Array) -> int | None:
     load : ndarray, shape (n,)
         Magnitude of the force; finite.
     elongation : ndarray, shape (n,)
-        Strain or travel in any unit and sign; may hold NaN.
+        Strain or travel in any unit and sign; may contain NaN.
     """
     highest = float(load.max())
     at_limit = load >= highest * (1 - LAST_DIGIT)

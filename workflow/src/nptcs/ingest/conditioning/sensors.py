@@ -1,4 +1,4 @@
-"""Sensors that leave their specimen: taken off, slipped, moved back, stuck."""
+"""Sensors that stop measuring their specimen: taken off, slipped, moved back, stuck."""
 
 from __future__ import annotations
 
@@ -16,12 +16,12 @@ AXIAL_CHANNELS = ("strain", "stretch", "extension", "displacement")
 _LEAST_SIGHT = 6
 _LARGER = 3.0
 _HELD = 0.9
-"""Share of the largest force above which a test that was stopped still holds it."""
+"""Share of the largest force above which a test that was stopped still holds its load."""
 
 
 @dataclass(frozen=True)
 class Loss:
-    """The first reading that a sensor did not measure on the specimen, and how it shows."""
+    """The first reading at which a sensor no longer measured the specimen, and how it shows."""
 
     row: int
     what: str
@@ -30,7 +30,7 @@ class Loss:
 def empty_lost_channels(
     signals: Signals, settings: ExtensometerRemoval, rubber: bool, gauge_length_mm: float | None
 ) -> None:
-    """Empty each axial channel from where its sensor left, before axis and sign are judged.
+    """Empty each axial channel from where its sensor came off, before axis and sign are judged.
 
     A sensor that rests at -3 % after it was taken off would otherwise turn the sign of the strain
     of the whole test. Lengths are judged as strains over the gauge length.
@@ -119,7 +119,7 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     Parameters
     ----------
     strain, force : ndarray, shape (n,)
-        In any sign; looked at up to the largest force, and on while that force is held.
+        Of any sign; examined up to the largest force, and beyond it while that force is held.
     jump_factor : float
         A leap is this many times the usual step.
     smallest : float
@@ -139,7 +139,7 @@ def find_jump(strain: Array, force: Array, jump_factor: float, smallest: float) 
     usual = float(np.median(moving)) if len(moving) else 0.0
     usual_gain = float(np.median(np.abs(gain)))
     size = np.abs(step)
-    # a travel through slack is fast for long: a leap is larger than the step just before it
+    # travel through slack is fast for a long time: a leap is larger than the step just before it
     before = np.concatenate([[np.inf], size[:-1]])
     leaps = (size > max(jump_factor * usual, smallest)) & (size > _LARGER * before)
     leaps &= (gain > -0.05 * load[peak]) & (np.abs(gain) < 0.25 * jump_factor * usual_gain)
@@ -173,8 +173,8 @@ def find_reversal(strain: Array, force: Array, share: float, smallest: float) ->
 def find_stuck(strain: Array, force: Array, share: float) -> Loss | None:
     """First reading from which the force climbs by `share` of its peak and more, without strain.
 
-    Standing still counts to the end of the climb only: a start that lags is a toe, and a leap
-    is found by `find_jump`.
+    Only a standstill that lasts to the end of the climb counts: a start that lags is a toe, and a
+    leap is found by `find_jump`.
     """
     if not len(force):
         return None
@@ -186,7 +186,7 @@ def find_stuck(strain: Array, force: Array, share: float) -> Loss | None:
         return None
     gains = np.diff(strain[rows])
     usual = float(np.median(gains[gains > 0])) if (gains > 0).any() else 0.0
-    # two readings differ by noise alone, so that standing still is less than it, too
+    # two readings differ by noise alone, so a difference below the noise is a standstill, too
     noise = 4 * 2**0.5 * noise_of(strain[~np.isnan(strain)])
     least = max(0.02 * usual, min(noise, 0.25 * usual), np.finfo(float).tiny)
     moving = np.flatnonzero(gains >= least)
@@ -197,7 +197,7 @@ def find_stuck(strain: Array, force: Array, share: float) -> Loss | None:
 
 
 def _stands_from(strain: Array, rows: Rows, last: int) -> int:
-    """First reading at the level at which the strain then stands: at most one step earlier.
+    """First reading at the level at which the strain then stays, at most one step earlier.
 
     The steps are coarse; a reading of the climb without strain would count at too high a force.
     """

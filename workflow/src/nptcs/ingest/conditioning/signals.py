@@ -29,7 +29,7 @@ LENGTHS = ("extension", "displacement", "extension_transverse")
 class Signals:
     """Quantity → readings (s, N, mm, MPa, dimensionless), all of one length.
 
-    `steps` and `flags` tell what was done to them; both end up in the ingest record.
+    `steps` and `flags` say what was done to them; both end up in the ingest record.
     `failure_seen` tells whether a break was recorded, in these rows or in those left out.
     """
 

@@ -1,4 +1,4 @@
-"""Tension positive, compression negative: turned only where file, test and physics agree."""
+"""Tension positive, compression negative: signs turned only where file, test and physics agree."""
 
 from __future__ import annotations
 
@@ -35,7 +35,7 @@ def orient(
     path : Path
         For messages.
     settings : Signs
-        From which share on a part of the other sign counts.
+        Share from which a part of the other sign counts.
     source : str
         Strain source; ``crosshead`` has no sign of its own.
 
@@ -82,7 +82,7 @@ def _turn_tension(
     if mainly_negative:
         _turn(signals, ("force",))
         signals.flags.append(
-            "force is recorded negative while the gauge lengthens: its sign was turned"
+            "force is recorded as negative while the gauge lengthens: its sign was turned"
         )
         return ["force"]
     if slope >= 0:
@@ -102,7 +102,7 @@ def _turn_tension(
 
 
 def _turn_pressing(signals: Signals, wanted: float, settings: Signs) -> list[str]:
-    """Turn what a machine that presses writes with the other sign (compression, bending).
+    """Turn what a machine writes with the other sign in a compression or bending test.
 
     Recorded signs count if both sides are large.
     """

@@ -43,10 +43,11 @@ def _is_dead(readings: Array, largest_share: float) -> bool:
 
 
 def empty_spikes(signals: Signals, settings: MissingValues) -> None:
-    """Empty single readings far from both neighbours: a bit lost, a digit lost.
+    """Empty single readings far from both neighbours, such as those with a lost bit or digit.
 
-    A reading counts if it leaves both neighbours, to one side, by more than ``spike_share`` of
-    the channel's range (1st to 99th percentile) and 20 usual steps; failure leaves but one.
+    A reading counts if it is off both neighbours, to the same side, by more than ``spike_share``
+    of the channel's range (1st to 99th percentile) and 20 usual steps; at a failure it is off
+    only one of them.
     """
     if not settings.enabled:
         signals.skipped("spikes")
@@ -82,7 +83,7 @@ def _spikes(readings: Array, share: float) -> Rows:
 
 
 def drop_empty_rows(signals: Signals, settings: MissingValues) -> None:
-    """Drop rows without force, and frames without strain that lie between frames with one.
+    """Drop rows without force, and frames without strain between frames with one.
 
     Rows after the last strain stay, and the row of the largest force: they carry the strength.
     """

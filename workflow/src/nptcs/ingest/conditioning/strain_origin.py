@@ -42,11 +42,11 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
     The toe compensation of ASTM D638 annex A1 extends the straight part to zero stress. Here
     the part above the toe is a parabola, strain = c0 + c1·σ + c2·σ² (least squares), which is
     the line where the material is linear and does not bias it where it is not (±45° and
-    rubber). All strains are shifted by their c0. A preload is thereby a true force, whose
-    strain was lost when the strain was set to zero.
+    rubber). All strains are shifted by their c0. So a preload counts as a true force whose strain
+    was lost when the strain was set to zero.
 
     A shift that is not clear of its error (`OriginOfStrain.significance`) is not applied: it
-    would add the scatter of the readings to every value. Its error goes with the record.
+    would add the scatter of the readings to every value. Its error is kept in the record.
 
     Parameters
     ----------
@@ -55,7 +55,7 @@ def correct_origin(signals: Signals, settings: OriginOfStrain, rubber: bool) -> 
     settings : OriginOfStrain
         Window, fewest points, poorest fit.
     rubber : bool
-        Takes the rubber window.
+        Whether to use the window for rubber.
     """
     if not settings.enabled:
         signals.skipped("strain origin")
@@ -154,9 +154,9 @@ def _loading_begins(
     """Find the first reading of the straight part, after slack and a long toe.
 
     The slope between 20 and 50 % of the rise is what the straight part should have. Slack is
-    strain that is passed below 2 % of the rise and beyond what that slope explains. A laminate's
-    toe ends where the slope over 5 % of the rise first comes to 90 % of it; a rubber's own curve
-    may steepen as much, so that only its slack is found.
+    strain that is passed below 2 % of the rise, beyond what that slope explains. A laminate's
+    toe ends where the slope over 5 % of the rise first reaches 90 % of it; a rubber's own curve
+    may steepen as much, so only its slack is found.
 
     Returns
     -------

@@ -19,11 +19,11 @@ from nptcs.tables.laboratory.specimens import Specimen
 AMBIGUOUS_RATIO = 0.9
 """Two in-plane strains closer than this cannot be told apart."""
 NO_STRAIN = "none"
-"""Strain source of a test that shows its strength only."""
+"""Strain source of a test that gives only its strength."""
 NO_STRAIN_FLAG = "no strain: "
 """Beginning of the flag of such a test."""
 NO_TRANSVERSE = "no transverse strain"
-"""Beginning of the flag of a test whose transverse extensometer gives none."""
+"""Beginning of the flags of a test whose transverse strain could not be read."""
 
 
 def resolve_strains(
@@ -71,17 +71,20 @@ def resolve_strains(
     values["strain_transverse"] = empty if transverse is None else transverse
     values["strain_axial_back"] = values.pop("strain_back", empty)
     if source == "crosshead":
-        signals.flags.append("crosshead strain: modulus and strains hold machine and grips")
+        signals.flags.append(
+            "crosshead strain: modulus and strains include the compliance of machine and grips"
+        )
     elif source == NO_STRAIN:
         why = (
-            "gauge_length_mm is empty in the sheet, so that the crosshead travel cannot become one"
+            "gauge_length_mm is empty in the sheet, so crosshead travel cannot be converted to "
+            "strain"
             if "displacement" in values
-            else f"column '{columns['displacement']}' holds no travel in a unit of length"
+            else f"column '{columns['displacement']}' contains no travel in a unit of length"
         )
         left = (
             "a shear test needs axial and transverse strain"
             if specimen.test.strains_alike
-            else "the strength rests on the force alone, whose unit no modulus checks"
+            else "the strength is based on the force alone, and no modulus checks its unit"
         )
         signals.flags.append(f"{NO_STRAIN_FLAG}{why}; {left}")
     elif source == "unspecified":
@@ -116,8 +119,8 @@ _STRAIN_WORD = re.compile(
 def flag_unread_strains(signals: Signals, table: RawFile, source: str) -> None:
     """Flag columns that may be a strain and were not read, where only travel was.
 
-    A word in the name says so, or a unit of strain or length under no name of a travel. A column
-    named after a transverse strain is flagged where no transverse strain was read.
+    A word in the name suggests it, or a unit of strain or length where the name is not that of a
+    travel. A column named after a transverse strain is flagged where no transverse strain was read.
     """
     read = {name for quantity, name in table.columns.items() if quantity in table.values}
     if not {"strain_transverse", "extension_transverse", "strain_yy"} & set(table.values):
@@ -144,7 +147,7 @@ def _single(
     compliance: float | None,
     path: Path,
 ) -> tuple[str, Array, str]:
-    """One channel along the load, the best that is there: its name, strain and source.
+    """Take the best channel along the load that there is: its name, strain and source.
 
     A travel without a length leaves the strain empty where the strength needs none.
     """
@@ -214,7 +217,7 @@ def _follows(strain: Array, travel: Array | None) -> bool:
 def _axes(
     signals: Signals, specimen: Specimen, columns: Mapping[str, str], path: Path
 ) -> tuple[Array, Array]:
-    """Axial and transverse out of exx and eyy: axial is the larger, or alone follows the load."""
+    """Axial and transverse from exx and eyy: axial is the larger, or follows the load alone."""
     slopes = {name: slope_over_force(signals, name) for name in ("strain_xx", "strain_yy")}
     ordered = sorted(slopes, key=lambda name: abs(slopes[name]), reverse=True)
     stated = _stated_axis(specimen, columns)
@@ -247,7 +250,7 @@ def _axis_by_sign(signals: Signals, specimen: Specimen, slopes: Mapping[str, flo
     """Strain of a ±45° laminate that grows with the load while the other one shrinks.
 
     Their size does not tell them apart there: its Poisson's ratio is near 1. Only where the force
-    has the sign of the test: else a load cell may be reversed.
+    has the sign of the test: otherwise the load cell may be reversed.
     """
     if not specimen.test.strains_alike:
         return None

@@ -8,7 +8,7 @@ from nptcs.arrays import Array
 from nptcs.ingest.conditioning.signals import Signals
 
 SMALLEST_SHARE = 0.01
-"""Share of the largest force below which a rest is friction or noise."""
+"""Share of the largest force below which a remaining force is friction or noise."""
 FEWEST = 3
 _BROKEN = 0.25
 
@@ -17,8 +17,8 @@ def flag_tare(signals: Signals) -> None:
     """Flag a force that is the same before loading and after the break, and not zero.
 
     A preload is a true force and ends with the break; what stays is an offset of the load cell,
-    or the weight of a grip, and every stress is wrong by it. Where the record shows no break
-    nothing tells the two apart, and nothing is said.
+    or the weight of a grip, and every stress is wrong by it. Where the record shows no break,
+    nothing tells the two apart, and nothing is flagged.
 
     Parameters
     ----------
@@ -38,7 +38,7 @@ def flag_tare(signals: Signals) -> None:
 
 
 def _after_break(force: Array) -> float | None:
-    """Force at which a broken record comes to rest; None where it does not break and rest."""
+    """Force that stays after a break; None where there is no break or the force does not settle."""
     peak = int(np.argmax(np.abs(force)))
     rest = force[peak + 1 :]
     low = np.flatnonzero(np.abs(rest) < _BROKEN * abs(force[peak]))

@@ -27,7 +27,7 @@ def tests_of(
 
 
 def join_continued(tests: Sequence[Test]) -> list[Test]:
-    """Join each table with those that go on where it ends.
+    """Join each table with those that continue where it ends.
 
     Parameters
     ----------

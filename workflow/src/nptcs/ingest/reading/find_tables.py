@@ -27,8 +27,8 @@ _OF_A_SUMMARY = re.compile(
 def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable]:
     """Find every table of at least `SMALLEST_TABLE` rows.
 
-    Blank rows and one-cell remarks inside a table are left out and noted. A row that is
-    neither numbers nor remark nor names, in the middle of a table, stops the file.
+    Blank rows and one-cell remarks inside a table are left out and noted. A row in the middle of
+    a table that is neither numbers, a remark nor names is an error.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ def find_tables(source: CellSource, path: Path, unnamed: str) -> list[FoundTable
 
 
 def _drop_footer(source: CellSource, found_table: FoundTable) -> None:
-    """Leave out rows of a summary below the readings: ``Maximum``, ``Mean`` and their like."""
+    """Leave out rows of a summary below the readings: ``Maximum``, ``Mean`` and the like."""
     while len(found_table.rows_of_data) > SMALLEST_TABLE:
         row = found_table.rows_of_data[-1]
         if source.kinds[row] != "odd data":
@@ -99,8 +99,8 @@ def _settle_unnamed(source: CellSource, found_table: FoundTable, unnamed: str, p
                 row + 1,
             )
     found_table.columns = found_table.columns[:first]
-    what = "with notes" if filled else "and values"
-    found_table.notes.append(f"{surplus} phantom column(s) without name {what} left out")
+    what = "with notes but no name" if filled else "without name or values"
+    found_table.notes.append(f"{surplus} phantom column(s) {what} left out")
 
 
 def _names_are_in_place(source: CellSource, found_table: FoundTable, filled: int) -> bool:
@@ -135,7 +135,7 @@ def _settle_clocks(source: CellSource, found_table: FoundTable, path: Path) -> N
 
 
 def _settle_units(source: CellSource, found_table: FoundTable, path: Path) -> None:
-    """Take the units behind the numbers; units that change within a column are an error."""
+    """Take the units after the numbers; units that change within a column are an error."""
     if not source.units_in(found_table.first):
         return
     rows = {row: source.units_in(row) for row in found_table.rows_of_data}

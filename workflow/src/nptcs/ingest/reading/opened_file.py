@@ -72,7 +72,7 @@ def open_file(
     try:
         status = path.stat()
         if not stat.S_ISREG(status.st_mode):
-            # a pipe or a device would be read for ever
+            # reading a pipe or a device might never end
             what = "a folder" if path.is_dir() else "a pipe or a device"
             raise InputError(f"is {what}, not a file", "name a file in the sheet", path)
         refuse_larger(path, "file_mb", status.st_size / 1e6, limits.file_mb, "MB")
@@ -103,7 +103,7 @@ Reader = Literal["workbook", "binary table", "text"]
 
 
 def reader_of(raw: bytes) -> Reader:
-    """Tell by the first bytes which reader a file needs; whatever is nothing else is text."""
+    """Tell by the first bytes which reader a file needs; anything else is text."""
     if is_workbook(raw):
         return "workbook"
     return "binary table" if is_binary_table(raw) else "text"
@@ -132,7 +132,7 @@ def _open_text(
             path,
         )
     if raw.endswith(b"\x00\x00\x00\x00"):
-        raw = raw.rstrip(b"\x00")  # a file whose space was reserved and not filled
+        raw = raw.rstrip(b"\x00")  # a file whose space was reserved but not filled
     decoded = decode(raw, path, profile.encoding, vocabulary(profiles))
     written = split_lines(join_grouped_digits(decoded.text))
     upright = upright_lines(written)

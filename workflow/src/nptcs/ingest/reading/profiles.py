@@ -38,7 +38,7 @@ Quantity = Literal[
 UNITLESS: tuple[Quantity, ...] = ("frame", "trigger", "x", "y")
 """Numbers of frames, trigger levels and places in a picture: taken as they are."""
 COUNTERS: tuple[Quantity, ...] = ("frame", "trigger")
-"""Of these a machine may record any under the names of `PLAIN`."""
+"""Any machine may record these under the names of `PLAIN`."""
 ContentKind = Literal["text", "workbook"]
 """Lines whose dialect is to be found, or sheets of native cells (also of TDMS and MAT files)."""
 Label = Literal["width", "thickness", "area", "gauge_length", "specimen"]
@@ -86,7 +86,7 @@ class FormatProfile(Strict):
     missing: tuple[str, ...] = Field((), description="Further words for 'no value'")
     strain_source: StrainSource = Field("unspecified", description="What measures the strain")
     loading: Literal["", "tension", "compression", "flexure"] = Field(
-        "", description="What such files are, whatever their words say; empty: as they say"
+        "", description="Loading of the tests in such files; empty: by the words in the file"
     )
     window: dict[Literal["x", "y"], tuple[float, float]] = Field(
         default_factory=dict,
@@ -134,7 +134,7 @@ class FormatProfile(Strict):
 
 @lru_cache(maxsize=16384)
 def normalise(name: str) -> str:
-    """Write a column name the one way in which names are compared: no case, accents, wide forms."""
+    """Write a column name as names are compared: without case, accents and wide forms."""
     if not name.isascii():
         wide = unicodedata.normalize("NFKD", name)
         name = "".join(mark for mark in wide if not unicodedata.combining(mark))
@@ -169,7 +169,7 @@ _QUALIFIERS = (
     "channel signal value calculated calc computed current specimen sample standard of the a "
     "en por de di da in продольная осевая средняя 軸 平均"
 )
-"""Words of a name that say how a quantity was measured, and not which it is."""
+"""Words of a name that say how a quantity was measured, not which it is."""
 
 
 @lru_cache(maxsize=4096)
@@ -224,7 +224,7 @@ def load_profiles(folder: str | Path) -> dict[str, FormatProfile]:
     Raises
     ------
     InputError
-        If a profile is not valid, two have the same name, or there is none.
+        If a profile is not valid or not named like its file, or there is no profile `PLAIN`.
     """
     folder = Path(folder)
     profiles: dict[str, FormatProfile] = {}

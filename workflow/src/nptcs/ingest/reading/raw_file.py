@@ -31,7 +31,7 @@ TRUE_STRAINS = ("true strain", "logarithmic strain", "hencky strain", "wahre deh
 
 @dataclass
 class RawFile:
-    """The table of one test as a file holds it.
+    """The table of one test as read from a file.
 
     Parameters
     ----------
@@ -40,7 +40,7 @@ class RawFile:
     columns, units : dict of str to str
         Quantity → column name and unit as found.
     head, names : tuple of str
-        Lines above the names; all names of the table, also of columns that are not used.
+        Lines above the names; all names of the table, including columns that are not used.
     unread : tuple of str
         Columns that were not read and may be a strain or an extension, with their units.
     assumed : tuple of str
@@ -113,11 +113,11 @@ def read_raw(
     declared : FormatProfile, optional
         The profile that the sheet names; None: detect.
     part : str
-        Workbook sheet, table number or test name; needed if the file holds several.
+        Workbook sheet, table number or test name; needed if the file contains several.
     specimen : str
         Specimen id; chooses the part of that name if no part is given.
     role : Role
-        ``force``, ``strain`` or ``force and strain``: what the table must hold.
+        ``force``, ``strain`` or ``force and strain``: what the table must contain.
     limits : FileLimits
         Largest file that is read.
 
@@ -158,7 +158,7 @@ def read_raw(
 
 
 def _reading(table: RawFile) -> tuple[tuple[str, bytes], ...]:
-    """Return what a table says, to compare two readings of one file."""
+    """Return the values of a table, to compare two readings of one file."""
     return tuple((name, values.tobytes()) for name, values in sorted(table.values.items()))
 
 
@@ -189,7 +189,7 @@ def sources_of(
 
 
 def _dialect(opened: OpenedFile, profile: FormatProfile) -> Dialect:
-    """Find the dialect; a delimiter of the profile that the file does not keep is looked for."""
+    """Find the dialect; a profile's delimiter that does not fit the file is detected instead."""
     try:
         return find_dialect(opened.lines, profile, opened.path)
     except InputError:
@@ -258,7 +258,7 @@ def _unread(test: Test) -> tuple[str, ...]:
 def _values(
     test: Test, profile: FormatProfile, path: Path, role: Role
 ) -> tuple[dict[str, Array], dict[str, str], list[str]]:
-    """Read the mapped columns and bring them to base units, without rows empty in all of them."""
+    """Read the mapped columns and convert them to base units; rows empty in all are left out."""
     quantities, notes = _readable_quantities(test, profile, path, role)
     units, scales = {}, []
     for quantity in quantities:
@@ -284,7 +284,7 @@ def _readable_quantities(
     quantities, notes = dict(test.quantities), []
     if role == "force and strain" and "time" in quantities and not _has_unit("time", test, profile):
         del quantities["time"]
-        notes.append("time: no unit, left out; nothing of one file rests on it")
+        notes.append("time: no unit, left out; nothing in a single file depends on it")
     for quantity in [name for name in ACROSS if name in quantities]:
         try:
             _unit_and_scale(quantity, test, profile, path, role)
@@ -298,7 +298,7 @@ def _readable_quantities(
 def _unit_and_scale(
     quantity: str, test: Test, profile: FormatProfile, path: Path, role: Role
 ) -> tuple[str, float, str]:
-    """Give the unit of a quantity, the factor to the base unit, and a note.
+    """Return the unit of a quantity, the factor to the base unit, and a note.
 
     The force of a strain file only pairs it with the force file: it needs no unit of force.
     """
@@ -307,7 +307,7 @@ def _unit_and_scale(
         if column.unit in VOLTS and "force" not in profile.wrong_units:
             return str(column.unit), 1.0, f"force: in {column.unit}, its shape pairs the files"
         if not _has_unit("force", test, profile):
-            return "", 1.0, "force: no unit, to be told from the force file's peak"
+            return "", 1.0, "force: no unit, to be determined from the peak of the force file"
     found_table = test.found_table
     may_assume = role == "strain" or any(column.unit for column in found_table.columns)
     return unit_of(quantity, column, profile, may_assume, path, found_table.end_of_head + 1)
@@ -319,7 +319,7 @@ def _runs_back(time: Array) -> bool:
 
 
 def _agrees_with_true_strain(test: Test, strain: Array) -> bool:
-    """Tell whether the table holds a true strain that is ln(1 + ε): only a strain ε fits it."""
+    """Tell whether the table contains a true strain that is ln(1 + ε): only a strain ε fits it."""
     columns = [c for c in test.found_table.columns if normalise(c.name) in TRUE_STRAINS]
     if len(columns) != 1:
         return False

@@ -73,7 +73,7 @@ def describe_columns(
     found_table : FoundTable
         Gets ``columns``, ``names_row`` and ``notes``.
     above : sequence of (int, list of str)
-        The filled rows above it with their numbers, nearest first; three are enough.
+        The filled rows above it with their numbers, nearest first; four are enough.
     unnamed : str
         ``first`` or ``last``: where columns without a name are; empty: not declared.
     """

@@ -25,7 +25,7 @@ _UNIT_IN_WORDS = (
     (rf"(?P<name>.*{_OF_LOAD})\s*[\[(（](?-i:T)[\])）]", "ton", _WHOLE),
 )
 """Names that say their unit in words, the unit, and the name without it: ``Percentage Strain``,
-``StrainMicro``, ``Load (t)``; a `t` or `µ` alone is a unit only behind such a name."""
+``StrainMicro``, ``Load (t)``; a `t` or `µ` alone is a unit only after such a name."""
 _PATTERNS = tuple(
     (re.compile(f"(?i)^{words}$"), unit, rest) for words, unit, rest in _UNIT_IN_WORDS
 )
@@ -33,9 +33,9 @@ _UNCLOSED = re.compile(r"^([^\[(（]+)[\[(（]([^\])）]+)$")
 """A name whose end was cut off: ``Kraft [kN``."""
 _WRITTEN_TOGETHER = re.compile(r"(?<=[a-z])(?=(?:[A-Z][a-z]*|KN|MPa|GPa)$)")
 NO_UNIT = frozenset(["-", "1", "strain", "abs", "pound", "d", "g", "me", "e-6", "e-3"])
-"""Units that behind a name are a part of it, unless in brackets."""
+"""Units that are part of a name when they follow it, unless in brackets."""
 _WORDS = frozenset(["k", "v", "j", "h", "m", "min", "in", "minutes"])
-"""The same of a word or letter behind a blank: ``Force min``, ``Load in``."""
+"""The same for a word or letter after a blank: ``Force min``, ``Load in``."""
 _CAPACITY = re.compile(r"\s(?P<number>\d+(?:\.\d+)?)$")
 _SMALLEST_CELL = 5.0
 """A smaller number before a unit of force is that of a channel: ``Load 2 N``."""

@@ -269,7 +269,7 @@ VOLTS = frozenset(["V", "mV", "mV/V"])
 """Units of a raw signal, which is a quantity only with the calibration of its sensor."""
 
 TONS = frozenset(["ton", "tons", "tonf", "ton-f", "ton force"])
-"""Units of force that mean another force in each country, in small letters."""
+"""Units of force that mean a different force in each country, in lower case."""
 
 DIMENSION = {
     "time": "time",
@@ -293,7 +293,7 @@ DIMENSION = {
     "gauge_length": "length",
     "area": "area",
 }
-"""Quantity → dimension; the quantities are all that ingest knows."""
+"""Quantity → dimension, for all quantities that ingest knows."""
 
 BRACKETS = re.compile(r"\[([^\[\]]*)\]|\(([^()]*)\)|（([^（）]*)）|<([^<>]*)>")
 _POWER_OF_TEN = re.compile(
@@ -342,7 +342,7 @@ def find_unit(dimension: str, text: str) -> str | None:
 
 @lru_cache(maxsize=4096)
 def is_unit(text: str) -> bool:
-    """Tell whether `text` is a unit of any dimension, also of one that ingest does not use."""
+    """Tell whether `text` is a unit of any dimension, even one that ingest does not use."""
     unit = clean_unit(text)
     if unit in OTHER_UNITS or unit.casefold() in TONS:
         return True
@@ -350,7 +350,7 @@ def is_unit(text: str) -> bool:
 
 
 def factor(quantity: str, unit: str) -> float | None:
-    """Factor from `unit` to the base unit of `quantity`, None if it is not a unit of it."""
+    """Factor from `unit` to the base unit of `quantity`, None if it is not one of its units."""
     dimension = DIMENSION[quantity]
     found = find_unit(dimension, unit)
     return None if found is None else FACTORS[dimension][found]

@@ -13,7 +13,7 @@ from nptcs.loading import Loading, loadings
 from nptcs.tables.laboratory.specimens import Specimen
 
 SMALLEST_SET = 0.002
-"""A strain left at the start of a later loading that is smaller is not taken off."""
+"""A smaller strain that is left at the start of a later loading is not subtracted."""
 
 
 @dataclass(frozen=True)
@@ -31,7 +31,7 @@ class Branch:
     reaches_peak : bool
         Whether the chosen loading ends at the largest force of the record.
     words : tuple of str
-        How many loadings were found and which one was taken; empty where there is one.
+        How many loadings were found and which one was taken; empty where there is only one.
     """
 
     rows: pd.DataFrame
@@ -42,7 +42,7 @@ class Branch:
 
 
 def loading_branch(curve: pd.DataFrame, specimen: Specimen) -> Branch:
-    """Turn a curve so that its load is positive, find its loadings, take the sheet's.
+    """Turn a curve so that its load is positive, and take the loading that the sheet names.
 
     Parameters
     ----------
@@ -94,7 +94,7 @@ def _turned(curve: pd.DataFrame, specimen: Specimen) -> pd.DataFrame:
 
 
 def _one_at_least(specimen: Specimen, found: list[Loading]) -> None:
-    """Refuse a number of a loading beyond those of the record."""
+    """Refuse the number of a loading that the record does not have."""
     if specimen.loading.isdigit() and int(specimen.loading) > len(found):
         raise InputError(
             f"the record has {len(found)} loading{'s' if len(found) > 1 else ''}",

@@ -33,9 +33,9 @@ class Chord:
     slope, intercept : float
         Line through the two ends (or the regression line); NaN where not assessed.
     x_low, x_high : float
-        Ends really used.
+        Ends that were used.
     points : int
-        Recorded points that the slope rests on.
+        Recorded points that the slope is based on.
     r_squared : float
         R² of the least-squares line over all points in the range, whatever the method.
     standard_error : float

@@ -20,17 +20,17 @@ TAKEN_OFF = (
     "off (counts only if the sheet states failed: yes)"
 )
 TAKEN_OFF_SHARE = 0.8
-"""Share of the largest force above which a gauge that leaves says nothing of a way to failure."""
+"""Share of the largest force: a gauge that comes off above it is no sign of a test to failure."""
 FULL_RATE = 0.5
 """Share of the usual rate at which the force must still grow at the end of such a record."""
 
 
 @dataclass(frozen=True)
 class Evidence:
-    """Whether a specimen failed; `reason` says why what needs failure is not assessed.
+    """Whether a specimen failed; `reason` says why values that need failure are not assessed.
 
     A failure that is not `recorded` is likely, but no reading shows it: the largest stress is
-    given and flagged, and no mean takes it in.
+    given and flagged, and enters no mean.
     """
 
     failed: bool
@@ -40,7 +40,7 @@ class Evidence:
 
     @property
     def not_seen(self) -> str:
-        """Reason why what happened at failure is not assessed; empty where it was recorded."""
+        """Reason why values at failure are not assessed; empty where failure was recorded."""
         return self.reason if not self.failed else "" if self.recorded else UNRECORDED
 
 

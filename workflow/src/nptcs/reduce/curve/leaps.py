@@ -8,19 +8,19 @@ from nptcs.arrays import Array
 from nptcs.reduce.curve.chord import fit_line
 
 SMALLEST_SHARE = 0.03
-"""Share of the range: a smaller leap changes the slope by less than a lab repeats it."""
+"""Share of the range: a smaller leap changes the slope by less than its repeatability."""
 CLEAR = 6.0
-"""A leap is so many standard deviations of what the other readings do."""
+"""A leap exceeds this many standard deviations of the other steps."""
 FEWEST = 20
 
 
 def leap_within(
     strain: Array, stress: Array, low: float, high: float, *, of_both: bool = False
 ) -> str:
-    """Say where a strain leaps within a range although the stress goes on.
+    """Say where a strain leaps within a range while the stress does not.
 
     Each reading is compared with the one a fiftieth of the range's readings before it. A strain
-    that grows in coarse steps of the logger leaps many times, and is not meant.
+    that grows in coarse steps of the logger leaps many times, and is not reported.
 
     Parameters
     ----------
@@ -29,7 +29,7 @@ def leap_within(
     low, high : float
         Range of strain.
     of_both : bool
-        The second one is a strain, too: its leaps count as well.
+        Whether `stress` is a strain, too, whose leaps count as well.
 
     Returns
     -------

@@ -10,12 +10,12 @@ from nptcs.reduce.curve.chord import Line, fit_line
 NO_LAMINATE = 1.5
 """Ratio of slopes within a range that no laminate shows, but slack or a toe does."""
 STEEPER = 0.03
-"""Share by which a curve may be steeper above the range before it is looked at: less than a
-laboratory repeats a modulus."""
+"""Share by which a curve may be steeper above the range without a remark: less than the
+repeatability of a modulus in a laboratory."""
 CARBON = 20.0
 """Stiffening of carbon fibres, by some 20 % per percent of strain: share per unit of strain."""
 CLEAR = 3.0
-"""A difference of slopes counts beyond so many of its standard errors."""
+"""A difference of slopes counts beyond this many of its standard errors."""
 UPPER = (0.4, 0.65, 0.9)
 """Shares of the largest strain that bound the two parts of the curve above the range."""
 FEWEST = 4
@@ -29,12 +29,12 @@ def stiffening(strain: Array, stress: Array, low: float, high: float) -> float:
 
 
 def toe_words(strain: Array, stress: Array, low: float, high: float) -> list[str]:
-    """Say that a toe may reach into the range: within it, or against the curve above it.
+    """Say that a toe may reach into the range: seen within it, or against the curve above it.
 
     Fibres stiffen, too, but go on doing so, while above a toe the curve is straight. Where it
-    clearly does not stiffen from the one part above the range to the other, it may be steeper
-    there than within the range by `STEEPER`; elsewhere by what carbon fibres add to that on the
-    way.
+    clearly does not stiffen from one part above the range to the other, it may be steeper there
+    than within the range by `STEEPER`; otherwise by `STEEPER` and what carbon fibres add over
+    that strain.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def toe_words(strain: Array, stress: Array, low: float, high: float) -> list[str
     within = stiffening(strain, stress, low, high)
     if within - 1 > STEEPER + CARBON * (high - low) / 2:
         by = f"{100 * (within - 1):.2g} %"
-        return [f"the curve stiffens by {by} within the range: a toe may be left"]
+        return [f"the curve stiffens by {by} within the range: a toe may remain"]
     if not len(strain):
         return []
     # above the range, up to where the last readings before failure begin
@@ -83,7 +83,7 @@ def _ratio(lower: Line | None, upper: Line | None) -> tuple[float, float]:
 
 
 def _goes_on(lower: Line | None, upper: Line | None) -> bool:
-    """Tell whether the curve may still stiffen from the one part to the other, as fibres do."""
+    """Tell whether the curve may still stiffen from one part to the other, as fibres do."""
     ratio, error = _ratio(lower, upper)
     known = lower is not None and upper is not None
     return not known or ratio - 1 + CLEAR * error > STEEPER

@@ -1,4 +1,4 @@
-"""Which values count: of the runs that the sheet names for them, once for each piece."""
+"""Which values count: those of the runs that the sheet names for them, once for each piece."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ from nptcs.tables.laboratory.specimens import Specimen
 GROUP = ["test", "material", "orientation_deg", "property"]
 NOT_ASSESSED = "not assessed: "
 WITHOUT_STRAIN = ("strength", "flexural_strength", "time_to_failure")
-"""Properties that need no strain, so that its source does not matter."""
+"""Properties that need no strain, so its source does not matter."""
 TRAVEL_NEXT_TO_SENSORS = (
     f"{NOT_ASSESSED}{CROSSHEAD}, where other specimens of the group have a sensor"
 )
@@ -24,8 +24,8 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
     """Rows of a property table that enter statistics and cards, one for each piece.
 
     A row counts if the sheet includes its specimen and takes the property from this run. A value
-    whose failure no reading shows is emptied: it is not assessed for any mean. So is one that rests
-    on crosshead travel where another specimen of the group has a sensor. Runs that give the same
+    whose failure no reading shows is emptied: it is not assessed for any mean. So is one from
+    crosshead travel where another specimen of the group has a sensor. Runs that give the same
     property of the same piece count once, with the mean of their values.
 
     Parameters
@@ -54,7 +54,7 @@ def counted(properties: pd.DataFrame, sheet: Mapping[str, Specimen]) -> pd.DataF
 
 
 def _recorded(rows: pd.DataFrame) -> pd.DataFrame:
-    """Empty the values that are the largest of a record which shows no failure."""
+    """Empty the values that are the largest of a record that shows no failure."""
     open_ = rows["value"].notna() & rows["flags"].str.contains(UNRECORDED, regex=False)
     if not open_.any():
         return rows
@@ -65,8 +65,8 @@ def _recorded(rows: pd.DataFrame) -> pd.DataFrame:
 def of_sensors(rows: pd.DataFrame, group: Sequence[str]) -> pd.DataFrame:
     """Empty what crosshead travel gives in groups in which another specimen has a sensor.
 
-    Travel holds the compliance of machine and grips, so that a modulus from it can be a third of
-    the material's. Where no specimen of a group has a sensor all of its values stay, flagged.
+    Travel includes the compliance of machine and grips, so a modulus from it can be a third of
+    the material's. Where no specimen of a group has a sensor, all of its values stay, flagged.
 
     Parameters
     ----------
@@ -100,7 +100,7 @@ def _one_row(piece: str, runs: pd.DataFrame) -> pd.DataFrame:
 
 
 def why_not(flags: str) -> str:
-    """Reason of a value that was not assessed, out of its flags."""
+    """Reason why a value was not assessed, from its flags."""
     reasons = [f for f in flags.split("; ") if f.startswith(NOT_ASSESSED)]
     return reasons[0].removeprefix(NOT_ASSESSED) if reasons else "no value"
 

@@ -35,7 +35,7 @@ def group_statistics(
         with its reason in the column ``left_out``; so does a property that the sheet takes from
         another run. Runs of one piece count once.
     settings : ReductionSettings
-        Standards (for the number of specimens asked for) and statistics.
+        Standards (for the number of specimens that they require) and statistics.
 
     Returns
     -------
@@ -113,7 +113,7 @@ def _number_notes(
         notes.append(f"assessed: {len(measured)} of {len(included)}")
         notes.append("not assessed: " + ", ".join(lacking))
     if len(measured) < asked:
-        notes.append(f"n = {len(measured)}, {title} asks for {asked}")
+        notes.append(f"n = {len(measured)}, {title} requires {asked}")
     if len(set(measured["range"])) > 1:
         notes.append("ranges differ between specimens")
     raw = measured.loc[measured["flags"].str.contains(NOT_CORRECTED, regex=False), "specimen"]

@@ -18,7 +18,7 @@ def reduce_compression(branch: Branch, rules: AstmD6641, evidence: Evidence) -> 
     F_cu = P_f/(w h); chord modulus on the mean of the strains of both faces; bending
     B_y = 100 (ε1 - ε2)/(ε1 + ε2) in the middle of the chord and at failure. All values are
     magnitudes. With strain on one face only, bending is "not assessed" and every value that
-    rests on strain says so.
+    depends on strain says so.
 
     Parameters
     ----------

@@ -28,8 +28,8 @@ def reduce_flexure(
 ) -> list[Property]:
     """Flexural modulus, strength and strain at failure.
 
-    The curve holds stress and strain of the outer face (`nptcs.bending.BentBar`). Modulus: chord
-    Δσ/Δε. Strength: the largest stress, corrected for a large deflection where the standard
+    The curve contains stress and strain of the outer face (`nptcs.bending.BentBar`). Modulus:
+    chord Δσ/Δε. Strength: the largest stress, corrected for a large deflection where the standard
     says how and the deflection is known.
 
     Parameters
@@ -41,7 +41,7 @@ def reduce_flexure(
     bar : BentBar
         Section and spans.
     strain_source : str
-        Where the strain came from; a strain gauge or DIC tells no deflection.
+        Where the strain came from; a strain gauge or DIC gives no deflection.
     evidence : Evidence
         Whether the bar failed.
     """
@@ -105,5 +105,5 @@ def _remarks(rules: FlexureRules, bar: BentBar) -> list[str]:
     share = bar.loading_span_mm / bar.span_mm
     if not any(abs(share - allowed) <= 0.01 for allowed in rules.loading_spans):
         allowed = " or ".join(f"{one:.3g}" for one in rules.loading_spans)
-        found.append(f"loading span {share:.3g} of the span, {rules.title} has {allowed}")
+        found.append(f"loading span {share:.3g} of the span, {rules.title} specifies {allowed}")
     return found

@@ -20,8 +20,8 @@ def reduce_rubber_compression(
     """Stress at given compressions and the secant modulus stress over strain there.
 
     Nominal stress F/A0 against compression Δh/h0, both positive (ISO 7743: modulus at 10 and
-    20 %). With dry or bonded platens the disc barrels: both are those of the disc and of its
-    shape, not of the material.
+    20 %). With dry or bonded platens the disc barrels: both values then belong to the disc and its
+    shape, not to the material.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ def reduce_rubber_compression(
     rules : RubberCompressionRules
         Section of the standard in force.
     platens : str
-        As the sheet has it; empty where it does not say.
+        As stated in the sheet; empty where it is not.
     """
     strain, stress = finite_pair(branch, "strain_axial", "stress_mpa")
     rows: list[Property] = []
@@ -49,7 +49,7 @@ def _secant(at: Property, percent: float, strain: Array, rules: RubberCompressio
 
 
 def disc_barrels(platens: Platens) -> bool | None:
-    """Tell whether friction makes a disc barrel; None where the sheet does not say."""
+    """Tell whether friction makes a disc barrel; None where the platens are not stated."""
     match platens:
         case "lubricated":
             return False

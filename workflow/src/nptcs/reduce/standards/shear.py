@@ -31,7 +31,7 @@ def reduce_shear(branch: Branch, rules: ShearRules, evidence: Evidence) -> list[
     rules : ShearRules
         Section of the standard in force.
     evidence : Evidence
-        Whether the specimen failed; a curve that is cut at γ = 0.05 needs none.
+        Whether the specimen failed; a curve that is cut at γ = 0.05 needs no failure.
     """
     gamma, tau = shear_curve(branch.rows)
     chord_words = chord_rule(rules.title, rules.chord_method)
@@ -72,7 +72,7 @@ def chord_deviations(chord: Chord, rules: ShearRules) -> list[str]:
         # 1e-9 of strain: far below what any sensor resolves, far above rounding
         if allowed and value == value and not allowed[0] - 1e-9 <= value <= allowed[1] + 1e-9:
             low, high = allowed
-            flags.append(f"chord {words} {value:.4g}, {rules.title} asks for {low:g} to {high:g}")
+            flags.append(f"chord {words} {value:.4g}, {rules.title} requires {low:g} to {high:g}")
     return flags
 
 

@@ -31,7 +31,7 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
 
     σ = P/A (ASTM D3039, 13.1), E = Δσ/Δε (13.3.1), ν = -Δε_t/Δε_l (13.4.1), all slopes over
     one strain range. Where the ultimate strain is below ``low_ultimate_strain`` the range is
-    25 to 50 % of the ultimate strain (D3039, table 3 footnote), as happens to 90° specimens.
+    25 to 50 % of the ultimate strain (D3039, table 3 footnote), as with 90° specimens.
 
     Parameters
     ----------
@@ -58,9 +58,7 @@ def reduce_tension(branch: Branch, rules: TensionRules, evidence: Evidence) -> l
         poisson_ratio(branch.rows, rules, low, high, nominal),
     ]
     if ultimate.value != ultimate.value and _may_be_low(branch, rules):
-        words = (
-            f"ultimate strain not known, so not whether it is below {rules.low_ultimate_strain:g}"
-        )
+        words = f"ultimate strain not known, so it may be below {rules.low_ultimate_strain:g}"
         remarks.append(words)
     slopes = [row.flagged(remarks) for row in slopes]
     return [*slopes, strength(branch.to_peak, rules.title, evidence), ultimate]
@@ -139,7 +137,10 @@ def no_slope(strain: Array, stress: Array, low: float, high: float) -> str:
     if leap := leap_within(strain, stress, low, high):
         return leap
     if (ratio := stiffening(strain, stress, low, high)) > NO_LAMINATE:
-        return f"the curve stiffens {ratio:.3g} times within the range: slack or toe is left"
+        return (
+            f"the curve stiffens by a factor of {ratio:.3g} within the range: slack or a toe "
+            "remains"
+        )
     return ""
 
 

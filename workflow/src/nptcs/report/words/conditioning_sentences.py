@@ -1,4 +1,4 @@
-"""What the ingest did to the readings of a specimen, and what it noticed."""
+"""What ingest did to the readings of a specimen, and what it noticed."""
 
 from __future__ import annotations
 
@@ -66,24 +66,24 @@ SENTENCES = (
     # flags of an ingest record
     translatable(
         "load cell saturated: the force stands still at {force} N while the specimen is "
-        "stretched; cut from there, so that neither strength nor failure is known"
+        "stretched; cut from there, so neither strength nor failure is known"
     ),
     translatable(
         "the force leaps from {before} to {after} N while the strain goes on, and then grows "
         "as stiffly as before: the load cell was probably set to zero again; cut from there, "
-        "so that neither strength nor failure is known"
+        "so neither strength nor failure is known"
     ),
     translatable(
         "the force leaps from {before} to {after} N while the strain goes on, and then grows "
         "at {factor} times that scale: its range was probably switched; cut from there, so "
-        "that neither strength nor failure is known"
+        "neither strength nor failure is known"
     ),
     translatable(
         "column '{name}' in {unit}: read in metric tons (9806.65 N), since the other columns "
         "are metric"
     ),
     translatable("{count} wild readings emptied: {names}"),
-    translatable("readings that leap away and back emptied: {names}"),
+    translatable("readings that jump away and back were emptied: {names}"),
     translatable(
         "machine area {area} mm² differs from the sheet's {ours} mm²; the sheet's was used"
     ),

@@ -1,7 +1,7 @@
-"""Flags and checks that the tables hold in English, in the language of the page.
+"""Flags and checks, which the tables have in English, in the language of the page.
 
-A table is the same in every language, so that its flags are English sentences with numbers in them.
-The page finds the sentence that a flag was made from, and writes its translation with the same
+A table is the same in every language: its flags are English sentences with numbers in them. The
+page finds the sentence that a flag was made from, and writes its translation with the same
 numbers. A flag of another wording stays as the table has it.
 """
 
@@ -17,20 +17,22 @@ from nptcs.report.words.conditioning_sentences import SENTENCES as CONDITIONING
 from nptcs.report.words.reduction_sentences import SENTENCES as REDUCTION
 
 SENTENCES = (
-    translatable("crosshead strain: the compliance of machine and grips is in it"),
-    translatable("crosshead strain: modulus and strains hold machine and grips"),
+    translatable("crosshead strain: it includes the compliance of machine and grips"),
+    translatable(
+        "crosshead strain: modulus and strains include the compliance of machine and grips"
+    ),
     translatable("source of the strain not stated"),
     translatable("the file does not say what measured the strain"),
     translatable("{name} not given, area: {rule}"),
     translatable("{name} {mean} mm, {standard} recommends {low} to {high} mm"),
     translatable("{name} measured at {count} of {stations} stations"),
-    translatable("failure after {minutes} min, {standard} asks for {low} to {high} min"),
+    translatable("failure after {minutes} min, {standard} requires {low} to {high} min"),
     translatable(
         "the gauge length grows at {speed} mm/min, {standard} (500 mm/min between the grips) "
         "expects {low} to {high}"
     ),
     translatable("{count} of {loadings} loadings, {standard} measures the last"),
-    translatable("chord {words} {value}, {standard} asks for {low} to {high}"),
+    translatable("chord {words} {value}, {standard} requires {low} to {high}"),
     translatable(
         "strain at the largest force extended from the last {frames} frames before it, by {time}"
     ),
@@ -48,7 +50,7 @@ SENTENCES = (
     translatable("B-basis provisional: n = {n} < {full}"),
     translatable("no B-basis: n = {n}, at least {smallest}"),
     translatable("not normally distributed (Shapiro-Wilk p = {p}): B-basis doubtful"),
-    translatable("n = {n}, {standard} asks for {asked}"),
+    translatable("n = {n}, {standard} requires {asked}"),
     translatable("ranges differ between specimens"),
     translatable("preload and toe corrected in the others, not in {names}"),
     translatable("assessed: {count} of {total}"),
@@ -62,8 +64,10 @@ SENTENCES = (
     translatable("{rule}: no test states how uncertain it is"),
     translatable("uncertainty.tolerances of the configuration"),
     translatable("prediction interval of the surface, at least its error at left-out cases"),
-    translatable("effect of the ply not assessed: the lamination form is made for stiffness"),
-    translatable("effect of the ply not assessed: the lamination form has S, T and A alone"),
+    translatable("effect of the ply not assessed: the lamination form describes only stiffness"),
+    translatable(
+        "effect of the ply not assessed: the lamination form has only the factors S, T and A"
+    ),
     translatable("effect of the rubbers not assessed: no study of this solver varies them"),
     translatable("effect of the rubbers not assessed: their study varies other factors too"),
     translatable("ordinary least squares in coded units, solved cases only"),
@@ -77,7 +81,7 @@ SENTENCES = (
 """The sentences, as the stages write them; ``{…}`` stands for what differs."""
 
 JOINTS = (" | ", "; ")
-"""What stands between several sentences: rules of several tests, then sentences of one rule."""
+"""Separators of several sentences: between rules of several tests, between sentences of one."""
 
 SPAN = re.compile(r"^(?P<low>[-+.\de]+) to (?P<high>[-+.\de]+)(?P<unit>.*)$", re.DOTALL)
 """The lowest and the highest number of flags that are collected into one."""
@@ -86,7 +90,7 @@ SPAN = re.compile(r"^(?P<low>[-+.\de]+) to (?P<high>[-+.\de]+)(?P<unit>.*)$", re
 def flag_text(flag: str) -> str:
     """Write a sentence of a stage, or several that are joined, in the language of the run.
 
-    A text that no sentence makes is looked up whole, so that a user's own words stay as they are.
+    A text that matches no sentence is looked up whole, so a user's own words stay as they are.
 
     Examples
     --------
@@ -99,7 +103,7 @@ def flag_text(flag: str) -> str:
 
 @cache
 def _flag_text(flag: str, language: Language) -> str:
-    """Write a flag in the current language, which is named so that each has its own answer."""
+    """Write a flag in the current language, an argument so that each has its cache entry."""
     if (written := translated(flag, SENTENCES)) is not None:
         return written
     for mark in JOINTS:
@@ -124,7 +128,7 @@ def translated(text: str, sentences: Sequence[str]) -> str | None:
 
 @cache
 def pattern(sentence: str) -> re.Pattern[str]:
-    """Return the pattern of all flags that a sentence makes.
+    """Return the pattern that all flags made from a sentence match.
 
     Examples
     --------
@@ -139,7 +143,7 @@ def pattern(sentence: str) -> re.Pattern[str]:
 
 
 def _value(text: str) -> str:
-    """Write what a sentence holds: a sentence, a span of numbers, a list of terms, or as it is."""
+    """Write a value in a sentence: itself a sentence, a span of numbers, a list, or as it is."""
     if " " in text and (written := translated(text, SENTENCES)) is not None:
         return written
     if span := SPAN.fullmatch(text):

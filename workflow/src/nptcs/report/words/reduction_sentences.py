@@ -45,8 +45,10 @@ SENTENCES = (
     translatable("the recorded point nearest to {end} is {value}"),
     translatable("the curve goes back by {drop} inside the range"),
     translatable("the strain leaps by {size} at {strain}, within the range: a slip"),
-    translatable("the curve stiffens {ratio} times within the range: slack or toe is left"),
-    translatable("the curve stiffens by {share} within the range: a toe may be left"),
+    translatable(
+        "the curve stiffens by a factor of {ratio} within the range: slack or a toe remains"
+    ),
+    translatable("the curve stiffens by {share} within the range: a toe may remain"),
     translatable(
         "the curve is {share} % steeper above the range (strain {low} to {high}) than within "
         "it: a toe may reach into the range"
@@ -67,7 +69,7 @@ SENTENCES = (
     translatable("strain ends at {strain}: {chord} than {range}"),
     translatable("strain begins at {strain}: {chord} than {range}"),
     translatable("chord over another range"),
-    translatable("ultimate strain not known, so not whether it is below {limit}"),
+    translatable("ultimate strain not known, so it may be below {limit}"),
     translatable("failure as the sheet states it"),
     translatable("stopped before failure, as the sheet states"),
     translatable(
@@ -86,7 +88,7 @@ SENTENCES = (
         "{fall} and the strain returns at one speed: a break, or a machine that returns with "
         "a softened specimen"
     ),
-    translatable("{fall}, slowly, and no strain tells whether by unloading"),
+    translatable("{fall}, slowly, and without a strain it is not clear whether by unloading"),
     translatable("the force falls by {share} % of its largest value"),
     translatable("the force relaxes at a held strain"),
     translatable("no usable times"),
@@ -102,7 +104,7 @@ SENTENCES = (
         "span to thickness {ratio}, {standard} expects {low} to {high}: shear lowers the "
         "modulus of a short span"
     ),
-    translatable("loading span {share} of the span, {standard} has {allowed}"),
+    translatable("loading span {share} of the span, {standard} specifies {allowed}"),
     translatable("{count} loadings in the record, {name} taken"),
     translatable("the first"),
     translatable("number {number}"),

@@ -1,10 +1,10 @@
-"""What reading a specimen's files says where it fails: message and remedy, without their values."""
+"""Messages and remedies where a specimen's files cannot be read, without their values."""
 
 from __future__ import annotations
 
 from nptcs.language import translatable
 
-# the special ones come before those whose values could hold them
+# the more specific ones come before those whose placeholders would match them
 SENTENCES = (
     translatable("this raw file does not exist"),
     translatable("correct the file name in the specimen sheet, or copy the file into its folder"),
@@ -13,8 +13,8 @@ SENTENCES = (
     translatable("state the unit in a profile, or check that both files belong to one specimen"),
     translatable("force in {unit} does not follow the machine's force"),
     translatable(
-        "state its unit in a profile under 'wrong_units', or leave it out there and give "
-        "time_offset_s in the sheet"
+        "state its unit in a profile under 'wrong_units', or leave the force column out of the "
+        "profile and give time_offset_s in the sheet"
     ),
     translatable(
         "largest force is {theirs} N (read as {unit}) here and {ours} N (read as {machine}) "
@@ -30,7 +30,7 @@ SENTENCES = (
         "strain and force cannot be paired: the files share neither time nor force, and no "
         "trigger or frame number that fits"
     ),
-    translatable("export the time in both, or the force as analog channel in the strain file"),
+    translatable("export the time in both, or the force as an analog channel in the strain file"),
     translatable("give time_offset_s in the sheet, or check that both belong to one specimen"),
     translatable("loading begins at {theirs} s here and at {ours} s in {file}"),
     translatable("give time_offset_s in the sheet (about {seconds})"),
@@ -45,7 +45,7 @@ SENTENCES = (
         "no unit for strain, and its largest reading {largest} may be a strain or a percentage"
     ),
     translatable(
-        "state the unit in a profile under 'units' ('1' or '%'), name the profile in the sheet"
+        "state the unit in a profile under 'units' ('1' or '%') and name the profile in the sheet"
     ),
     translatable(
         "check test, strain_axis and the files of this specimen in the sheet; if the gauge "
@@ -85,13 +85,13 @@ SENTENCES = (
     translatable("no table of five rows or more"),
     translatable("export the raw data"),
     translatable("the table of {width} columns has no names"),
-    translatable("write a profile with columns_in_order and units, name it in the sheet"),
+    translatable("write a profile with columns_in_order and units, and name it in the sheet"),
     translatable("no unit for {quantity}"),
     translatable(
         "state it in a profile under 'units' ({choices}) and name the profile in the sheet"
     ),
     translatable(
-        "the column's name holds a factor, '{factor}': whether the readings still have to be "
+        "the column's name contains a factor, '{factor}': whether the readings still have to be "
         "multiplied by it cannot be told"
     ),
     translatable(
@@ -154,7 +154,7 @@ SENTENCES = (
     translatable("check the columns of the files (nptcs inspect FILE)"),
     translatable("holds {count} frames"),
     translatable("export one file per frame"),
-    translatable("two files have one frame number"),
+    translatable("two files have the same frame number"),
     translatable("remove one of them"),
     translatable("no frame number in the names"),
     translatable("name the files by frame"),

@@ -21,8 +21,8 @@ OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
     """Compile the loops.
 
-    numba's cache goes by the text of a function, not by that of the functions it calls: the hash
-    `formulas`, which the loops close over, makes it compile again when one of them changes.
+    numba's cache depends on the text of a function, not on that of the functions it calls: the
+    hash `formulas`, which the loops close over, makes it compile again when one of these changes.
     """
 
     @njit(**OPTIONS)
@@ -114,7 +114,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                 scale = 2.0 / (high[axis] - low[axis])
                 x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
                 if axis == 0:
-                    # numbers, where the formula is written for arrays
+                    # the formula is written for arrays and also takes numbers
                     x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
                 value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
                 value[0], value[1] = 1.0, x

@@ -12,7 +12,7 @@ from nptcs.arrays import Array, Index
 from nptcs.fe.spoke.coordinates import unit_elongation
 from nptcs.fe.spoke.energy_table import NAMES, SpokeEnergyTable
 
-# places of the derivatives of E by the coordinates, and how often by each
+# derivatives of E in the order of `evaluate`: how often with respect to each coordinate
 ORDERS = (
     (0, 0, 0),
     (1, 0, 0),
@@ -38,7 +38,7 @@ class SpokePolynomial:
     low, high : arrays (3,)
         Range of s (mm), β and φ (rad) at s ≥ 0.
     narrowing : float
-        Part of the ranges of β and φ at the lowest s, linear from s = 0.
+        Fraction of the ranges of β and φ at the lowest s, linear from s = 0.
     coefficients : array (degrees of s, side terms)
         N mm.
     sides : array (side terms, 2)
@@ -111,7 +111,7 @@ class SpokePolynomial:
 
     @cached_property
     def _derivatives(self) -> list[Array]:
-        """What Chebyshev values of x, β and φ are multiplied by: arrays (degrees, 3 × terms).
+        """Matrices that multiply Chebyshev values of x, β and φ: arrays (degrees, 3 × terms).
 
         The three are the factor of each side term and its first two derivatives.
         """

@@ -78,11 +78,11 @@ class System:
     force : array (n, 5)
         Residual, internal minus external.
     slope : array (n, 5)
-        Its derivative by the ground's rise.
+        Its derivative with respect to the ground's rise.
     row : array (n, 5)
-        Derivative of the reaction by the unknowns.
+        Derivative of the reaction with respect to the unknowns.
     reaction_n, reaction_slope : float
-        Vertical force on the ground and its derivative by the rise.
+        Vertical force on the ground and its derivative with respect to the rise.
     coordinates : array (spokes, 3)
         (s, β, φ) of the spokes.
     """

@@ -19,7 +19,7 @@ FLAT = 1e-6
 """Share of the largest curvature below which a direction counts as flat."""
 
 SAME = 1e-6
-"""Distance in coded units within which two stationary points are one."""
+"""Distance in coded units within which two stationary points count as one."""
 
 STARTS_PER_AXIS = 5
 DIRECTIONS_TRIED = 2000
@@ -43,7 +43,7 @@ class StationaryPoint:
     axes : ndarray of shape (k, n)
         Their directions in coded units.
     kind : str
-        maximum, minimum, saddle, rising or falling ridge.
+        maximum, minimum, saddle, ridge of a maximum or ridge of a minimum.
     inside : bool
         Whether it lies in the box of the cases.
     """
@@ -59,7 +59,7 @@ class StationaryPoint:
 def stationary_points(surface: Surface) -> list[StationaryPoint]:
     """Find where the surface has no slope in the factors that it is curved in.
 
-    Factors with linear terms alone, as those that stand for blocks, are held: they move the
+    Factors with linear terms alone, such as those that stand for blocks, are held: they move the
     surface and not its stationary point. A second-order surface has one point, wherever it lies;
     of surfaces of higher order the points inside the box are found, from a grid of starts.
     """
@@ -82,7 +82,7 @@ def stationary_points(surface: Surface) -> list[StationaryPoint]:
 
 
 def curved_axes(surface: Surface) -> list[int]:
-    """Find the numbers of the factors that some term of second order or higher contains."""
+    """Find the columns of the factors that appear in a term of second order or higher."""
     curved = [powers for powers in surface.polynomial.exponents if sum(powers) > 1]
     return [axis for axis in range(len(surface.factors)) if any(powers[axis] for powers in curved)]
 
@@ -95,13 +95,13 @@ def ridge_path(
     Parameters
     ----------
     surface : Surface
-        As fitted.
+        The fitted polynomial.
     direction : str
         ``maximum`` or ``minimum``.
     radii : sequence of float
         Growing radii in coded units; 1 reaches the middle of the box's faces.
     held : sequence of str
-        Factors that stay at their middle, as those that stand for blocks.
+        Factors that stay at their middle, such as those that stand for blocks.
 
     Returns
     -------

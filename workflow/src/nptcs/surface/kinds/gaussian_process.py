@@ -22,14 +22,14 @@ from nptcs.surface.kinds.matern import MaternLikelihood, covariance
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
 
 MeanSurface = Surface | LinkedSurface | Lamination
-"""Surfaces that can lie under a process: those that say their slopes by their coefficients."""
+"""Surfaces that can be the mean of a process: they have slopes with respect to coefficients."""
 
 NUGGET = 1e-8
-"""Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
+"""Variance added to the diagonal, as a share of the residuals' variance, for rounded results."""
 
 LENGTH_BOUNDS = (0.05, 50.0)
-"""Length scales, in half ranges of a factor. A length far below the gap between two levels is an
-answer, too: the mean carries the surface between them, and the interval has its whole variance."""
+"""Length scales, in half ranges of a factor. A length far below the gap between two levels is a
+valid answer: between them the surface follows its mean, and the interval has the full variance."""
 
 NOISE_BOUNDS = (1e-8, 10.0)
 VARIANCE_BOUNDS = (1e-3, 1e3)
@@ -46,19 +46,20 @@ RESTARTS = 3
 
 @dataclass(frozen=True)
 class Component:
-    """A process with one choice of lengths; what a prediction is averaged over.
+    """A process with one choice of lengths; a prediction is the average over such components.
 
     Parameters
     ----------
     theta : ndarray of shape (h,)
-        Logarithms of its hyperparameters, its variance estimated without bias by the mean.
+        Logarithms of its hyperparameters; the variance is not biased by the fitted mean.
     lower : ndarray of shape (m, m)
         Cholesky factor of the covariance of the cases.
     weights : ndarray of shape (m,)
         K⁻¹ of the scaled residuals.
     mean_covariance : ndarray of shape (p, p)
-        Of the mean's coefficients, which least squares have found from residuals that vary as the
-        process does: B K Bᵀ with the pseudo-inverse B of the mean's slopes, in units of `scale`.
+        Covariance of the mean's coefficients, found by least squares from residuals that vary as
+        the process does: B K Bᵀ with the pseudo-inverse B of the mean's slopes, in units of
+        `scale`.
     """
 
     theta: Array
@@ -69,7 +70,7 @@ class Component:
 
 @dataclass(frozen=True)
 class Weights:
-    """What a program needs that evaluates a process without this package.
+    """What a program needs to evaluate a process without this package.
 
     Parameters
     ----------
@@ -77,7 +78,7 @@ class Weights:
         Coding of the factors.
     components : tuple of Component
     scale : float
-        Of weights and variances, in the unit of the response.
+        Scale of weights and variances, in the unit of the response.
     factor : float
         Half width of the 95 % interval in standard deviations.
     """
@@ -94,7 +95,7 @@ class GaussianProcess:
     """A Matérn 5/2 process in coded units that follows the residuals of its mean.
 
     Its error has three parts: that of the process away from the cases, that of the mean's
-    coefficients, and that of lengths which the cases do not tell (`lengths`).
+    coefficients, and that of lengths that the cases do not determine (`lengths`).
 
     Parameters
     ----------
@@ -136,7 +137,7 @@ class GaussianProcess:
         return self._scale * np.mean(rise, axis=0) + self._mean_at(x)
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
-        """Bounds of the prediction interval, at least as wide as left-out cases ask for."""
+        """Bounds of the prediction interval, at least as wide as left-out cases require."""
         coded, slopes = self._coded(x), self._slopes(x)
         found = [self._moments(one, coded, slopes) for one in self._components]
         means, variances = np.array([m for m, _ in found]), np.array([v for _, v in found])
@@ -146,9 +147,9 @@ class GaussianProcess:
         return middle - half, middle + half
 
     def refit(self, x: Array, y: Array) -> GaussianProcess:
-        """Fit mean and hyperparameters to other cases, from those found here.
+        """Fit mean and hyperparameters to other cases, starting from those found here.
 
-        Which lengths are not told, and how far they reach, is kept.
+        The set of undetermined lengths and their range are kept.
         """
         mean = None
         if self.mean is not None:
@@ -170,14 +171,14 @@ class GaussianProcess:
         }
 
     def regressor(self) -> Weights:
-        """Return what a program needs that evaluates the process without this package."""
+        """Return what a program needs to evaluate the process without this package."""
         return Weights(*coding(self.x), self._components, self._scale, self._factor(0.95))
 
     def _factor(self, confidence: float) -> float:
         """Half width of the interval in standard deviations.
 
-        Student's t, because the variance is known from the cases alone, times the factor that
-        left-out cases ask for.
+        Student's t, because the variance is estimated from the cases, times the factor that
+        left-out cases require.
         """
         freedom = len(self.y) - self.coefficients
         return float(stats.t.ppf(0.5 + confidence / 2, freedom)) * self._inflation
@@ -263,7 +264,7 @@ class GaussianProcess:
 
     @cached_property
     def _inflation(self) -> float:
-        """Factor of the standard error: what cases that are left out show of it, at least 1.
+        """Factor of the standard error that left-out cases require, at least 1.
 
         With the hyperparameters and the mean kept, the error at a left-out case in standard errors
         is (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms.
@@ -293,8 +294,8 @@ def fit_process(
     Raises
     ------
     InputError
-        When a factor has one level only or the response has gaps or does not vary, and as the
-        mean does.
+        When a factor has only one level, the response has gaps or does not vary, or the mean
+        cannot be fitted.
     """
     refuse_unusable(x, y, factors, x.shape[1] + 1)
     mean = fit_mean() if fit_mean is not None else None
@@ -326,7 +327,7 @@ def _fitted(
     theta: Array | None = None,
     spread: Array | None = None,
 ) -> GaussianProcess:
-    """Find the most likely hyperparameters from given ones, or from random ones (fixed seed)."""
+    """Search for the most likely hyperparameters from given or random starts (fixed seed)."""
     noisy = has_noise(x, y)
     bounds = bounds_of(x.shape[1], noisy)
     first = np.log([1.0] * (1 + x.shape[1]) + [FIRST_NOISE] * noisy)
@@ -338,8 +339,7 @@ def _fitted(
     generator = np.random.RandomState(0)
     starts: list[Array] = [start]
     if not given:
-        low, high = bounds.T
-        starts += [generator.uniform(low, high) for _ in range(RESTARTS)]
+        starts += [np.asarray(generator.uniform(*bounds.T)) for _ in range(RESTARTS)]
     try:
         found = [maximise(likelihood, one, bounds) for one in starts]
     except SearchError as error:

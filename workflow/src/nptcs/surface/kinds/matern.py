@@ -1,8 +1,8 @@
-"""Covariance of a Matérn 5/2 process, its likelihood, and its slope by the hyperparameters.
+"""Covariance of a Matérn 5/2 process, its likelihood, and its slope in each hyperparameter.
 
 They are those of scikit-learn's kernel ``ConstantKernel * Matern (+ WhiteKernel)``. A few dozen
-cases are left out one by one, and each time the hyperparameters are searched again: the general
-kernels of scikit-learn spend most of that time on taking themselves apart.
+cases are left out one by one, and each time the hyperparameters are searched again: scikit-learn's
+general kernels would spend most of that time on copying and taking apart kernel objects.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class MaternLikelihood:
     nugget : float
         Added to the diagonal of the covariance.
     noisy : bool
-        Whether the last hyperparameter is the variance of a noise.
+        Whether the last hyperparameter is the variance of the noise.
     """
 
     def __init__(self, points: Array, values: Array, nugget: float, noisy: bool) -> None:
@@ -97,8 +97,8 @@ class MaternLikelihood:
         Returns
         -------
         float, ndarray of shape (h,)
-            The value and its slope. Where the covariance is not positive definite, no likelihood:
-            infinity, without a slope.
+            The value and its slope; infinity with a slope of zero where the covariance is not
+            positive definite.
         """
         pairs = self._pairs(theta)
         lower, failed = dpotrf(self._covariance(pairs), lower=1, clean=0, overwrite_a=1)

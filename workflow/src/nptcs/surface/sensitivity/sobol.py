@@ -118,7 +118,7 @@ def sobol_indices(
     settings : Sobol
         Points, confidence and seed.
     interactions : bool
-        Whether second-order indices are wanted, which cost as much again.
+        Whether to estimate second-order indices, which cost as much again.
 
     Returns
     -------
@@ -147,7 +147,7 @@ def main_effect(
     axis: int,
     settings: Sobol,
 ) -> tuple[Array, Array]:
-    """Mean of the response over all other factors at values of one, less its overall mean.
+    """Mean of the response over all other factors at values of one, minus its overall mean.
 
     Returns
     -------

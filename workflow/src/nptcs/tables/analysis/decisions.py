@@ -19,7 +19,9 @@ class Decisions(pa.DataFrameModel):
     study: Series[str]
     solver: Series[str]
     goals: Series[str]
-    with_probability: Series[float] = pa.Field(gt=0, lt=1, description="That was asked for")
+    with_probability: Series[float] = pa.Field(
+        gt=0, lt=1, description="Probability that the decision requires"
+    )
     status: Series[str] = pa.Field(
         isin=list(get_args(DecisionStatus)),
         description="refused: the question cannot be answered from these cases",
@@ -29,22 +31,30 @@ class Decisions(pa.DataFrameModel):
         ge=1, nullable=True, description="Plates of a leg of a spoke"
     )
     probability: Series[float] = pa.Field(
-        ge=0, le=1, nullable=True, description="That all targets and bounds hold, sampled"
+        ge=0,
+        le=1,
+        nullable=True,
+        description="Sampled probability that all targets and bounds hold",
     )
     desirability: Series[float] = pa.Field(ge=0, le=1, nullable=True)
     feasible_percent: Series[float] = pa.Field(
-        ge=0, le=100, nullable=True, description="Of the candidates spread over the design space"
+        ge=0,
+        le=100,
+        nullable=True,
+        description="Share of the candidates spread over the design space",
     )
     candidates: Series[pd.Int64Dtype] = pa.Field(ge=1, nullable=True)
     confirmation: Series[str] = pa.Field(
         isin=list(get_args(Confirmation)),
-        description="Where the solved response is, by the prediction interval of the surface",
+        description="Where the solved response is relative to the surface's prediction interval",
     )
-    solved_designs: Series[int] = pa.Field(ge=0, description="To confirm the choice")
+    solved_designs: Series[int] = pa.Field(ge=0, description="Designs solved to confirm the choice")
     search_cpu_s: Series[float] = pa.Field(
         ge=0, nullable=True, description="Processor time of fit and search"
     )
-    message: Series[str] = pa.Field(description="Why there is no acceptable design, if so")
+    message: Series[str] = pa.Field(
+        description="Why there is no acceptable design, if there is none"
+    )
 
     class Config:
         """Exactly these columns."""
@@ -62,7 +72,9 @@ class DecisionDesigns(pa.DataFrameModel):
     chosen: Series[bool]
     design: Series[str]
     plates: Series[pd.Int64Dtype] = pa.Field(ge=1, nullable=True)
-    probability: Series[float] = pa.Field(ge=0, le=1, description="That all hold, sampled")
+    probability: Series[float] = pa.Field(
+        ge=0, le=1, description="Sampled probability that all of them hold"
+    )
     desirability: Series[float] = pa.Field(ge=0, le=1)
     goal: Series[str]
     response: Series[str]
@@ -77,7 +89,10 @@ class DecisionDesigns(pa.DataFrameModel):
     )
     largest_accepted: Series[float] = pa.Field(nullable=True)
     goal_probability: Series[float] = pa.Field(
-        ge=0, le=1, nullable=True, description="That this goal holds; empty for an objective"
+        ge=0,
+        le=1,
+        nullable=True,
+        description="Probability that this goal holds; empty for an objective",
     )
 
     class Config:
@@ -89,7 +104,7 @@ class DecisionDesigns(pa.DataFrameModel):
 
 
 class DecisionFront(pa.DataFrameModel):
-    """``decision_front.csv``: acceptable designs that none betters in every objective."""
+    """``decision_front.csv``: acceptable designs that no other one betters in every objective."""
 
     decision: Series[str]
     point: Series[int] = pa.Field(ge=1)
@@ -132,7 +147,9 @@ class DecisionConfirmation(pa.DataFrameModel):
     added: Series[bool] = pa.Field(
         description="Whether the case was added to the surfaces, which were fitted again"
     )
-    wall_time_s: Series[float] = pa.Field(ge=0, description="Of the solver, when it was solved")
+    wall_time_s: Series[float] = pa.Field(
+        ge=0, description="Of the solver, when the case was solved"
+    )
     message: Series[str]
 
     class Config:

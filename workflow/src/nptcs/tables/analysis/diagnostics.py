@@ -20,7 +20,7 @@ class SurfaceTests(pa.DataFrameModel):
     vif: Series[float] = pa.Field(
         nullable=True, description="Variance inflation by the other coded terms"
     )
-    noise: Series[str] = pa.Field(description="What the cases say of the noise")
+    noise: Series[str] = pa.Field(description="What the cases say about the noise")
     p_meaning: Series[str] = pa.Field(description="What the p-value is")
 
     class Config:
@@ -39,8 +39,10 @@ class SurfaceAnova(pa.DataFrameModel):
     source: Series[str] = pa.Field(description="Group of terms, term, residual and its parts")
     kind: Series[str] = pa.Field(isin=["group", "term", "rest"])
     df: Series[int] = pa.Field(ge=0, description="Degrees of freedom")
-    sequential_ss: Series[float] = pa.Field(ge=0, description="After the sources before it")
-    partial_ss: Series[float] = pa.Field(ge=0, nullable=True, description="After all other terms")
+    sequential_ss: Series[float] = pa.Field(ge=0, description="Added to the sources before it")
+    partial_ss: Series[float] = pa.Field(
+        ge=0, nullable=True, description="Added to all other terms"
+    )
     mean_square: Series[float] = pa.Field(
         ge=0, nullable=True, description="Of the sequential sum of squares"
     )
@@ -51,7 +53,7 @@ class SurfaceAnova(pa.DataFrameModel):
         "fit against the pure error",
     )
     p_value: Series[float] = pa.Field(ge=0, le=1, nullable=True)
-    noise: Series[str] = pa.Field(description="What the cases say of the noise")
+    noise: Series[str] = pa.Field(description="What the cases say about the noise")
     p_meaning: Series[str] = pa.Field(description="What the p-value is")
 
     class Config:
@@ -120,7 +122,7 @@ class SurfaceSelection(pa.DataFrameModel):
     solver: Series[str]
     criterion: Series[str] = pa.Field(isin=["aicc", "press"])
     step: Series[int] = pa.Field(ge=0)
-    dropped: Series[str] = pa.Field(description="Term that goes in this step; empty in the first")
+    dropped: Series[str] = pa.Field(description="Term dropped in this step; empty in the first")
     terms: Series[int] = pa.Field(gt=0, description="Terms that are left")
     aicc: Series[float] = pa.Field(description="Corrected Akaike criterion")
     press: Series[float] = pa.Field(

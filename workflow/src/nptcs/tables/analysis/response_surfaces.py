@@ -42,7 +42,7 @@ class ResponseSurfaces(pa.DataFrameModel):
         ge=0, le=100, nullable=True, description="Left-out cases in the 95 % prediction interval"
     )
     outside_the_box: Series[str] = pa.Field(
-        isin=["refused", "flagged"], description="What becomes of a prediction there"
+        isin=["refused", "flagged"], description="What happens to a prediction there"
     )
 
     class Config:
@@ -57,7 +57,7 @@ class ResponseSurfaces(pa.DataFrameModel):
 class ResponseImpact(pa.DataFrameModel):
     """``response_impact.csv``: what each factor does to each response, one row per factor.
 
-    Of the surface that predicts left-out cases best. Factors are independent and uniform over the
+    From the surface that predicts left-out cases best. Factors are independent and uniform over the
     range of the cases.
     """
 

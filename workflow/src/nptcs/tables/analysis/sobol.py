@@ -22,7 +22,10 @@ class SobolIndices(pa.DataFrameModel):
     )
     distribution: Series[str] = pa.Field(description="Of the factor; empty for an interaction")
     cut_percent: Series[float] = pa.Field(
-        ge=0, le=100, nullable=True, description="Of the distribution outside the cases, cut off"
+        ge=0,
+        le=100,
+        nullable=True,
+        description="Share of the distribution outside the cases, which is cut off",
     )
     index: Series[float] = pa.Field(description="First-order index, or that of the interaction")
     index_confidence: Series[float] = pa.Field(
@@ -63,7 +66,7 @@ class MainEffects(pa.DataFrameModel):
     factor: Series[str]
     value: Series[float] = pa.Field(description="Unit of the factor")
     effect_n_per_mm: Series[float] = pa.Field(
-        description="Mean over the other factors, less the mean over all"
+        description="Mean over the other factors, minus the mean over all"
     )
 
     class Config:

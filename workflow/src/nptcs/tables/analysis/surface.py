@@ -36,10 +36,10 @@ class SurfaceQuality(pa.DataFrameModel):
     points: Series[int] = pa.Field(gt=0)
     failed_cases: Series[int] = pa.Field(ge=0, description="Cases of the solver without a result")
     same_cases: Series[int] = pa.Field(
-        ge=0, description="Cases left out because the solver made the same tyre of another case"
+        ge=0, description="Cases left out because the solver made the same tyre for another case"
     )
     realised_factors: Series[str] = pa.Field(
-        description="Factors in the values that the solver really used, not in the given ones"
+        description="Factors in the values that the solver actually used, not in the given ones"
     )
     terms: Series[int] = pa.Field(gt=0)
     r_squared: Series[float] = pa.Field(le=1)
@@ -83,7 +83,9 @@ class SurfaceComparison(pa.DataFrameModel):
     leave_one_out_largest: Series[float] = pa.Field(ge=0, nullable=True, description="N/mm")
     leave_one_out_rms: Series[float] = pa.Field(ge=0, nullable=True, description="N/mm")
     leave_one_out_not_fitted: Series[int] = pa.Field(
-        ge=0, description="Cases without which the surface cannot be fitted; not in the two before"
+        ge=0,
+        description="Cases without which the surface cannot be fitted; not in the two columns "
+        "before",
     )
     coverage_percent: Series[float] = pa.Field(
         ge=0,
@@ -95,10 +97,10 @@ class SurfaceComparison(pa.DataFrameModel):
         ge=0, nullable=True, description="N/mm, the worst of the levels left out whole"
     )
     level_out_not_fitted: Series[str] = pa.Field(
-        description="Factors of which a level cannot be left out"
+        description="Factors for which a level cannot be left out"
     )
     outside_the_box: Series[str] = pa.Field(
-        isin=["refused", "flagged"], description="What becomes of a prediction there"
+        isin=["refused", "flagged"], description="What happens to a prediction there"
     )
     fit_cpu_s: Series[float] = pa.Field(ge=0, description="Processor time of one fit")
     leave_one_out_cpu_s: Series[float] = pa.Field(ge=0, description="Processor time of all refits")

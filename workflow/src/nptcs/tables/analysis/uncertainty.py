@@ -21,8 +21,8 @@ class SourceKind(StrEnum):
 class ResponseUncertainty(pa.DataFrameModel):
     """``uncertainty.csv``: distribution of each response, one row per design and response.
 
-    What scatters and is not known exactly is in it: tests, stated rubbers, tolerances and the
-    surface's own error. The solver's bias is not: it has columns of its own.
+    It includes all that scatters or is not known exactly: tests, stated rubbers, tolerances and the
+    surface's own error. It does not include the solver's bias, which has its own columns.
     """
 
     study: Series[str]
@@ -49,7 +49,9 @@ class ResponseUncertainty(pa.DataFrameModel):
     bias_largest_percent: Series[float] = pa.Field(
         nullable=True, description="The largest such difference"
     )
-    blind_cases: Series[pd.Int64Dtype] = pa.Field(nullable=True, description="Their number")
+    blind_cases: Series[pd.Int64Dtype] = pa.Field(
+        nullable=True, description="Number of blind cases"
+    )
     surface: Series[str] = pa.Field(description="Model of the response")
     cases: Series[int] = pa.Field(gt=0, description="Cases that it was fitted to")
     card: Series[str] = pa.Field(
@@ -67,7 +69,7 @@ class ResponseUncertainty(pa.DataFrameModel):
 
 
 class UncertaintyShares(pa.DataFrameModel):
-    """``uncertainty_shares.csv``: which test or tolerance a response is uncertain by.
+    """``uncertainty_shares.csv``: which tests and tolerances make a response uncertain.
 
     One row per design, response and source, the largest first. A share is the variance by this
     source alone, the others at their nominal values, over the sum of all.
@@ -81,7 +83,7 @@ class UncertaintyShares(pa.DataFrameModel):
     unit: Series[str]
     kind: Series[str] = pa.Field(
         isin=[*SourceKind, "not assessed"],
-        description="stated: a number of the configuration in place of a test",
+        description="stated: a number from the configuration in place of a test",
     )
     quantities: Series[str] = pa.Field(description="What varies, with its standard deviation")
     source: Series[str] = pa.Field(description="Specimens, key of the configuration, or reason")

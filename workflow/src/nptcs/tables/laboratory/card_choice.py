@@ -1,4 +1,4 @@
-"""Which material card a command takes: the laboratory's, or the paper's ply."""
+"""Which material card a command uses: the laboratory's, or the paper's ply."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from nptcs.tables.laboratory.material_card import PLY_CONSTANTS, PUBLISHED_PLY, 
 
 PUBLISHED = "published"
 CARD = "results/material_card.json"
-"""Where a run leaves the card; a command that is typed in the project folder takes it."""
+"""Where a run writes the card; a command that is typed in the project folder uses it."""
 
 
 @dataclass(frozen=True)
@@ -23,7 +23,7 @@ class ChosenMaterials:
     ply : dict of str to float
         The nine constants.
     source : str
-        In words, where they are from.
+        Where they come from, in words.
     c10_mpa : dict of str to float
         By the names of the rubbers of the card.
     """
@@ -43,10 +43,9 @@ class ChosenMaterials:
         if not isinstance(value, str):
             return value
         if value not in self.c10_mpa:
+            named = f", or one of: {', '.join(self.c10_mpa)}" if self.c10_mpa else ""
             raise InputError(
-                f"{argument}: the card has no such rubber",
-                f"give C10 in MPa, or one of: {', '.join(self.c10_mpa) or 'none on this card'}",
-                value=value,
+                f"{argument}: the card has no such rubber", f"give C10 in MPa{named}", value=value
             )
         return self.c10_mpa[value]
 

@@ -1,4 +1,4 @@
-"""The tidy curve of one specimen, and the record of how it came about."""
+"""The tidy curve of one specimen, and the record of how it was made."""
 
 from __future__ import annotations
 
@@ -53,7 +53,7 @@ class Curve(pa.DataFrameModel):
 
 
 def read_curves(paths: Iterable[str | Path]) -> dict[str, pd.DataFrame]:
-    """Read the curves of specimens; each file is named as its specimen.
+    """Read the curves of specimens; each file has the name of its specimen.
 
     Raises
     ------
@@ -68,7 +68,7 @@ def read_curves(paths: Iterable[str | Path]) -> dict[str, pd.DataFrame]:
 
 
 Role = Literal["force", "strain", "force and strain"]
-"""What a file gives to its specimen."""
+"""What a file provides for its specimen."""
 
 
 class FileRecord(Strict):
@@ -96,7 +96,7 @@ class Geometry(Strict):
     mean_width_mm: float | None
     mean_thickness_mm: float | None
     area_mm2: float
-    area_rule: str = Field("", description="How the area came about")
+    area_rule: str = Field("", description="How the area was determined")
     width_stations: int
     thickness_stations: int
 
@@ -111,7 +111,7 @@ class ConditioningStep(Strict):
 
 
 class IngestRecord(Strict):
-    """How one specimen's curve came about; ``status`` error carries the message instead."""
+    """How one specimen's curve was made, or with ``status`` error the message why it was not."""
 
     specimen: str
     status: Literal["ok", "error"]
@@ -123,7 +123,9 @@ class IngestRecord(Strict):
         description="extensometer, dic, strain_gauge, crosshead, unspecified, or none (strength "
         "only)",
     )
-    data_sha256: str = Field("", description="Of load and strain as read: equal for equal data")
+    data_sha256: str = Field(
+        "", description="Hash of load and strain as read: equal for equal data"
+    )
     data_sketch: tuple[int, ...] = Field(
         (), description="Sample of pairs of load and strain: shared by copies that were changed"
     )
@@ -135,7 +137,7 @@ class IngestRecord(Strict):
     made_from: str = Field(
         "", description="Hash of row, content of the files, profiles, settings and code"
     )
-    curve_sha256: str = Field("", description="Of the curve's file")
+    curve_sha256: str = Field("", description="Hash of the curve's file")
 
     @property
     def understood(self) -> bool:

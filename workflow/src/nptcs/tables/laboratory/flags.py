@@ -11,7 +11,7 @@ FLAG_KINDS = ("deviation", "not assessed", "remark")
 class FlagsTable(pa.DataFrameModel):
     """``flags.csv``: what was flagged, one row per standard and kind of flag.
 
-    Flags that differ in their numbers only are one row, which gives the lowest and the highest
+    Flags that differ only in their numbers are one row, which gives the lowest and the highest
     number. The flags of each value are in ``specimens.csv``.
     """
 

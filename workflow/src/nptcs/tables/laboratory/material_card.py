@@ -35,7 +35,7 @@ PUBLISHED_PLY = {
 """The ply that the paper prints in table 2."""
 
 PUBLISHED_C10_MPA = {"rubber_75A": 1.18, "rubber_88A": 2.91, "rubber_92A": 4.77}
-"""C10 within 15 % strain that section 2.2 of the paper prints, by the example's names."""
+"""C10 within 15 % strain that section 3.1 of the paper prints, by the example's names."""
 
 
 class CardConstant(Strict):
@@ -48,7 +48,7 @@ class CardConstant(Strict):
     )
     origin: Literal["measured", "assumed"]
     rule: str = Field(description="Standard, range and statistic, or the stated assumption")
-    specimens: tuple[str, ...] = Field((), description="Specimens that it rests on")
+    specimens: tuple[str, ...] = Field((), description="Specimens that it is based on")
     equal_to: str | None = Field(
         None, description="Constant that this one is assumed to equal, and varies with"
     )
@@ -57,14 +57,14 @@ class CardConstant(Strict):
 class Covariance(Strict):
     """Covariance matrix of the estimates of the measured constants, in the order of `names`.
 
-    The diagonal holds the squared standard errors: it is the uncertainty of the means, not the
-    scatter of the material.
+    The diagonal contains the squared standard errors: the uncertainty of the means, not the scatter
+    of the material.
     """
 
     names: tuple[str, ...]
     units: tuple[str, ...] = Field((), description="Units of the constants, in that order")
     rule: str = Field("", description="How it was estimated, off the diagonal too")
-    specimens: tuple[str, ...] = Field((), description="Specimens that it rests on")
+    specimens: tuple[str, ...] = Field((), description="Specimens that it is based on")
     matrix: tuple[tuple[float, ...], ...] = Field(description="Unit: product of the two units")
 
 

@@ -21,7 +21,7 @@ class PropertiesTable(pa.DataFrameModel):
     unit: Series[str]
     rule: Series[str]
     range: Series[str] = pa.Field(description="Nominal range of the rule; empty where it has none")
-    points: Series[int] = pa.Field(ge=0, description="Recorded points that the value rests on")
+    points: Series[int] = pa.Field(ge=0, description="Recorded points that the value is based on")
     flags: Series[str] = pa.Field(description="Deviations and remarks, separated by '; '")
     orientation_deg: Series[float] = pa.Field(nullable=True)
     r_squared: Series[float] = pa.Field(
@@ -34,8 +34,8 @@ class PropertiesTable(pa.DataFrameModel):
         "strain origin",
     )
     origin: Series[str] = pa.Field(isin=["measured", "synthetic"])
-    range_low: Series[float] = pa.Field(nullable=True, description="Abscissa really used, from")
-    range_high: Series[float] = pa.Field(nullable=True, description="Abscissa really used, to")
+    range_low: Series[float] = pa.Field(nullable=True, description="Abscissa that was used, from")
+    range_high: Series[float] = pa.Field(nullable=True, description="Abscissa that was used, to")
     origin_effect_percent: Series[float] = pa.Field(
         nullable=True, description="What the correction of the strain origin did to the value"
     )

@@ -27,9 +27,9 @@ LOADING = r"^(first|last|envelope|[1-9][0-9]{0,3})$"
 class Specimen(Strict):
     """One row of the specimen sheet: one test, or one run of several on the same piece.
 
-    Lengths in mm. `width_mm`, `thickness_mm` and `diameter_mm` hold the stations measured; their
-    means enter the area (ASTM D3039 §11.2.3). Any other section states `section_area_mm2` (a
-    published curve of stress alone: 1 mm²), or mass, length and density, whose quotient it is.
+    Lengths in mm. `width_mm`, `thickness_mm` and `diameter_mm` contain the stations measured; their
+    means enter the area (ASTM D3039 §11.2.3). For any other section `section_area_mm2` is stated (a
+    published curve of stress alone: 1 mm²), or mass, length and density, which give the area.
     """
 
     specimen: str = Field(pattern=NAME, description="Id, unique in the sheet")
@@ -50,7 +50,7 @@ class Specimen(Strict):
     )
     force_file: str = Field(min_length=1, description="Path relative to the sheet's folder")
     force_part: str = Field(
-        "", description="Workbook sheet, table number or test name, if the file holds several"
+        "", description="Workbook sheet, table number or test name, if the file contains several"
     )
     force_format: str = Field("", description="Profile name; empty: detect")
     strain_file: str = Field("", description="Empty: the strain is in the force file")
@@ -62,7 +62,7 @@ class Specimen(Strict):
     time_offset_s: float | None = Field(
         None,
         description="Added to the strain file's time; empty: from the force that both files "
-        "hold, else 0 and checked",
+        "contain, otherwise 0, which is checked",
     )
     include: bool = Field(True, description="yes or no: enters statistics and material card")
     reason: str = Field("", description="Why the specimen is left out; required with no")
@@ -72,7 +72,7 @@ class Specimen(Strict):
         "",
         pattern=NAME.replace("+", "*"),
         description="Piece that was tested, where several rows are runs on the same one; "
-        "empty: the row is a piece of its own",
+        "empty: the row is a separate piece",
     )
     properties: tuple[str, ...] = Field(
         (),
@@ -121,7 +121,7 @@ class Specimen(Strict):
         "", description="Compression of discs: lubricated, dry or bonded; empty: not known"
     )
     date: Date | None = Field(None, description="Day of the test, e.g. 2026-03-31")
-    operator: str = Field("", description="Who tested")
+    operator: str = Field("", description="Who ran the test")
     machine: str = Field("", description="Testing machine, load cell, strain measurement")
     temperature_c: float | None = Field(None, gt=-273.15, description="Temperature of the test")
     humidity_percent: float | None = Field(
@@ -178,7 +178,7 @@ class Specimen(Strict):
 
     @property
     def area_rule(self) -> str:
-        """How the area came about, in words."""
+        """How the area was determined, in words."""
         return self._area[1]
 
     @property
@@ -282,7 +282,7 @@ def _orientation_fault(row: Specimen) -> str:
 
 
 def _flexure_fault(row: Specimen) -> str:
-    """Say what the spans of a bending test lack, or that another test has no spans."""
+    """Say what is wrong with the spans of a bending test, or that another test has no spans."""
     if not row.test.is_bending:
         spans = [name for name in ("span_mm", "loading_span_mm") if getattr(row, name) is not None]
         return f"{spans[0]} must be empty for a {row.test} test" if spans else ""

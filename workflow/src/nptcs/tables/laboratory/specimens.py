@@ -27,7 +27,7 @@ REQUIRED_COLUMNS = ("specimen", "test", "material", "force_file")
 
 
 def read_sheet(path: str | Path) -> tuple[list[Specimen], list[InputError]]:
-    """Read a specimen sheet; a bad row is one error and the good rows go on.
+    """Read a specimen sheet; each bad row is one error, and the good rows are kept.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ def read_sheet(path: str | Path) -> tuple[list[Specimen], list[InputError]]:
 
 
 def files_named(path: str | Path) -> dict[str, list[str]]:
-    """Files that the sheet names, also in rows that are not valid: file → specimen ids."""
+    """Files that the sheet names, even in rows that are not valid: file → specimen ids."""
     header, rows = _rows(Path(path))
     named: dict[str, list[str]] = {}
     for _, cells in rows:
@@ -199,7 +199,7 @@ def _require_one_material(path: Path, line: int, row: Specimen, before: list[Spe
         same = (other.material, other.orientation_deg) == (row.material, row.orientation_deg)
         if row.piece and other.piece == row.piece and not same:
             raise InputError(
-                f"piece {row.piece} is of another material or fibre angle in {other.specimen}",
+                f"piece {row.piece} has another material or fibre angle in {other.specimen}",
                 "give the runs of one piece the same material and orientation_deg",
                 path,
                 line,

@@ -30,7 +30,7 @@ class StatisticsTable(pa.DataFrameModel):
     ci95_high: Series[float] = pa.Field(nullable=True)
     mnr: Series[float] = pa.Field(nullable=True, ge=0)
     mnr_critical: Series[float] = pa.Field(nullable=True, ge=0)
-    outlier_specimens: Series[str] = pa.Field(description="Flagged only, never left out by it")
+    outlier_specimens: Series[str] = pa.Field(description="Only flagged, never left out for it")
     b_basis: Series[float] = pa.Field(nullable=True)
     left_out: Series[str] = pa.Field(description="Specimens that the sheet leaves out, and why")
     rule: Series[str]
@@ -41,7 +41,9 @@ class StatisticsTable(pa.DataFrameModel):
     k_b: Series[float] = pa.Field(nullable=True, description="Normal B-basis factor")
     notes: Series[str]
     group_size: Series[int] = pa.Field(ge=0, description="Specimens that count, assessed or not")
-    not_assessed: Series[str] = pa.Field(description="Specimens of n missing, and why")
+    not_assessed: Series[str] = pa.Field(
+        description="Specimens without a value, which n does not count, and why"
+    )
 
     class Config:
         """Refuse unknown columns, coerce types, keep the order."""

@@ -9,8 +9,8 @@ from pandera.typing.pandas import Series
 class LcaValidation(pa.DataFrameModel):
     """Load-bearing model against the published one, one row for each section, C10 and load.
 
-    Published values exist for table 11's load only; elsewhere they are empty, and so are the
-    differences: of figure 15 the text gives no numbers but the largest error at each load.
+    Published values exist only for table 11's load; elsewhere they are empty, and so are the
+    differences: for figure 15 the text gives only the largest error at each load.
     """
 
     section: Series[str] = pa.Field(isin=["sandwich", "printed"])

@@ -59,7 +59,7 @@ class StiffnessErrors(pa.DataFrameModel):
     mean_percent: Series[float] = pa.Field(nullable=True, description="Signed mean")
     mean_absolute_percent: Series[float] = pa.Field(nullable=True, ge=0)
     largest_percent: Series[float] = pa.Field(
-        nullable=True, description="The one of the largest magnitude, with its sign"
+        nullable=True, description="Difference of the largest magnitude, with its sign"
     )
     largest_case_id: Series[str] = pa.Field(description="Case of the largest difference")
 
@@ -82,7 +82,7 @@ class StiffnessByLevel(pa.DataFrameModel):
     solver: Series[str]
     factor: Series[str]
     level: Series[float] = pa.Field(description="In the unit of the factor")
-    compared: Series[int] = pa.Field(ge=1, description="Cases that the means are over")
+    compared: Series[int] = pa.Field(ge=1, description="Cases over which the means are taken")
     computed_mean_n_per_mm: Series[float] = pa.Field(gt=0)
     published_mean_n_per_mm: Series[float] = pa.Field(gt=0)
     computed_change_percent: Series[float] = pa.Field(
@@ -104,10 +104,10 @@ class StiffnessByLevel(pa.DataFrameModel):
 
 
 class StiffnessExponents(pa.DataFrameModel):
-    """Exponents of the stiffness by each modulus, d ln K / d ln C10, computed and published.
+    """Exponents d ln K / d ln C10 of the stiffness with respect to each modulus.
 
     One row over all levels of the factor, by least squares, and one for each step between two
-    levels, at each combination of the other factors. Of a tyre made of rubbers alone the exponents
+    levels, at each combination of the other factors. For a tyre made only of rubbers the exponents
     of all moduli add up to 1.
     """
 
@@ -117,7 +117,7 @@ class StiffnessExponents(pa.DataFrameModel):
     held: Series[str] = pa.Field(description="Levels of the other factors")
     low_mpa: Series[float] = pa.Field(gt=0, description="Lowest level")
     high_mpa: Series[float] = pa.Field(gt=0, description="Highest level")
-    levels: Series[int] = pa.Field(ge=2, description="Levels that the exponent is over")
+    levels: Series[int] = pa.Field(ge=2, description="Levels over which the exponent is taken")
     computed_exponent: Series[float]
     published_exponent: Series[float]
     exponent_difference: Series[float] = pa.Field(description="Computed - published")

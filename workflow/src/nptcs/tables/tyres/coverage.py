@@ -22,7 +22,7 @@ class CaseCoverage(pa.DataFrameModel):
     solved_percent: Series[float] = pa.Field(ge=0, le=100)
     statuses: Series[str] = pa.Field(description="How the failed cases ended")
     estimable: Series[str] = pa.Field(
-        description="Whole study: what the solved cases do to the polynomial's terms"
+        description="Whole study: whether the solved cases determine the polynomial's terms"
     )
 
     class Config:

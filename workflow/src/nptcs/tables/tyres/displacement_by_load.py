@@ -21,10 +21,10 @@ class DisplacementByLoad(pa.DataFrameModel):
     status: Series[str] = pa.Field(isin=["ok", "not assessed", "not reached"])
     note: Series[str] = pa.Field(description="Why there is no displacement")
     displacement_mm: Series[float] = pa.Field(
-        gt=0, nullable=True, description="Of the solver, a spline of its curve at the load"
+        gt=0, nullable=True, description="From the solver: a spline of its curve at the load"
     )
     lca_displacement_mm: Series[float] = pa.Field(
-        gt=0, description="Of our load-bearing model with the sandwich section"
+        gt=0, description="From our load-bearing model with the sandwich section"
     )
     lca_difference_percent: Series[float] = pa.Field(
         nullable=True, description="Stiffness of the load-bearing model against the solver's"

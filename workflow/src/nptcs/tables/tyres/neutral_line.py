@@ -7,10 +7,10 @@ from pandera.typing.pandas import Series
 
 
 class NeutralLine(pa.DataFrameModel):
-    """Displacement of the band's neutral line, of the cases that ``neutral_line_cases`` names.
+    """Displacement of the band's neutral line, for the cases that ``neutral_line_cases`` names.
 
-    The finite elements follow the middle between the wire layers, the load-bearing model the
-    ring of its radius R. A case that failed has no rows.
+    With finite elements it is the middle between the wire layers, in the load-bearing model the
+    ring of radius R. A case that failed has no rows.
     """
 
     study: Series[str]
@@ -18,7 +18,7 @@ class NeutralLine(pa.DataFrameModel):
     solver: Series[str]
     load_n: Series[float] = pa.Field(gt=0)
     theta_deg: Series[float] = pa.Field(
-        ge=-180, le=180, description="Before the load, 0 at the middle of the contact"
+        ge=-180, le=180, description="Before loading; 0 in the middle of the contact"
     )
     radial_mm: Series[float] = pa.Field(description="Relative to the rim, outward positive")
     tangential_mm: Series[float] = pa.Field(description="Towards larger angles")

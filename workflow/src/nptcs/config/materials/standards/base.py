@@ -14,7 +14,7 @@ ChordMethod = Literal["nearest_points", "interpolated", "least_squares"]
 def _in_order(interval: tuple[float, float]) -> tuple[float, float]:
     low, high = interval
     if not low < high:
-        raise ValueError(f"runs from low to high, got {low:g} to {high:g}")
+        raise ValueError(f"must run from low to high, got {low:g} to {high:g}")
     return interval
 
 

@@ -45,7 +45,7 @@ def add_units_of_head(test: Test) -> None:
     for column in (one for one in lacking if not one.unit):
         if unit := stated.get(normalise(column.name)):
             column.unit = unit
-            found_table.notes.append(f"column '{column.name}': unit {unit} by the head")
+            found_table.notes.append(f"column '{column.name}': unit {unit} from the head")
     settle_tons(found_table)
 
 

@@ -53,7 +53,7 @@ def read_labels(
 
 
 def _label_of(name: str, profile: FormatProfile) -> str | None:
-    """Find the label that a key stands for; ``Group : Name`` counts as ``Name``."""
+    """Find the label that a key means; ``Group : Name`` counts as ``Name``."""
     name = name.rsplit(" : ", 1)[-1]
     for label, names in profile.labels.items():
         if any(name_matches(name, known) for known in names):

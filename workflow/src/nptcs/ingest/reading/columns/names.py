@@ -63,7 +63,7 @@ def map_columns(
             wanted = {str(name) for name in known.columns} - set(mapped)
             if known is not profile or part is not _whole:
                 lacking = _lacking(mapped, columns, own=known is profile)
-                # a column called a strain is one, also next to a travel
+                # a column called a strain is one, even next to a travel
                 lacking |= (
                     {"strain"} if not set(STRAINS) & set(mapped) and part is _whole else set()
                 )
@@ -79,7 +79,8 @@ def map_columns(
 
 
 _NEED_WHOLE_NAMES = {False: set(UNITLESS) - set(COUNTERS), True: set(UNITLESS)}
-"""Quantities not told by a part of a name: without a channel's marks; by its core (True)."""
+"""Quantities that a part of a name does not identify: the name without the marks of a channel
+(False), or its core (True)."""
 _OF_A_SENSOR = re.compile(r"extensom|video|laser|optical|optisch|dic|ga[u]?ge|dms|fein|aufnehm")
 
 
@@ -98,9 +99,10 @@ def _prefer_a_sensor(mapped: dict[str, Column], columns: Sequence[Column]) -> No
 
 
 def _wanted_by_words(mapped: dict[str, Column], columns: Sequence[Column], every: bool) -> set[str]:
-    """Quantities that words in names may tell; only those across before the names of `PLAIN`.
+    """Quantities that words in names may identify.
 
-    A travel is wanted next to a strain, too: it tells where the strain is nothing but travel.
+    Only those across the load, unless `every` is set, as it is with the names of `PLAIN`. A travel
+    is wanted next to a strain, too: it shows where the strain is nothing but travel.
     """
     across = set() if {*ACROSS, "strain_xx"} & set(mapped) else set(ACROSS)
     if not every:
@@ -157,7 +159,7 @@ def _map_names(
 
 
 _NUMBERED = ("strain", "strain_transverse")
-"""Of these `1` and `2` are the strains along and across, in many programs."""
+"""In many programs `1` and `2` of these are the strains along and across."""
 
 
 def _siblings(fitting: Sequence[Column], columns: Sequence[Column]) -> list[Column]:

@@ -36,7 +36,7 @@ NEEDS: dict[Role, tuple[tuple[str, ...], ...]] = {
 }
 """Role → sets of quantities; a table needs one of each set."""
 _PROBE = 5
-"""Rows at a place in which a channel has some reading."""
+"""Rows in the middle and at the end; a channel has a reading in some of them."""
 
 
 @dataclass
@@ -53,7 +53,7 @@ class Test:
     """``crosshead`` where the strain is a travel in a unit of strain."""
 
     def serves(self, role: Role) -> bool:
-        """Tell whether the table holds what the role needs."""
+        """Tell whether the table contains what the role needs."""
         return all(any(name in self.quantities for name in needed) for needed in NEEDS[role])
 
 
@@ -64,7 +64,7 @@ def tests_in(
     path: Path,
     plain: FormatProfile | None,
 ) -> list[Test]:
-    """Every test in the tables of one source, tests side by side told apart.
+    """Every test in the tables of one source, with tests side by side separated.
 
     Where the profile's own names leave load or strain open, those of `plain` are tried.
     """
@@ -102,7 +102,7 @@ def _channels(source: CellSource, found_table: FoundTable) -> list[Column]:
 
 
 def _without_raw_signals(columns: Sequence[Column]) -> list[Column]:
-    """Leave out the raw signal in volts of a channel that is there in its own unit, too."""
+    """Leave out the raw signal in volts of a channel that is also recorded in its own unit."""
     measured = {normalise(column.name) for column in columns if column.unit not in VOLTS}
     return [c for c in columns if c.unit not in VOLTS or normalise(c.name) not in measured]
 
@@ -182,7 +182,7 @@ def _nothing(tests: Sequence[Test], role: Role, path: Path, profile: FormatProfi
     if not names:
         return InputError(
             f"the table of {largest.found_table.width} columns has no names",
-            "write a profile with columns_in_order and units, name it in the sheet",
+            "write a profile with columns_in_order and units, and name it in the sheet",
             path,
             largest.found_table.first + 1,
         )
@@ -213,7 +213,7 @@ def _with_unit(column: Column) -> str:
 
 
 def _candidates(test: Test, missing: Sequence[tuple[str, ...]]) -> list[Column]:
-    """Columns that may be what is missing first, by their names."""
+    """Columns that may be the first missing quantity, by their names."""
     read = list(test.quantities.values())
     free = [column for column in test.found_table.columns if column not in read and column.name]
     kinds: list[Literal["load", "strain"]] = [
@@ -226,14 +226,15 @@ def _candidates(test: Test, missing: Sequence[tuple[str, ...]]) -> list[Column]:
 def unit_of(
     quantity: str, column: Column, profile: FormatProfile, may_assume: bool, path: Path, line: int
 ) -> tuple[str, float, str]:
-    """Give the unit of a column, the factor to the base unit, and a note where it was not stated.
+    """Return the unit of a column, the factor to the base unit, and a note if it was not stated.
 
-    A strain without a unit is dimensionless where it `may_assume` so; physics is asked later.
+    A strain without a unit is taken as dimensionless if `may_assume` is set; whether that is
+    plausible is checked later.
 
     Raises
     ------
     InputError
-        If no unit is stated nor declared, or it is not one of the quantity.
+        If no unit is stated or declared, or it is not one of the quantity.
     """
     if quantity in UNITLESS:
         return column.unit or "", 1.0, ""

@@ -14,9 +14,10 @@ _IMPERIAL = re.compile(r"^in\b|inch|^mils?$|thou|lb|psi|ksi|kip|°f$", re.I)
 
 
 def settle_tons(found_table: FoundTable) -> None:
-    """Read a column in tons in metric ones where the other columns are metric, with a doubt.
+    """Read a column in tons as metric tons where the other columns are metric, and note a doubt.
 
-    Where none is, or one is in inches, pounds or the like, the unit stays: it is refused.
+    Where none of them is, or one is in inches, pounds or the like, the unit stays and is refused
+    later.
     """
     others = [clean_unit(c.unit) for c in found_table.columns if c.unit and not is_ton(c.unit)]
     metric = any(_METRIC.search(unit) for unit in others)

@@ -17,7 +17,7 @@ NO_READING = re.compile(
     r"|logarithmic|hencky|plastic|plastisch|elastic|energy|work|modulus|at|bei|break|bruch|rupture"
     r"|ultimate|yield|confidence|uncertainty)\b|最大|最小|真应|真ひ|真歪|断裂|屈服"
 )
-"""Words of columns that are no readings of the test as it goes on, or of another quantity."""
+"""Words of columns that are not readings taken during the test, or are of another quantity."""
 ACROSS = re.compile(
     r"transv|trans\b|lateral|\blat\b|quer(?!schnitt)|breiten|trasvers|poprzecz|попереч|pricn(?!ik)|横向|横"
     r"ひずみ|幅|宽度|\bwidth\b|\b(?:sg|dms|e|eps|ε) ?(?:t|q|lat|90)\b"
@@ -36,14 +36,14 @@ _SENSOR = (
     r"|^(?:e ?\d\d?|ext ?\d\d?|le|cod|ave ?\d?)(?= \|)"
 )
 _SHORT_STRAIN = r"^e ?\d{0,2}(?= \|)|\bext(?:n|ens|ension)?\b"
-"""Short names that are a strain in a unit of strain only: ``E1 (%)``, ``Extension-1 (%)``."""
+"""Short names that are a strain only in a unit of strain: ``E1 (%)``, ``Extension-1 (%)``."""
 _OVER_LENGTH = r"\((?:extension|displacement|crosshead|stroke|position)\)"
-"""Behind a strain: it is travel over a length."""
+"""After a strain: it is travel over a length."""
 
 
 @dataclass(frozen=True)
 class _Rule:
-    """A quantity, the words that tell it, and the words that tell another."""
+    """A quantity, the words that identify it, and the words that identify another."""
 
     quantity: Quantity
     words: re.Pattern[str]
@@ -102,15 +102,15 @@ _INSTEAD: dict[str, set[str]] = {
 """Quantities that are not wanted any more once another one is found."""
 _BY_UNIT_ALONE: tuple[Quantity, ...] = ("force", "strain", "time")
 _NO_TELLING_UNIT = frozenset(["%", "1", "-", "m/m", "in/in"])
-"""Units in which many things are written that are not a strain."""
+"""Units in which many quantities other than strain are written."""
 
 
 def map_by_words(
     mapped: dict[str, Column], wanted: set[str], columns: Sequence[Column]
 ) -> list[str]:
-    """Add quantities of `wanted` whose column a word in its name and its unit tell.
+    """Add quantities of `wanted` whose column a word in its name and its unit identify.
 
-    The unit must be stated and be one of the quantity. If no name holds a word, the only column
+    The unit must be stated and be one of the quantity. If no name contains a word, the only column
     with a unit of force, of time, or of no other quantity than strain is taken. Where several
     columns fit, none is taken.
 
@@ -126,7 +126,7 @@ def map_by_words(
     Returns
     -------
     list of str
-        A note for each column so read.
+        A note for each column that was read this way.
     """
     notes, wanted = [], set(wanted)
     for rule in _RULES:
@@ -175,14 +175,14 @@ def _in_unit(column: Column, quantity: Quantity) -> bool:
 
 
 def is_reading(column: Column) -> bool:
-    """Tell whether a column is not a largest value, a setpoint, a scatter or their like."""
+    """Tell whether a column is not a largest value, a setpoint, a scatter or the like."""
     return not NO_READING.search(_full(column))
 
 
 def may_be(kind: Literal["load", "strain"], column: Column) -> bool:
     """Tell whether a column that no profile knows is probably a load, or a strain.
 
-    A word in its name says so; of a strain also its unit: one of strain or of length.
+    A word in its name suggests it; for a strain also its unit: one of strain or of length.
     """
     if not is_reading(column) or column.clock:
         return False

@@ -29,8 +29,8 @@ def read_binary_table(
 ) -> list[SheetSource]:
     """Read the tables of a TDMS or MAT file, one source each.
 
-    A TDMS group is a table; channels of another length are a table of their own. Units come from
-    the channels' properties, and a time from their ``wf_increment`` where no channel holds one.
+    A TDMS group is a table; channels of another length are a separate table. Units come from the
+    channels' properties, and a time from their ``wf_increment`` where no channel contains one.
     For MAT files see `nptcs.ingest.reading.native.matlab.matlab_tables`.
 
     Raises
@@ -43,7 +43,7 @@ def read_binary_table(
         tables = list(read(path, raw, limits))
     except InputError:
         raise
-    except Exception as error:  # a damaged file: the libraries raise whatever they meet
+    except Exception as error:  # a damaged file: the libraries may raise anything
         raise InputError(
             f"cannot be read: {type(error).__name__}: {error}", "export it again", path
         ) from error

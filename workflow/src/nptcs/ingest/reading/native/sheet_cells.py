@@ -16,7 +16,7 @@ from nptcs.ingest.reading.text.cells import Kind, kind_of
 from nptcs.ingest.reading.text.dialect import MISSING
 
 FORMULA = "<formula without value>"
-"""Stands in a sheet's cell whose formula was never computed."""
+"""Content of a sheet's cell whose formula was never computed."""
 
 
 class Clock(float):
@@ -64,11 +64,11 @@ class SheetSource:
         return [place for place, cell in enumerate(self.rows[row]) if isinstance(cell, Clock)]
 
     def odd_clock_row(self, found_table: FoundTable) -> int | None:
-        """Leave it to the cells of the columns that are needed: each knows its own type."""
+        """Return None: each cell knows its own type and is checked where it is needed."""
         return None
 
     def units_in(self, row: int) -> list[str]:
-        """Units behind the numbers of a row's cells, which only texts have; else empty."""
+        """Units after the numbers of a row's cells, which only texts have; else empty."""
         units = [cell.unit if isinstance(cell, WithUnit) else "" for cell in self.rows[row]]
         return units if any(units) else []
 

@@ -1,4 +1,4 @@
-"""Columns of a workbook whose numbers are stored as text, with a unit behind them or none."""
+"""Columns of a workbook whose numbers are stored as text, with or without a unit after them."""
 
 from __future__ import annotations
 
@@ -16,11 +16,11 @@ Row = tuple[object, ...]
 
 
 def numbers_of_texts(rows: list[Row]) -> tuple[list[Row], str]:
-    """Turn the cells of columns that hold numbers as text only into numbers.
+    """Turn the cells of columns that contain numbers only as text into numbers.
 
-    All such cells of a sheet must have one decimal mark, and with a comma one of them must prove
-    that it is not a thousands mark; otherwise they stay text, and the reading says so. A lone text
-    among numbers stays, too: it is a slip of somebody's hand.
+    All such cells of a sheet must have the same decimal mark, and if it is a comma, one of them
+    must prove that it is not a thousands mark; otherwise they stay text, which reading refuses. A
+    lone text among numbers stays, too: it is somebody's typing error.
 
     Returns
     -------
@@ -45,7 +45,7 @@ def numbers_of_texts(rows: list[Row]) -> tuple[list[Row], str]:
 
 
 def _text_columns(rows: Sequence[Row]) -> list[list[tuple[int, int]]]:
-    """Places of the numbers in each column that holds them as text and not as numbers."""
+    """Places of the numbers in each column that contains them as text, not as numbers."""
     found: list[list[tuple[int, int]]] = []
     for place in range(max(map(len, rows), default=0)):
         cells = [(row, cells[place]) for row, cells in enumerate(rows) if place < len(cells)]
@@ -62,7 +62,7 @@ def _text_columns(rows: Sequence[Row]) -> list[list[tuple[int, int]]]:
 
 
 def _bare(cell: object) -> str:
-    """Text of a cell without the unit behind its number."""
+    """Text of a cell without the unit after its number."""
     text = str(cell).strip()
     unit = unit_behind_number(text)
     return text[: -len(unit)].strip() if unit else text

@@ -32,23 +32,23 @@ _DAMAGE = (
     AttributeError,
     EOFError,
     OSError,
-    RuntimeError,  # zipfile: encrypted, or (its subclass NotImplementedError) packed unknown ways
+    RuntimeError,  # zipfile: encrypted; its subclass NotImplementedError: unknown compression
 )
 """What openpyxl and xlrd raise for a damaged or encrypted file."""
 
 
 def is_workbook(raw: bytes) -> bool:
-    """Tell whether this is XLSX and XLS content, whatever the suffix says."""
+    """Tell whether this is XLSX or XLS content, whatever the suffix says."""
     return raw.startswith((ZIP, OLE))
 
 
 def read_workbook(
     path: Path, raw: bytes, missing: frozenset[str], limits: FileLimits
 ) -> tuple[list[SheetSource], tuple[str, ...]]:
-    """Read all sheets that hold anything, and the reader's warnings as notes.
+    """Read all sheets that contain anything, and the reader's warnings as notes.
 
     A sheet is as large as its cells say: the ``<dimension>`` tag, which some programs write
-    wrongly, is not believed. A formula without a stored value is kept as `FORMULA`.
+    wrongly, is ignored. A formula without a stored value is kept as `FORMULA`.
 
     Raises
     ------
@@ -56,7 +56,7 @@ def read_workbook(
         If it is damaged or encrypted, or larger than the limits.
     """
     with warnings.catch_warnings(record=True) as caught:
-        # recorded, none hidden: each of openpyxl's becomes a note, also of the second such file
+        # recorded, not hidden: each of openpyxl's becomes a note, for every such file
         warnings.simplefilter("always", UserWarning)
         _refuse_other_archive(path, raw)
         try:
@@ -87,7 +87,7 @@ _OTHER_ARCHIVES = (
 
 
 def _refuse_other_archive(path: Path, raw: bytes) -> None:
-    """Say what an archive is that is not an XLSX workbook; a damaged one is read to the error."""
+    """Refuse an archive that is not an XLSX workbook and say what it is; not a damaged one."""
     if not raw.startswith(ZIP) or not zipfile.is_zipfile(io.BytesIO(raw)):
         return
     names = set(zipfile.ZipFile(io.BytesIO(raw)).namelist())
@@ -122,7 +122,7 @@ def _xlsx(path: Path, raw: bytes, limits: FileLimits) -> list[tuple[str, list[Ro
 
 
 def _holds_formulas(path: Path, raw: bytes, limits: FileLimits) -> bool:
-    """Tell whether a sheet holds formulas, if all parts together are within the limits."""
+    """Tell whether a sheet contains formulas, if all parts together are within the limits."""
     with zipfile.ZipFile(io.BytesIO(raw)) as archive:
         parts = archive.infolist()
         size = sum(part.file_size for part in parts)

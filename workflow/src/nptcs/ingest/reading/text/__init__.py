@@ -1,5 +1,4 @@
 """Text files: bytes to text, the way numbers are written, rows of cells, columns of numbers.
 
-Bytes come in, cells and numbers go out. What a column is called, and its unit, is not judged
-here.
+Bytes come in; cells and numbers go out. The names of columns and their units are not judged here.
 """

@@ -1,4 +1,4 @@
-"""Text files and workbook sheets as rows of cells, and their columns as numbers."""
+"""What every source of cells offers, and text files as rows of cells and columns of numbers."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ _COMMENT = re.compile(
     r"(?:(?i:columns?|fields?|channels?|header)\s*:\s*)?"
 )
 Kind = Literal["data", "odd data", "empty", "remark", "names", "other"]
-"""``odd data``: a row of numbers that holds something else too."""
+"""``odd data``: a row of numbers that contains something else too."""
 
 
 class CellSource(Protocol):
@@ -55,11 +55,11 @@ class CellSource(Protocol):
         ...
 
     def odd_clock_row(self, found_table: FoundTable) -> int | None:
-        """First row of a table whose times of day are not as many as in its first row."""
+        """First row of a table with another number of times of day than its first row."""
         ...
 
     def units_in(self, row: int) -> list[str]:
-        """Units behind the numbers of a row's cells; empty if its numbers stand alone."""
+        """Units after the numbers of a row's cells; empty if its numbers stand alone."""
         ...
 
     def numbers(self, found_table: FoundTable, positions: Sequence[int]) -> Array:
@@ -101,7 +101,7 @@ class TextSource:
 
     @cached_property
     def _row(self) -> re.Pattern[str]:
-        """All of a row is numbers or empty, in this dialect."""
+        """Match a row whose cells are all numbers or empty, in this dialect."""
         number = number_pattern(self.dialect.decimal, self.dialect.thousands).pattern
         if self.dialect.delimiter == "spaces":
             return re.compile(rf"\s*{number}(?:\s+{number})+\s*", re.ASCII)
@@ -113,7 +113,7 @@ class TextSource:
 
     @cached_property
     def _full_row(self) -> re.Pattern[str]:
-        """Every cell of a row is a bare number, in this dialect: the usual row, found fast."""
+        """Match a row of bare numbers, in this dialect: the usual row, found fast."""
         number = number_pattern(self.dialect.decimal, "").pattern
         spaces = self.dialect.delimiter == "spaces"
         mark = r"[ \t]+" if spaces else re.escape(self.dialect.delimiter)
@@ -121,7 +121,7 @@ class TextSource:
 
     @property
     def _marks_apart(self) -> bool:
-        """The delimiter is neither decimal nor thousands mark, so numbers need no quotes."""
+        """Whether the delimiter is neither decimal nor thousands mark: numbers need no quotes."""
         return self.dialect.delimiter not in (self.dialect.decimal, self.dialect.thousands)
 
     @cached_property
@@ -184,7 +184,7 @@ class TextSource:
         return [position for position, cell in enumerate(cells) if holds_clock(cell)]
 
     def odd_clock_row(self, found_table: FoundTable) -> int | None:
-        """First row of a table whose times of day are not as many as in its first row."""
+        """First row of a table with another number of times of day than its first row."""
         if not self.clock_counts:
             return None
         counts = [self.clock_counts.get(row, 0) for row in found_table.rows_of_data]
@@ -194,14 +194,14 @@ class TextSource:
         return next(odd, None)
 
     def units_in(self, row: int) -> list[str]:
-        """Units behind the numbers of a row's cells; empty if its numbers stand alone."""
+        """Units after the numbers of a row's cells; empty if its numbers stand alone."""
         line = self.unit_lines.get(row)
         return [] if line is None else units_of_cells(self.dialect.split(line))
 
     def header_cells(self, row: int, width: int) -> list[str]:
-        """Cells of a row of names: with blanks in the names where blanks also separate.
+        """Cells of a row of names, which may contain blanks even where blanks also separate.
 
-        A mark of a comment before the first name (``# time force``) is no part of it.
+        A comment mark before the first name (``# time force``) is not part of it.
         """
         line = self.lines[row]
         if self.dialect.delimiter != "spaces":
@@ -255,7 +255,7 @@ class TextSource:
         return all(width for start, _, width in chunks if start <= rows[-1])
 
     def _checked_line(self, found_table: FoundTable, row: int, positions: Sequence[int]) -> str:
-        """Return a line that is not all numbers with the checked cells only."""
+        """Return a line that is not all numbers, with only the checked cells."""
         self._check_cells(found_table, row, positions)
         cells = [
             cell if position in positions and not self.is_missing(cell) else NOTHING

@@ -18,7 +18,7 @@ _HALF_A_DAY_S = 43_200
 _DAY_S = 86_400
 _SAMPLE = 60
 _HEAD = 20_000
-"""Characters in which a table's first numbers are."""
+"""Characters within which a table's first numbers are."""
 
 BLANKS = "\u00a0\u202f\u2007\u2009'\u2019"
 """No-break, narrow, figure and thin space, apostrophes: thousands marks of many locales."""
@@ -32,7 +32,7 @@ _GROUPED = re.compile(
 
 @dataclass
 class PlainLines:
-    """Lines with clocks as seconds; by row, the line it was made from and its clocks counted."""
+    """Lines with clocks as seconds; by row, the original line and the number of its clocks."""
 
     lines: list[str]
     originals: dict[int, str] = field(default_factory=dict)
@@ -42,8 +42,8 @@ class PlainLines:
 def join_grouped_digits(text: str) -> str:
     """Take no-break spaces and apostrophes out of numbers: ``1 098,31`` becomes ``1098,31``.
 
-    Only three digits behind each mark make it a thousands mark; others stay. A minus sign that is
-    not the hyphen of the keyboard becomes one, and Fortran's exponent ``1.5D+02`` an ``E``.
+    Only three digits after each mark make it a thousands mark; others stay. A minus sign that is
+    not the hyphen of the keyboard becomes one, and the ``D`` of Fortran's ``1.5D+02`` an ``E``.
     """
     text = _MINUS.sub("-", text) if "\u2212" in text else text
     if any(mark in text[:_HEAD] for mark in ("D+", "D-", "d+", "d-")):
@@ -82,7 +82,7 @@ def clocks_to_seconds(lines: Sequence[str]) -> PlainLines:
 
 
 def _is_row(line: str) -> bool:
-    """Tell whether a line holds a clock and otherwise nothing but numbers."""
+    """Tell whether a line contains a clock and otherwise nothing but numbers."""
     rest, clocks = _STAMP.subn("", line)
     letters = [letter for letter in rest.casefold().replace("nan", "") if letter.isalpha()]
     return bool(clocks) and all(letter == "e" for letter in letters)
@@ -109,7 +109,7 @@ def _convert(line: str, before: float) -> tuple[str, float]:
 
 
 def _seconds(found: re.Match[str]) -> tuple[int, str]:
-    """Whole seconds, and the digits behind the decimal mark."""
+    """Whole seconds, and the digits after the decimal mark."""
     hours, minutes = int(found["hours"]), int(found["minutes"])
     if found["short"]:
         return 60 * hours + minutes, found["short"][1:]

@@ -1,4 +1,4 @@
-"""Tables whose columns write decimals in two ways: the one mark made that of all."""
+"""Tables whose columns use two decimal marks, rewritten with one."""
 
 from __future__ import annotations
 
@@ -14,9 +14,9 @@ _THOUSANDS = re.compile(r"[+-]?[1-9]\d{0,2}[.,]\d{3}", re.ASCII)
 def one_decimal_mark(lines: list[str]) -> tuple[list[str], str]:
     """Write a decimal point in every column of a table that has some with a comma.
 
-    A spreadsheet does this to a file whose numbers are in part text. Only where the delimiter is
-    neither of the two marks, each column has one mark throughout, and in each a number proves that
-    its mark is not one of thousands (``0,5``, ``12.50``).
+    A spreadsheet writes such a file when some of its numbers are text. It is done only where the
+    delimiter is neither of the two marks, each column has one mark throughout, and in each a
+    number proves that its mark is not one of thousands (``0,5``, ``12.50``).
 
     Parameters
     ----------
@@ -47,7 +47,8 @@ def one_decimal_mark(lines: list[str]) -> tuple[list[str], str]:
             changed = list(lines)
             for row, cells in rows.items():
                 changed[row] = delimiter.join(cells).replace(",", ".")
-            return changed, "columns with a decimal point and with a comma: each read by its own"
+            note = "columns with a decimal point and with a comma: each read with its own mark"
+            return changed, note
     return lines, ""
 
 

@@ -18,7 +18,7 @@ BYTE_ORDER_MARKS = {
 CANDIDATES = ("cp1252", "cp1250", "cp1251", "gb18030", "cp932", "cp949")
 """Encodings of test machines that are not UTF-8; all agree on digits and separators."""
 _GUESSED = ("cp1252", "cp1250", "gb18030")
-"""Those that a detector may choose where no known word tells."""
+"""Those that a detector may choose where no known word decides."""
 HEAD_BYTES = 20_000
 
 
@@ -107,12 +107,12 @@ def _eight_bit(raw: bytes, path: Path, words: Iterable[str]) -> Decoded:
 
 @lru_cache(maxsize=4)
 def _special(words: frozenset[str]) -> frozenset[str]:
-    """Words that look different in other encodings, in small letters."""
+    """Words that look different in other encodings, in lower case."""
     return frozenset(word.casefold() for word in words if not word.isascii() and _tells(word))
 
 
 def _tells(word: str) -> bool:
-    """Tell whether a word is long enough not to be read by chance: two signs, or three letters."""
+    """Tell whether a word is too long to be read by chance: two ideographs, or three letters."""
     return len(word) >= (2 if any(ord(mark) > 0x2E80 for mark in word) else 3)
 
 
@@ -129,7 +129,7 @@ def _or_none(raw: bytes, encoding: str) -> str | None:
 
 
 def _unknown_words(raw: bytes, head: bytes, path: Path) -> Decoded:
-    """Ask charset-normalizer, out of `CANDIDATES`; numbers are ASCII in all of them."""
+    """Ask charset-normalizer to choose from `_GUESSED`; numbers are ASCII in all of them."""
     from charset_normalizer import from_bytes
 
     guess = from_bytes(head, cp_isolation=list(_GUESSED)).best()
@@ -139,7 +139,7 @@ def _unknown_words(raw: bytes, head: bytes, path: Path) -> Decoded:
         return Decoded(text, guess.encoding, note)
     text = _or_none(raw, "cp1252")
     if text is not None:
-        return Decoded(text, "cp1252", "no known word, Western Europe taken")
+        return Decoded(text, "cp1252", "no known word, Western Europe assumed")
     text = raw.decode("utf-8", errors="replace")
     if text.count("\ufffd") > 0.05 * len(text):
         raise InputError("is not text in a known encoding", "state it in a profile", path)

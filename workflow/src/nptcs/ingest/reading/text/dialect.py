@@ -24,7 +24,7 @@ MISSING = frozenset(
         *("-", "--", "---", "–", "—", "*", "****", "/"),
     ]
 )
-"""Cells that say that there is no value, in small letters."""
+"""Cells that say that there is no value, in lower case."""
 SMALLEST_TABLE = 3
 """Rows of numbers that a dialect must read before it is believed."""
 _SPACED_DIGITS = re.compile(r" (?<=\d )\d{3}(?!\d)")
@@ -42,7 +42,7 @@ class Dialect:
     thousands: str = ""
 
     def describe(self) -> str:
-        """Return it in words."""
+        """Describe the dialect in words."""
         text = f"delimiter {SEPARATOR_NAMES.get(self.delimiter, repr(self.delimiter))}"
         text += f", decimal mark {self.decimal!r}"
         return text + (f", thousands mark {self.thousands!r}" if self.thousands else "")
@@ -76,7 +76,7 @@ class Dialect:
 
 @lru_cache
 def number_pattern(decimal: str, thousands: str) -> re.Pattern[str]:
-    """Return what a whole cell with a number looks like, with these marks."""
+    """Return the pattern of a whole cell with a number, with these marks."""
     mark = re.escape(decimal)
     exponent = r"(?:[eE][+-]?\d+)?"
     plain = rf"(?:\d+(?:{mark}\d*)?|{mark}\d+){exponent}"
@@ -126,7 +126,7 @@ def find_dialect(lines: Sequence[str], profile: FormatProfile, path: Path) -> Di
     lines : sequence of str
         All lines of the file.
     profile : FormatProfile
-        What it declares is not tried otherwise.
+        For what it declares, nothing else is tried.
     path : Path
         For messages.
 
@@ -158,7 +158,7 @@ Reading = tuple[tuple[str, ...], ...]
 
 
 def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Reading]:
-    """Dialects that read most rows with fewest cells left, and the numbers that they read.
+    """Dialects that read the most rows and leave the fewest cells, and the numbers they read.
 
     A thousands mark is believed if a number proves it (``1.234,5`` or ``1,234,567``). Without
     such a number it cannot win, but a draw still makes the table ambiguous.
@@ -178,7 +178,7 @@ def _tied(dialects: Sequence[Dialect], lines: Sequence[str]) -> dict[Dialect, Re
 
 
 def _promising(dialects: Sequence[Dialect], lines: Sequence[str]) -> list[Dialect]:
-    """Leave out what reads no row in the middle of the lines, where another one reads most."""
+    """Leave out dialects that read no row in the middle, where another one reads most."""
     middle = len(lines) // 2
     probe = lines[max(middle - _PROBE // 2, 0) :][:_PROBE]
     read = {dialect: len(_rows(dialect, probe).rows) for dialect in dialects}
@@ -206,7 +206,7 @@ def _different(tied: dict[Dialect, Reading]) -> list[Dialect]:
 
 
 def _may_differ(dialect: Dialect, chosen: Dialect, lines: Sequence[str]) -> bool:
-    """Tell whether a file has marks that two dialects, equal in the sample, may read apart."""
+    """Tell whether a file has marks that dialects equal in the sample may read differently."""
     if (dialect.decimal, dialect.thousands) == (chosen.decimal, chosen.thousands):
         return False
     marks = {dialect.decimal, dialect.thousands} ^ {chosen.decimal, chosen.thousands}

@@ -1,4 +1,4 @@
-"""Rows that are dressed up for the eye: borders around the cells, units behind the numbers."""
+"""Rows that are formatted for the eye: borders around the cells, units after the numbers."""
 
 from __future__ import annotations
 
@@ -82,12 +82,12 @@ def unit_behind_number(cell: str) -> str:
 
 
 def _is_row(line: str, pattern: re.Pattern[str]) -> bool:
-    """Tell whether a line holds numbers with units, and nothing that is neither."""
+    """Tell whether a line contains numbers with units, and nothing else."""
     rest, units = pattern.subn("", line)
     letters = [letter for letter in rest.casefold().replace("nan", "") if letter.isalpha()]
     return bool(units) and all(letter == "e" for letter in letters)
 
 
 def units_of_cells(cells: Sequence[str]) -> list[str]:
-    """Units behind the numbers of a row's cells; empty where there is none."""
+    """Units after the numbers of a row's cells; empty where there is none."""
     return [cell.partition(UNIT_FOLLOWS)[2].strip('" ') for cell in cells]

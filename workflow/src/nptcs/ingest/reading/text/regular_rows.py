@@ -18,7 +18,7 @@ _NEWLINE = 10
 def chunk_edges(lines: int) -> list[int]:
     """Edges of the chunks that are checked together, head and tail apart.
 
-    A chunk that is not regular is read line by line; a header should not make that a long one.
+    A chunk that is not regular is read line by line; a header should not make a long one irregular.
     """
     inner = range(min(_HEAD, lines), max(lines - _TAIL, _HEAD), _CHUNK)
     return sorted({0, *inner, max(lines - _TAIL, 0), lines})

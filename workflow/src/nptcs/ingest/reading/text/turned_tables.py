@@ -9,7 +9,7 @@ _FEWEST_READINGS = 20
 _MOST_ROWS = 60
 _DELIMITERS = (";", "\t", ",")
 _NUMBER = re.compile(r"\s*[+-]?(?:\d+[.,]?\d*|[.,]\d+)(?:[eE][+-]?\d+)?\s*", re.ASCII)
-NOTE = "the table is written along the rows, a column in each: turned"
+NOTE = "the table is written along the rows, one quantity per row: transposed"
 
 
 def upright_lines(lines: list[str]) -> list[str]:
