@@ -1,7 +1,7 @@
 # Three commands on a fresh machine with Python 3.11 or newer:
 #   make setup  sets up .venv
-#   make run    the same, and runs the whole pipeline
-#   make test   the same, and passes the tests
+#   make run    sets up .venv and runs the whole pipeline
+#   make test   sets up .venv and runs the tests
 PYTHON ?= python3
 JOBS ?= 2
 VENV := .venv
@@ -27,7 +27,7 @@ test: $(VENV)/ready-dev
 	python -m pytest -n $(JOBS) --dist loadfile
 
 # the numerical tests once more with the plainest kernels of OpenBLAS and NumPy, two threads and another
-# seed: a test that holds only to the last bit of one processor fails here (what a browser does is the same)
+# seed: a test that depends on the last bits of one processor fails here (browsers do not use these kernels)
 ifeq ($(shell uname -m),x86_64)
 PLAIN := OPENBLAS_CORETYPE=Prescott NPY_DISABLE_CPU_FEATURES="X86_V3 X86_V4 AVX512_ICL AVX512_SPR"
 else
@@ -45,7 +45,7 @@ docs: $(VENV)/ready-docs
 	$(SPHINX) -b html . build/site
 	python docs/check_site.py build/site
 
-# the links that lead to other sites: needs a network, so CI does not ask for it
+# the links that lead to other sites: this needs a network, so CI does not run it
 docs-links: $(VENV)/ready-docs
 	$(SPHINX) -b linkcheck . build/links
 

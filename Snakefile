@@ -4,5 +4,5 @@
 include: "workflow/Snakefile"
 
 
-# an included rule is nobody's default until it is named
+# an included rule is not the default target until it is named here
 workflow.default_target = "all"

@@ -1,4 +1,4 @@
-"""Many cheap cases end to end: time and memory of a whole run, and of one with more levels.
+"""Many cheap cases end to end: time and memory of a whole run, and of a run with one more level.
 
     python benchmarks/bulk_cases.py [--levels 317] [--jobs 2]
 
@@ -58,7 +58,7 @@ def main() -> None:
         print(f"{'run':26}{'cases':>9}{'wall s':>9}{'CPU s':>9}{'MB':>9}{'report MB':>11}")
         for what, counts in (
             ("first", (levels, levels - 1)),
-            ("one level more", (levels + 1, levels - 1)),
+            ("one more level", (levels + 1, levels - 1)),
             ("nothing to do", (levels + 1, levels - 1)),
         ):
             write_study(folder / "config/config.yaml", counts)

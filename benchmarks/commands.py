@@ -1,4 +1,4 @@
-"""Time and memory of a command with everything that it starts, for the benchmarks of whole runs."""
+"""Time and memory of a command and everything it starts, for the benchmarks of whole runs."""
 
 from __future__ import annotations
 
@@ -36,8 +36,8 @@ def environment() -> dict[str, str]:
 def run(command: Sequence[str], folder: str | Path, log: str | Path | None = None) -> Used:
     """Run a command and look at all its processes ten times a second.
 
-    Processor time is that of every process when it was last seen: what a process does in its last
-    tenth of a second is lost, and so is a process that lives no longer. The time of the command's
+    Processor time is that of every process when it was last seen: the last tenth of a second of a
+    process is lost, and so is a process that does not live that long. The time of the command's
     own process and of those that it has waited for is exact.
     """
     start, before = time.perf_counter(), os.times()

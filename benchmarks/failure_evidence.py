@@ -1,10 +1,10 @@
-"""How often failure is seen where there is none, and missed where there is one.
+"""How often failure is seen where there is none, and missed where there is some.
 
 ``python benchmarks/failure_evidence.py [COUNT] [SEED]`` simulates COUNT records of each kind, in
 which the specimen breaks (at once, over some readings, gradually, in steps) or does not (stopped,
 held, unloaded slowly or quickly, unloaded by half, cycled), with noise and at many rates, and
-judges them with other thresholds, too. A false positive is a failure seen in a test that did not
-break: it makes a strength of a stopped test. A false negative loses a strength, with the reason.
+judges them with other thresholds as well. A false positive is a failure seen in a test that did not
+break: a stopped test is given a strength. A false negative withholds a strength and says why.
 """
 
 from __future__ import annotations
@@ -40,7 +40,7 @@ def broken_over_readings(random: np.random.Generator, strain: Array, slope: floa
 
 
 def broken_gradually(random: np.random.Generator, strain: Array, slope: float) -> Record:
-    """Let damage lower the force by 15 to 90 % while the strain goes on."""
+    """Let damage lower the force by 15 to 90 % while the strain keeps growing."""
     rest = strain[-1] * np.linspace(1, random.uniform(1.1, 1.6), len(strain) // 2)[1:]
     fall = np.linspace(1, random.uniform(0.1, 0.85), len(rest))
     return np.append(slope * strain, slope * strain[-1] * fall), np.append(strain, rest)
@@ -118,7 +118,7 @@ def returned_softened_quickly(random: np.random.Generator, strain: Array, slope:
 
 
 def softened_with_a_set(random: np.random.Generator, strain: Array, slope: float) -> Record:
-    """Yield, then return 10 to 100 times as fast, softened, with an eighth to half of a set."""
+    """Yield, then return 10 to 100 times as fast, softened, with a set of an eighth to a half."""
     bent = strain[-1] / random.uniform(1, 3)
     force, back = _soften(random, strain, slope, random.uniform(10, 100), random.uniform(0.12, 0.5))
     return np.append(slope * bent * np.tanh(strain / bent), np.tanh(1) * force[len(strain) :]), back

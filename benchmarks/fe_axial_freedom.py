@@ -140,7 +140,7 @@ def compliance(n: int, c10_mpa: float, ratio: float, spoke_n_per_mm: float, wide
     """Displacements of the tread by loads on it for the wave n.
 
     Array (1 + axial nodes, 1 + axial nodes): first the mean pressure on the tread, then the axial
-    forces at its nodes. In plane strain only the first is there.
+    forces at its nodes. In plane strain there is only the first.
     """
     mesh = section(COLUMNS if wide else 1)
     whole = rubber(mesh, n, c10_mpa, ratio)
@@ -175,7 +175,7 @@ def coefficients(half_contact_mm: float) -> Array:
 def displacement(
     half_contact_mm: float, c10_mpa: float, ratio: float, spoke: float, wide: bool
 ) -> tuple[float, float]:
-    """Displacement of half the width under half of 1 N: where the ground slips, and sticks."""
+    """Displacement of half the width under half of 1 N, on ground that slips and that sticks."""
     waves = coefficients(half_contact_mm)
     total = sum(
         wave**2 * compliance(n, c10_mpa, ratio, spoke, wide) for n, wave in enumerate(waves)

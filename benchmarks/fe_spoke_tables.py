@@ -96,7 +96,7 @@ def scale(responses: dict[str, float], name: str) -> float:
 
 @contextmanager
 def a_matrix_for_each_step() -> Iterator[None]:
-    """Let Newton's method have a new matrix for each step."""
+    """Give Newton's method a new matrix for each step."""
     followed = SpokeModel._followed
 
     def one_step(

@@ -1,9 +1,9 @@
-"""From a laboratory's folder to the material card, as a new user goes, every step timed.
+"""From a laboratory's folder to the material card, as a new user would go, with every step timed.
 
 ``python benchmarks/folder_to_card.py`` invents a campaign of 32 specimens of one laminate: machine
 and camera files in parallel folders under different names, a table of dimensions per series, four
-specimens without a camera, a summary, notes. Then it runs what docs/lab-data.md tells: new-sheet,
-one --fill per series, check, the run up to the card. It prints each command with its time, and the
+specimens without a camera, a summary, notes. Then it follows docs/lab-data.md: new-sheet, one
+--fill per series, check, the run up to the card. It prints each command with its time, and the
 card next to the constants that the campaign was made from. All numbers are invented.
 """
 
@@ -35,7 +35,7 @@ SCATTER = 0.02
 
 
 def strains(series: str, stress: Array, factor: float) -> tuple[Array, Array]:
-    """Axial and transverse strain under a stress in MPa; the laminate of ±45° yields."""
+    """Axial and transverse strain under a stress in MPa; the ±45° laminate yields."""
     if series == "PM45":
         gamma = stress / 2 / (factor * TRUE["g12_mpa"])
         gamma = gamma * (1 + (stress / 110.0) ** 4)
@@ -107,7 +107,7 @@ def write_specimen(
 
 
 def timed(words: list[str], folder: Path) -> float:
-    """Run a command, print its time and the end of what it says, and return the time in s."""
+    """Run a command, print its time (and its output if it fails), and return the time in s."""
     start = time.monotonic()
     done = subprocess.run(words, cwd=folder, capture_output=True, text=True, check=False)
     spent = time.monotonic() - start

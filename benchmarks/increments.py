@@ -31,7 +31,7 @@ from conftest import Project, copy_project, shorten_sheet  # noqa: E402 - a fold
 
 
 def finished(folder: Path) -> Path:
-    """Run the pipeline in a copy of the project, unless it has."""
+    """Run the pipeline in a copy of the project, unless it has already finished there."""
     if not (folder / "results/verdict.txt").exists():
         copy_project(folder)
         project = Project(folder)

@@ -127,7 +127,7 @@ def truncate(content: bytes, start: int, base: Base, random: np.random.Generator
 
 
 def move_line(content: bytes, start: int, base: Base, random: np.random.Generator) -> bytes:
-    """Delete, double, or insert a line."""
+    """Delete, duplicate, or insert a line."""
     lines = lines_of(content)
     row = int(random.integers(min(base.first, len(lines) - 1), len(lines)))
     action = int(random.integers(4))
@@ -294,7 +294,7 @@ def grouped_numbers(table: RawFile) -> re.Pattern[str]:
 
 
 def compare(rows: list[list[float]], table: RawFile, positions: Mapping[str, int]) -> str | None:
-    """Rows without any reading do not count."""
+    """Say where the readings differ; rows without any reading do not count."""
     expected = np.array([row for row in rows if not all(math.isnan(value) for value in row)])
     for index, name in enumerate(positions):
         counted = name in UNITLESS or not table.units[name]
@@ -400,7 +400,7 @@ def one_input(
     except Exception:  # noqa: BLE001  (what the fuzz looks for)
         return "crash", traceback.format_exc(limit=-3)
     if not np.isfinite(curve[["force_n", "stress_mpa"]]).all(axis=None) or len(curve) < 5:
-        return "wrong", "the curve holds readings without force"
+        return "wrong", "the curve contains readings without force"
     return "read and ingested", ""
 
 

@@ -2,14 +2,14 @@
 
     python benchmarks/ingest_fuzz_events.py [--inputs 3000] [--seed 1]
 
-Each input is an invented test of a linear specimen, of which modulus, strength and strain at every
+Each input is an invented test of a linear specimen whose modulus, strength and strain at every
 instant are known: one file or machine and camera, with random rates, units, noise and clocks.
 Up to three events happen to it: a break or none, cycles, an extensometer that is taken off, stands
 still or slides back, a strain record that ends early, a load cell with the wrong sign, a part in
-compression before the pull, slack, a unit that is wrong by a thousand, a channel that is away for
+compression before the pull, slack, a unit that is wrong by a thousand, a channel that drops out for
 some readings, the same data in another file. A test may be refused. A failure is an exception
-other than InputError, or a curve whose strength, modulus or strain at the largest force is not the
-truth (a strain that is empty is allowed: it is not assessed).
+other than InputError, or a curve whose strength, modulus or strain at the largest force differs
+from the truth (a strain that is empty is allowed: it is not assessed).
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ STRAIN_UNITS = {"mm/mm": 1.0, "%": 100.0, "µm/m": 1e6}
 
 @dataclass
 class Truth:
-    """A test of which everything is known, and what was done to its record."""
+    """A test about which everything is known, and what was done to its record."""
 
     modulus_mpa: float
     area_mm2: float
@@ -190,21 +190,21 @@ def judge(truth: Truth, done: Ingested) -> str:
     curve = done.curve
     stress, strain = curve["stress_mpa"].to_numpy(), curve["strain_axial"].to_numpy()
     if abs(stress.max() / truth.strength_mpa - 1) > 0.01:
-        return f"strength {stress.max():.5g}, truly {truth.strength_mpa:.5g} MPa"
+        return f"strength {stress.max():.5g}, true value {truth.strength_mpa:.5g} MPa"
     peak = int(np.argmax(stress))
     ultimate = float(truth.strain[truth.peak])
     at_peak = strain[peak]
     if not np.isnan(at_peak) and abs(at_peak / ultimate - 1) > 0.04:
-        return f"strain at strength {at_peak:.5g}, truly {ultimate:.5g}"
+        return f"strain at strength {at_peak:.5g}, true value {ultimate:.5g}"
     if np.nanmax(strain) > 1.04 * ultimate or np.nanmin(strain) < -0.002:
         return (
-            f"strains {np.nanmin(strain):.4g} to {np.nanmax(strain):.4g}, truly to {ultimate:.4g}"
+            f"strains {np.nanmin(strain):.4g} to {np.nanmax(strain):.4g}, true end {ultimate:.4g}"
         )
     used = (np.arange(len(strain)) <= peak) & (strain > 0.001) & (strain < 0.004)
     if used.sum() >= 4:
         found = float(np.polyfit(strain[used], stress[used], 1)[0])
         if abs(found / truth.modulus_mpa - 1) > 0.03:
-            return f"modulus {found:.5g}, truly {truth.modulus_mpa:.5g} MPa"
+            return f"modulus {found:.5g}, true value {truth.modulus_mpa:.5g} MPa"
     return ""
 
 
@@ -238,7 +238,7 @@ def one_input(
 def _judge_repeat(
     done: Ingested, specimen: Specimen, folder: Path, profiles: Mapping[str, FormatProfile]
 ) -> str:
-    """Check that the same data under another delimiter are found, and changed ones are not."""
+    """Check that the same data with another delimiter are recognised, and changed data are not."""
     lines = (folder / specimen.force_file).read_text().split("\n")
     (folder / "twin.csv").write_text("\n".join(line.replace(";", "\t") for line in lines))
     cells = lines[len(lines) // 2].split(";")

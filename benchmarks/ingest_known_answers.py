@@ -215,7 +215,7 @@ def epoxy(lab: Laboratory) -> Iterator[Answer]:
 
 
 def zwick_workbook(lab: Laboratory) -> Iterator[Answer]:
-    """Take what the sheet of results states: the largest force and the section."""
+    """Compare with what the sheet of results states: the largest force."""
     curve = lab.curve(
         "zwick-xlsx/Traction-10_cryo.XLSX", section_area_mm2=8.76, gauge_length_mm=30.0
     )

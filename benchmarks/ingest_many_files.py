@@ -1,4 +1,4 @@
-"""A thousand files of ten thousand rows: time, memory, and what dominates.
+"""A thousand readings of files of ten thousand rows: time, memory, and what dominates.
 
     python benchmarks/ingest_many_files.py [--files 1000] [--rows 10000]
 
@@ -39,7 +39,7 @@ PARTS = (
 
 
 def write_files(folder: Path, rows: int) -> None:
-    """Write a few different testXpert files and fill up the number with links to them."""
+    """Write the few different testXpert files that are read in turn."""
     for number in range(DIFFERENT):
         random = np.random.default_rng(number)
         strain = np.linspace(0, 1.2, rows)
@@ -59,7 +59,7 @@ def write_files(folder: Path, rows: int) -> None:
 
 
 def ingest_one(folder: Path, number: int, profiles: Mapping[str, FormatProfile]) -> None:
-    """Ingest a file as a specimen of its own."""
+    """Ingest a file as its own specimen."""
     specimen = Specimen(
         specimen=f"S-{number}",
         test="tension",
@@ -81,7 +81,7 @@ def read_plainly(folder: Path, number: int) -> None:
 def side_by_side(
     folder: Path, files: int, profiles: Mapping[str, FormatProfile]
 ) -> tuple[float, float]:
-    """CPU seconds of ingest and of pandas, file by file in turn: other load hits both alike."""
+    """CPU seconds of ingest and of pandas, file by file in turn: other load affects both alike."""
     ingest = plain = 0.0
     for number in range(files):
         start = time.process_time()

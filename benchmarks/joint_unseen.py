@@ -5,7 +5,7 @@
 
 Takes points inside the box of the joint study (Latin hypercube, whole plates), computes their
 spokes and solves them by `ring`, and with ``--fe`` by `fe_tyre` too. Prints the stiffness that each
-load's surface predicts with its 95 % interval, what the solver says with the plies of the study's
+load's surface predicts with its 95 % interval, the solver's value with the plies of the study's
 card, and the difference in per cent. Run ``make joint`` first.
 """
 
@@ -85,10 +85,11 @@ def report(
                 assert point is not None
                 percent = 100 * (found.mean[0] / point.secant_n_per_mm - 1)
                 worst[name] = max(worst.get(name, 0.0), abs(percent))
-                inside = abs(found.mean[0] - point.secant_n_per_mm) <= 2 * found.standard_error[0]
+                half = 1.96 * found.standard_error[0]
+                inside = abs(found.mean[0] - point.secant_n_per_mm) <= half
                 print(
                     f"  {name:8s} {load_n:5.0f} N: {point.secant_n_per_mm:8.3f} N/mm, predicted "
-                    f"{found.mean[0]:8.3f} ± {1.96 * found.standard_error[0]:.3f} "
+                    f"{found.mean[0]:8.3f} ± {half:.3f} "
                     f"({percent:+.3f} %{'' if inside else ', outside its interval'})",
                     flush=True,
                 )

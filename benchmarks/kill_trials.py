@@ -5,10 +5,11 @@
 A small study of a stub solver, which runs a command for each case, is started by Snakemake and hit:
 SIGKILL to the whole process group, to Snakemake alone, to the host of the scripts, to the script of
 the rule, to the process of a case, to the solver's command; SIGTERM and SIGINT to Snakemake. After
-some such trials the same command runs to its end, and its table is compared with that of a run that
-nobody disturbed.
+some such trials the same command runs to completion, and its table is compared with that of an
+undisturbed run.
 
-Exit code 1 if anything was half written, lost, solved twice, left behind, or needed a hand.
+Exit code 1 if anything was half written, lost, solved twice, left behind, or had to be mended by
+hand.
 """
 
 from __future__ import annotations
@@ -161,7 +162,7 @@ class Project:
         return bad
 
     def table(self) -> str:
-        """Return the table of cases without what the clock decides."""
+        """Return the table of cases without their wall times."""
         with (self.folder / TARGET).open(encoding="utf-8", newline="") as stream:
             rows = list(csv.DictReader(stream))
         return "\n".join(
@@ -198,7 +199,7 @@ def of_kind(members: list[psutil.Process]) -> dict[str, list[psutil.Process]]:
 
 
 def hit(project: Project, victim: str, moment: Callable[[float, int], bool], count: Count) -> None:
-    """Start a run, hit it at a moment, and look at what is there afterwards."""
+    """Start a run, hit it at a moment, and examine what is left afterwards."""
     before = project.records()
     run, began = project.start(), time.monotonic()
     members: list[psutil.Process] = []
@@ -230,7 +231,7 @@ def strike(
     victim: str,
     kinds: dict[str, list[psutil.Process]],
 ) -> bool:
-    """Send the signal; False where there is no such process at this moment."""
+    """Send the signal; return False if there is no such process at this moment."""
     if not kinds[victim]:
         return False
     chosen = random.choice(kinds[victim])
@@ -247,14 +248,14 @@ def strike(
 
 
 def settle(project: Project) -> None:
-    """Give the warden the time that it has."""
+    """Give the warden its time to clean up."""
     end = time.monotonic() + WITHIN_S
     while leftovers(project) and time.monotonic() < end:
         time.sleep(0.05)
 
 
 def leftovers(project: Project) -> list[Path]:
-    """Name what is in the temporary folder, but for Snakemake's, which the next run removes."""
+    """Name what is in the temporary folder, except what Snakemake's next run removes."""
     return sorted(project.temp.glob("[!s]*"))
 
 
@@ -286,7 +287,7 @@ def moments(seed: random.Random) -> Iterator[Callable[[float, int], bool]]:
 
 
 def chains_of(trials: int, seed: random.Random) -> list[list[str]]:
-    """Return whom to hit in the runs of each project, so that the hits make up the trials.
+    """Return what to hit in the runs of each project, so that the hits add up to the trials.
 
     A run whose cases are hit solves all that is left; so it is the last of its project.
     """
@@ -324,7 +325,7 @@ def main() -> int:
     parser.add_argument("--trials", type=int, default=200)
     parser.add_argument("--seed", type=int, default=1)
     arguments = parser.parse_args()
-    signal.signal(signal.SIGINT, signal.default_int_handler)  # ignored in the background, else
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # otherwise ignored in the background
     seed = random.Random(arguments.seed)
     random.seed(arguments.seed)
     counts = {victim: Count() for victim in VICTIMS}
@@ -368,7 +369,7 @@ def report(counts: dict[str, Count], ends: int, equal: int, chains: int) -> int:
     print(f"runs that ended before their hit: {missed}")
     print(f"projects that the same command brought to an end: {ends} of {chains}")
     print(f"tables equal byte for byte but for the wall times: {equal} of {chains}")
-    return int(bool(sum(count.faults() for count in counts.values())) or ends != chains != equal)
+    return int(any(count.faults() for count in counts.values()) or min(ends, equal) < chains)
 
 
 if __name__ == "__main__":

@@ -114,9 +114,9 @@ def main() -> None:
         f"batch of {chosen.rows} designs, 2 processes: {batch_s:.2f} s, "
         f"{chosen.rows / batch_s:.0f} designs/s, {np.mean(status == 'ok'):.2%} ok"
     )
-    print(f"one process: {alone_s * 1e6:.0f} µs of processor time a design")
+    print(f"one process: {alone_s * 1e6:.0f} µs of processor time per design")
     print(
-        f"solve_bvp: {bvp_s * 1e3:.0f} ms a design (median), "
+        f"solve_bvp: {bvp_s * 1e3:.0f} ms per design (median), "
         f"{solved.sum()} of {chosen.bvp} solved; ratio {bvp_s / alone_s:.0f}"
     )
     print(f"largest relative difference of the displacement: {difference:.1e}")

@@ -1,10 +1,10 @@
-"""Robustness of the load-bearing model over the range for which it is meant.
+"""Robustness of the load-bearing model over the range that it is meant for.
 
     OPENBLAS_NUM_THREADS=1 python benchmarks/lca_sweep.py
 
 Spokes of 1 to 1000 N/mm in tension and in compression, loads of 100 to 20000 N, C10 of 0.5 to
-20 MPa, radii of 100 to 1000 mm, all log-uniform. Prints how the rows end, the largest balance
-residual, and the agreement of a sample with collocation of the same equations.
+20 MPa, radii of 100 to 1000 mm, all log-uniform. Prints the status of the rows, the largest
+balance residual, and the agreement of a sample with collocation of the same equations.
 """
 
 from __future__ import annotations

@@ -5,10 +5,9 @@
 STUDY is a folder in which this version's default study has finished (by default, this one); it is
 copied and not touched. In the copy, in turn: ``snakemake --version``, a run with nothing to do, the
 report alone with the figures that it keeps and with all figures drawn anew, and a run from the raw
-files in which every case is known, so that it is all that the default study does outside its
-solvers. A study that is not finished, or was made by other code, is first brought up to date, which
-may take as long as the study. Processor seconds hold on a busy machine, too; wall seconds are of
-the same minutes.
+files in which every case is known: everything that the default study does outside its solvers. A
+study that is not finished, or was made by other code, is first brought up to date, which may take
+as long as the study. Processor seconds also hold on a busy machine; wall seconds do not.
 """
 
 from __future__ import annotations
@@ -23,8 +22,8 @@ from statistics import median
 
 from commands import ROOT, Used, run
 
-STORES = ("records", "spokes")
-"""What solvers keep in results/5_solve: solved cases, tables of spokes."""
+STORES = ("records", "spokes", "outlines")
+"""What is solved and kept in results/5_solve: cases, tables of spokes, the spokes of one tyre."""
 
 
 def project(study: Path, folder: Path) -> None:
@@ -78,7 +77,7 @@ COMMANDS: dict[str, tuple[Callable[[Path], None], tuple[str, ...]]] = {
 
 
 def row(name: str, one: Used, base: Used) -> str:
-    """Write wall and processor time, and both over those of ``--version``."""
+    """Write wall and processor time, and the ratios of both to those of ``--version``."""
     ratios = f"{one.wall_s / base.wall_s:9.2f}{one.cpu_s / base.cpu_s:9.2f}"
     failed = f"  exit code {one.code}" if one.code else ""
     return f"{name:30}{one.wall_s:9.1f}{one.cpu_s:9.1f}{ratios}{one.memory_mb:9.0f}{failed}"
@@ -118,7 +117,7 @@ def main() -> None:
                 prepare(folder)
                 given = [word.format(jobs=arguments.jobs) for word in words]
                 used[command].append(run(["snakemake", *given], folder))
-                if "report" in words:  # the verdict rests on it
+                if "report" in words:  # the verdict depends on it
                     run(["snakemake", f"-j{arguments.jobs}"], folder)
         base = middle(used["snakemake --version"])
         print(f"{'command':30}{'wall s':>9}{'CPU s':>9}{'wall x':>9}{'CPU x':>9}{'MB':>9}")

@@ -8,8 +8,8 @@ ten loads, by the ring and by two finite element tyres: on the mesh of the campa
 `--along` times as many elements along the circumference, where the contact needs them. Prints the
 difference of the displacement in per cent at each load, of the neutral line (in per cent of the
 largest displacement), of peak pressure and contact length √(12 Var p), and the CPU time of each.
-The finite elements end at a load that they do not reach: the loads before it are compared. A folder
-of spokes saves the computation of their tables (some 5 s each). Those of a study that has solved
+Where the finite elements do not reach a load, only the loads before it are compared. A folder of
+spokes saves the computation of their tables (some 5 s each). Those of a study that has solved
 tables 5 and 7 by `fe_tyre_paper` have the section that was calibrated with the ring `paper_mesh`,
 and the plies of its card; both models take any spokes.
 """
@@ -157,7 +157,7 @@ def label(design: dict[str, float]) -> str:
 
 
 def summed_up(group: list[Difference]) -> str:
-    """Say how far the group is apart."""
+    """Summarise the differences of a group."""
     every = np.concatenate([one.percent for one in group])
     shapes = {
         name: np.nanmax(np.abs([0.0, *(getattr(one, name) for one in group)]))

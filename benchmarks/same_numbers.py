@@ -21,8 +21,8 @@ def pairs(words: list[str]) -> dict[str, str]:
 def main() -> int:
     """Compare the tables of two runs."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("before", type=Path, help="folder of the one run")
-    parser.add_argument("after", type=Path, help="folder of the other")
+    parser.add_argument("before", type=Path, help="folder of the first run")
+    parser.add_argument("after", type=Path, help="folder of the second run")
     parser.add_argument("--renamed", nargs="*", default=[], metavar="A.csv=B.csv")
     parser.add_argument("--column", nargs="*", default=[], metavar="OLD=NEW")
     parser.add_argument("--within", type=float, default=0.0, help="relative difference")

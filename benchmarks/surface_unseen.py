@@ -37,7 +37,7 @@ LOW, HIGH = np.array([10.0, 1.2, 0.0]), np.array([20.0, 2.4, 90.0])
 
 
 def designs(seed: int, number: int = 5) -> pd.DataFrame:
-    """Return the designs by hand and `number` random ones in the box, rounded as one orders them.
+    """Return the designs by hand and `number` random ones in the box, rounded as one orders plates.
 
     Spacings end at 19 mm: a wider one is realised outside the box.
     """

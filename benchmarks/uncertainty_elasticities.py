@@ -4,7 +4,7 @@
         [--config config/config.yaml]
 
 Solves the plate study's reference design with one constant changed at a time, and prints the change
-of the stiffness next to that of the model which the uncertainty is propagated through: the ply's
+of the stiffness next to that of the model through which the uncertainty is propagated: the ply's
 constants (5 %; G13 with G12, E3 with E2, ν13 with ν12), both rubbers (2 %), thickness and angle.
 Solved designs are kept in the run's record store.
 """

@@ -71,7 +71,7 @@ NAVIGATION = {
     "Reference": ["configuration", "tables", "commands", "/config/README"],
     "Project": ["/CONTRIBUTING", "/CHANGELOG", "decisions/*", "*"],
 }
-"""Sections of the navigation: pages, and folders of which every further page is taken."""
+"""Sections of the navigation: pages, and folders from which all remaining pages are taken."""
 
 
 def navigation(pages: set[str]) -> str:
@@ -96,7 +96,7 @@ def add_navigation(app: Sphinx, name: str, source: list[str]) -> None:
 
 
 def primes(tex: str) -> str:
-    """Write primes as powers, which is how the converter can set them."""
+    """Write primes as powers, the form that the converter can typeset."""
 
     def raised(found: re.Match[str]) -> str:
         power = (found[3] or "").strip("^{}")

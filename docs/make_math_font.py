@@ -1,8 +1,8 @@
 """Make the site's math font: the glyphs that the pages need, of TeX Gyre Pagella Math.
 
 ``python docs/make_math_font.py texgyrepagella-math.otf`` (Debian's package fonts-texgyre-math has
-it) writes ``docs/_static/math.woff`` with the tables for setting equations. The GUST Font License
-asks for another name of a changed font, which the subset gets.
+it) writes ``docs/_static/math.woff`` with the tables for typesetting equations. The GUST Font
+License requires that a changed font has another name, so the subset has one.
 """
 
 from __future__ import annotations

@@ -68,7 +68,7 @@ def surfaces(table: pd.DataFrame) -> None:
 
 
 def save(figure: Figure, name: str) -> None:
-    """Write a figure of 64 colours, a third of the size of one with all."""
+    """Write a figure of 64 colours, a third of the size of the full-colour one."""
     figure.savefig(HERE / name, dpi=200)
     with Image.open(HERE / name) as image:
         few = image.convert("RGB").quantize(64)

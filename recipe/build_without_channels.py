@@ -1,7 +1,7 @@
 """Build and test the conda package on a machine that reaches a Python package index but no channel.
 
 ``python recipe/build_without_channels.py FOLDER`` makes a channel in ``FOLDER/channel``: one conda
-package for each wheel that the recipe's requirements lead to, and one for the running Python. Then
+package for each wheel that the recipe's requirements need, and one for the running Python. Then
 rattler-build builds and tests ``recipe/recipe.yaml`` from this channel alone, and the package is
 installed into a new prefix, where its commands are tried. It needs the tools of ``TOOLS``.
 
@@ -42,7 +42,7 @@ FAST = 1
 
 
 def requirements() -> list[str]:
-    """Return what the recipe asks for to build, run and test, as pip names it."""
+    """Return what the recipe requires to build, run and test, as pip names it."""
     recipe = yaml.safe_load(RECIPE.read_text(encoding="utf-8"))
     asked = [*recipe["requirements"]["host"], *recipe["requirements"]["run"]]
     for test in recipe["tests"]:

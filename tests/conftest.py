@@ -4,7 +4,7 @@ import os
 
 from hypothesis import HealthCheck, settings
 
-# tests type commands as a user does, also those that `make` starts
+# tests type commands as a user does, even when `make` starts the tests
 os.environ.pop("MAKELEVEL", None)
 
 # no test may fail because the machine is slow

@@ -4,7 +4,7 @@ import numpy as np
 
 
 def sweep_designs(rows: int, seed: int) -> tuple[dict[str, np.ndarray], np.ndarray]:
-    """The range that the model is to hold over, log-uniform, with loads in N."""
+    """Draw designs over the model's range, log-uniform, and loads in N."""
     random = np.random.default_rng(seed)
 
     def between(low, high):

@@ -25,7 +25,7 @@ COARSE_TABLE = EnergyTableOptions(
 
 
 def spoke_design(**change):
-    """One spoke of the paper's middle design on the coarsest mesh, or changed."""
+    """One spoke of the paper's middle design on the coarsest mesh, with changes."""
     values = {
         "geometry": SpokeGeometry(),
         "mesh": COARSE_SPOKE,

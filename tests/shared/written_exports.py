@@ -1,4 +1,4 @@
-"""A tension test of which everything is known, written as the exports of many programs write it."""
+"""A tension test about which everything is known, in the export formats of many programs."""
 
 from __future__ import annotations
 

@@ -9,7 +9,7 @@
 copies of this repository in FOLDER, once on two local cores and once through `profiles/slurm`. In
 the second run it kills node n2 with all that runs on it while a batch is solved there, and starts
 it again once Slurm has noticed. It prints what happened when, and compares the tables of both runs
-(`benchmarks/same_numbers.py`). The exit code is 0 if both runs ended well, a node was killed under
+(`benchmarks/same_numbers.py`). The exit code is 0 if both runs succeeded, a node was killed under
 a running batch, and all tables are the same.
 """
 
@@ -52,7 +52,7 @@ def wait_until(what: str, true: Callable[[], bool], seconds: float = 60.0) -> No
     end = time.monotonic() + seconds
     while not true():
         if time.monotonic() > end:
-            raise SystemExit(f"waited {seconds:.0f} s in vain until {what}")
+            raise SystemExit(f"gave up after waiting {seconds:.0f} s until {what}")
         time.sleep(0.5)
 
 
@@ -97,7 +97,7 @@ def start(accounting: bool) -> None:
         wait_until("munge answers", lambda: answers("munge", "-n"))
     if accounting:
         start_accounting()
-    run("slurmctld", "-c")  # nothing is known of earlier jobs
+    run("slurmctld", "-c")  # forget earlier jobs
     wait_until("slurmctld answers", lambda: answers("scontrol", "ping"))
     for node in NODES:
         run("slurmd", "-N", node)
@@ -106,7 +106,7 @@ def start(accounting: bool) -> None:
 
 
 def answers(*command: str) -> bool:
-    """Tell whether a command ends well."""
+    """Tell whether a command succeeds."""
     return subprocess.run(command, capture_output=True, check=False).returncode == 0
 
 
@@ -168,7 +168,7 @@ def processes_of(node: str) -> dict[int, bytes]:
 
 
 def kill_node(node: str) -> None:
-    """End a node as a power failure does: every process of it at once."""
+    """End a node as a power failure would: all its processes at once."""
     count = 0
     for process in processes_of(node):
         try:
@@ -304,7 +304,10 @@ def main() -> int:
     studying.add_argument("--config", default="config/small.yaml")
     studying.add_argument("--kill", default="fe_tyre", help="solver under which the node dies")
     studying.add_argument(
-        "--kill-after", type=float, default=5.0, help="seconds that its batch has solved by then"
+        "--kill-after",
+        type=float,
+        default=5.0,
+        help="seconds for which its batch has been solving by then",
     )
     studying.add_argument(
         "--minutes-per-batch",

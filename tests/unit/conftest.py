@@ -36,5 +36,5 @@ def reader():
 
 @pytest.fixture(scope="session")
 def spoke_solver():
-    """A solver of its own for one spoke of a deck; benchmarks read the same file."""
+    """The tests' own solver for one spoke of a deck; benchmarks read the same file."""
     return load("abaqus_spoke")

@@ -43,7 +43,7 @@ from nptcs.tables.published.lca_validation import LcaAgainstFem, LcaNeutralLine,
 PACKAGE = Path(nptcs.__file__).parent
 MODULES = sorted(PACKAGE.rglob("*.py"))
 
-# the words of sets that decide between branches; a comparison with one of them is half a chain
+# the words of sets that decide between branches; a comparison with one of them is half an if-chain
 STANDARDS = ("tension_standard", "shear_standard", "rubber_standard")
 WORDS = {
     *get_args(ChordMethod),
@@ -63,7 +63,7 @@ WORDS = {
 def comparisons(tree: ast.AST) -> Iterator[ast.Compare]:
     """Comparisons with one member of a closed set: ``x == "least_squares"``, ``x is Test.A``."""
     for node in ast.walk(tree):
-        # `in` asks for several members, or whether a word is one: no half of a chain
+        # `in` asks for several members, or whether a word is one: not half an if-chain
         if not isinstance(node, ast.Compare) or isinstance(node.ops[0], ast.In | ast.NotIn):
             continue
         for side in (node.left, *node.comparators):

@@ -206,4 +206,4 @@ def test_augment_prints_cases_for_the_study(tmp_path, capsys):
     assert study({"kind": "full_factorial"}, further_cases=further).number_of_cases() == 29
     assert "95 % interval ±" in printed
     assert main([*command, "fe_tyre"]) == 2
-    assert "no surface of this solver" in capsys.readouterr().err
+    assert "no surface for this solver" in capsys.readouterr().err

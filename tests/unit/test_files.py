@@ -8,7 +8,7 @@ from nptcs.seal import sealed_object
 from nptcs.tables.laboratory.curves import IngestRecord
 
 
-def test_a_record_comes_back(tmp_path):
+def test_a_record_is_read_back(tmp_path):
     record = IngestRecord(specimen="T0-1", status="ok", flags=("slipped",))
     write_model(tmp_path / "T0-1.json", record)
     assert read_model(tmp_path / "T0-1.json", IngestRecord) == record
@@ -18,10 +18,10 @@ def test_a_record_comes_back(tmp_path):
     ("content", "message"),
     [
         (None, "does not exist"),
-        (b"{", "is not a sound IngestRecord"),
+        (b"{", "is not a valid IngestRecord"),
         (b'{"specimen": "T0-1"}', "no checksum"),
         (sealed_object({"specimen": "T0-1"}, "IngestRecord").encode(), "status"),
-        (b"\xff\xfe", "is not a sound"),
+        (b"\xff\xfe", "is not a valid"),
     ],
 )
 def test_a_broken_record_is_named(tmp_path, content, message):

@@ -2,7 +2,7 @@
 
 ``match`` with ``assert_never`` covers the branches (`test_closed_sets`). A plain question such as
 ``ring == "paper_mesh"`` has an answer for any other member, and nobody is told when one is added.
-So the members that were known when those questions were last read stand here.
+So the members that were known when those questions were last read are listed.
 """
 
 import ast
@@ -93,7 +93,7 @@ def test_members_are_those_known_when_the_questions_were_read() -> None:
             )
 
 
-def test_no_set_is_kept_in_the_list_that_is_gone() -> None:
+def test_the_list_has_no_set_that_is_gone() -> None:
     asked, sets = questions(), closed_sets()
     gone = [
         name for name in KNOWN if name not in sets or not places_that_ask(name, sets[name], asked)

@@ -46,8 +46,8 @@ COMPARE = [f"compare.{file.stem}" for file in (provenance._ROOT / "compare").glo
 
 
 @pytest.mark.parametrize("module", ["report.html", "report.workbook.build", *COMPARE])
-def test_tables_and_report_do_not_rest_on_the_finite_elements(module):
-    """Else a change of the kernel would write them anew where no case has changed."""
+def test_tables_and_report_do_not_depend_on_the_finite_elements(module):
+    """Otherwise a change of the kernel would rewrite them where no case has changed."""
     found = imported_modules(f"nptcs.{module}".removesuffix(".__init__"))
     assert {name for name in found if name.split(".")[:2] == ["nptcs", "fe"]} == set()
 
@@ -74,7 +74,7 @@ def test_comments_docstrings_and_layout_change_nothing(copy):
     assert code_hash("nptcs.design") == before
 
 
-def test_a_file_of_ones_own_is_hashed_with_what_it_imports(copy, tmp_path):
+def test_a_user_s_file_is_hashed_with_what_it_imports(copy, tmp_path):
     own = tmp_path / "own_solver.py"
     own.write_text("from nptcs.design import full_factorial\n")
     before = code_hash(str(own))
@@ -178,7 +178,7 @@ def mutants(source, step=7):
 
 @pytest.mark.parametrize("solver", sorted(set(MODULES) - {"published"}))
 def test_no_change_of_the_physics_keeps_the_key(solver):
-    """Numbers, operators and comparisons in every module on which the solver rests."""
+    """Numbers, operators and comparisons in every module that the solver depends on."""
     checked = 0
     for module in sorted(imported_modules(MODULES[solver])):
         if module.split(".")[1:2] not in (["fe"], ["lca"], ["decks"], ["config"], ["solvers"]):
@@ -213,9 +213,9 @@ def test_all_that_a_solver_imports_is_in_its_hash():
     run = [sys.executable, "-c", code]
     loaded = subprocess.run(run, env=environment, capture_output=True, check=True, text=True)
     missing = set(loaded.stdout.split()) - imported_modules(*MODULES.values())
-    # a package whose file holds its description alone is loaded, but does nothing
+    # a package whose file contains only its description is loaded, but does nothing
     described = {name for name in missing - {"nptcs"} if is_description(provenance._file(name))}
-    assert missing - described <= {"nptcs"}  # which holds the version
+    assert missing - described <= {"nptcs"}  # which states the version
 
 
 def test_the_hash_is_the_same_in_every_process():

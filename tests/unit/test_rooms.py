@@ -1,4 +1,4 @@
-"""The rooms of the package: what imports what, and what each says of itself."""
+"""The rooms of the package: what imports what, and what each says about itself."""
 
 import ast
 from pathlib import Path
@@ -33,7 +33,7 @@ def test_no_module_imports_the_private_names_of_another(module):
 
 @pytest.mark.parametrize("room", ROOMS, ids=lambda path: str(path.parent.relative_to(PACKAGE)))
 def test_no_room_is_too_large_to_be_read_at_a_glance(room):
-    """More than twenty modules side by side: some of them make a room of their own."""
+    """Of more than twenty modules side by side, some form a separate room."""
     assert len(list(room.parent.glob("*.py"))) <= 20
 
 

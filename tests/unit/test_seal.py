@@ -1,4 +1,4 @@
-"""A sealed text comes back as it was; no other text does."""
+"""A sealed text is opened unchanged; any other text is refused."""
 
 import json
 
@@ -23,18 +23,18 @@ ROWS = OBJECTS.map(lambda content: json.dumps(content, ensure_ascii=False))
 
 @settings(max_examples=40, deadline=None)
 @given(OBJECTS)
-def test_an_object_comes_back(content):
+def test_a_sealed_object_is_opened_unchanged(content):
     assert open_object(sealed_object(content, "Surfaces"), "Surfaces") == content
 
 
 @settings(max_examples=40, deadline=None)
 @given(OBJECTS.filter(bool), st.data())
-def test_an_object_with_a_value_changed_does_not(content, data):
+def test_an_object_with_a_changed_value_is_refused(content, data):
     stored = json.loads(sealed_object(content, "Surfaces"))
     key = data.draw(st.sampled_from(sorted(content)))
     other = data.draw(PLAIN.filter(lambda value: json.dumps(value) != json.dumps(stored[key])))
     stored[key] = other
-    # the order of the keys of a mapping says nothing
+    # the order of the keys of a mapping does not matter
     if json.dumps(other, sort_keys=True) != json.dumps(content[key], sort_keys=True):
         with pytest.raises(BrokenSealError, match="checksum"):
             open_object(json.dumps(stored), "Surfaces")
@@ -42,13 +42,13 @@ def test_an_object_with_a_value_changed_does_not(content, data):
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(ROWS))
-def test_lines_come_back(rows):
+def test_sealed_lines_are_opened_unchanged(rows):
     assert open_lines(sealed_lines(rows, "CaseRecords"), "CaseRecords") == rows
 
 
 @settings(max_examples=40, deadline=None)
 @given(st.lists(ROWS), st.data())
-def test_lines_that_were_cut_off_do_not(rows, data):
+def test_lines_that_were_cut_off_are_refused(rows, data):
     text = sealed_lines(rows, "CaseRecords").rstrip("\n")
     end = data.draw(st.integers(0, len(text) - 1))
     with pytest.raises(BrokenSealError):

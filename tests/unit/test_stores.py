@@ -104,15 +104,15 @@ def test_a_store_without_a_seal_is_found(code):
         "f.save(path)",
     ],
 )
-def test_what_is_sealed_or_no_store_is_not(code):
+def test_what_is_sealed_or_not_a_store_is_not_found(code):
     assert unsealed(code) == []
 
 
-def test_the_lists_name_files_that_there_are():
+def test_the_lists_name_files_that_exist():
     assert not [name for name in {**SEALED_HERE, **NOT_STORES} if not (PACKAGE / name).is_file()]
 
 
-def test_plain_values_come_back_and_a_changed_file_is_named(tmp_path):
+def test_plain_values_are_read_back_and_a_changed_file_is_named(tmp_path):
     kind, file = next(iter(FORMATS)), tmp_path / "a.json"
     write_sealed(file, {"value": 613.25}, kind)
     assert read_sealed(file, kind) == {"value": 613.25}

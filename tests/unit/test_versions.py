@@ -48,7 +48,7 @@ def test_the_version_is_the_same_everywhere(project, recipe):
     assert set(stated.values()) == {nptcs.__version__}, stated
 
 
-def test_the_recipe_asks_for_what_the_package_needs(project, recipe):
+def test_the_recipe_requires_what_the_package_needs(project, recipe):
     wanted = {
         CONDA.get(name, name.lower()): least
         for name, least in map(

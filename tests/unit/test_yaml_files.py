@@ -1,4 +1,4 @@
-"""YAML files of people: aliases that explode are refused, plain ones are read."""
+"""YAML files that people write: aliases that explode are refused, plain ones are read."""
 
 from __future__ import annotations
 

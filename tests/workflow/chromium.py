@@ -1,4 +1,4 @@
-"""One page in Chromium, with all that it asks for and complains about; real keys and fingers."""
+"""One page in Chromium, with its requests and complaints; real key presses and touches."""
 
 from __future__ import annotations
 

@@ -95,9 +95,9 @@ class Project:
 
 @pytest.fixture(scope="session")
 def finished(tmp_path_factory) -> Project:
-    """A small copy of the project in which the pipeline has run to its end, once for all workers.
+    """A small copy of the project in which the pipeline has run once, for all workers.
 
-    xdist gives each worker a folder of its own in the one of the whole session.
+    xdist gives each worker its own folder inside that of the whole session.
     """
     base = tmp_path_factory.getbasetemp()
     folder = (base.parent if "PYTEST_XDIST_WORKER" in os.environ else base) / "project" / "copy"

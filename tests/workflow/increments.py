@@ -106,11 +106,11 @@ class Change:
         return f"| {self.name} | {' | '.join(jobs)} | {cases} | {self.after} |"
 
     def expected_jobs(self) -> dict[str, Any]:
-        """Return what must follow but for the cases."""
+        """Return what must follow, except the cases."""
         return {name: value for name, value in self.expected().items() if name != "cases"}
 
     def expected(self) -> dict[str, Any]:
-        """Return what must follow, as `summary` gives what does."""
+        """Return what must follow, in the form in which `summary` gives what does follow."""
         return {
             "measure": self.measure,
             "design": self.design,
@@ -336,7 +336,7 @@ CHANGES = [
     Change("`timeout_s` of all solvers",
            config(lambda c: [one.update(timeout_s=1234.5) for one in c["solvers"].values()])),
     Change("`spoke_cache`", config(lambda c: c["solvers"]["fe_tyre"].update(spoke_cache="x"))),
-    # ten and more of our own
+    # further changes
     Change("titles, labels and units of studies", config(titles)),
     Change("comment and docstring in a solver of one's own",
            text(SOLVER, '"Return a stiffness without a model."', '"Say it."  # in other words'),
@@ -415,7 +415,7 @@ SOLVED = re.compile(r"^\w+/\w+ \d+/\d+ \S+ ok \([\d.]+ s", re.MULTILINE)
 
 
 def run_change(folder: Path) -> tuple[dict[str, int], int]:
-    """Plan the next run, then solve the cases that rest on tested materials; jobs and cases."""
+    """Plan the next run, solve the cases that depend on tested materials; return jobs and cases."""
     jobs = plan_all([folder])[0]["jobs"]
     batches = [
         f"results/5_solve/{study}/{solver}/batch_1.jsonl"

@@ -42,7 +42,7 @@ def rewritten(archive, target, change):
     return target
 
 
-def test_an_archive_holds_what_the_study_was_made_from_and_verifies(finished, archive):
+def test_an_archive_contains_what_the_study_was_made_from_and_verifies(finished, archive):
     done = verify(finished, archive)
     assert done.returncode == 0, done.stderr
     assert "all as packed" in done.stdout
@@ -119,7 +119,7 @@ def test_half_an_archive_is_refused(finished, archive, tmp_path):
     half.write_bytes(archive.read_bytes()[: archive.stat().st_size // 2])
     done = verify(finished, half)
     assert done.returncode == 2
-    assert "not a whole zip file" in done.stderr
+    assert "not a complete zip file" in done.stderr
 
 
 def test_results_that_are_not_current_are_not_archived(project, tmp_path):
@@ -141,6 +141,18 @@ def awkward(tmp_path):
     return folder
 
 
+def shell(folder, environment, *lines):
+    return subprocess.run(
+        ["/bin/sh", "-c", "\n".join(lines)],
+        cwd=folder,
+        env=environment,
+        capture_output=True,
+        text=True,
+        encoding="utf-8",
+        check=False,
+    )
+
+
 def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, awkward):
     """C locale, umask 077, no solver on the path, read-only raw data: the tables are the same."""
     tools = awkward / "tools"
@@ -148,7 +160,6 @@ def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, a
     for name in ("bash", "sh", "cat", "which"):
         if found := shutil.which(name):
             (tools / name).symlink_to(found)
-    script = "umask 077; exec env/bin/python -m nptcs.cli verify study.zip --rerun run"
     shutil.copy(archive, awkward / "study.zip")
     with zipfile.ZipFile(archive) as packed:
         packed.extractall(awkward / "package")
@@ -159,26 +170,24 @@ def test_an_archive_runs_again_to_the_same_tables_in_an_awkward_place(archive, a
         "PYTHONPATH": str(awkward / "package" / "workflow" / "src"),
         "OPENBLAS_NUM_THREADS": "1",
     }
-    done = subprocess.run(
-        ["/bin/sh", "-c", script],
-        cwd=awkward,
-        env=environment,
-        capture_output=True,
-        text=True,
-        encoding="utf-8",
-        check=False,
+    done = shell(
+        awkward,
+        environment,
+        "umask 077",
+        'nptcs() { env/bin/python -m nptcs.cli "$@"; }',
+        "nptcs verify study.zip --rerun again",
     )
     assert done.returncode == 0, done.stdout[-3000:] + done.stderr[-6000:]
     assert "numbers differ by 0.0e+00" in done.stdout
-    made = awkward / "run" / "results" / "report.html"
+    made = awkward / "again" / "results" / "report.html"
     assert made.stat().st_mode & 0o777 == 0o600
     with zipfile.ZipFile(archive) as packed:
         raw = [name for name in packed.namelist() if name.startswith("raw_data/")]
         for name in raw:
-            assert (awkward / "run" / name).read_bytes() == packed.read(name)
+            assert (awkward / "again" / name).read_bytes() == packed.read(name)
     held = {
-        path.relative_to(awkward / "run").as_posix()
-        for path in (awkward / "run" / "raw_data").rglob("*")
+        path.relative_to(awkward / "again").as_posix()
+        for path in (awkward / "again" / "raw_data").rglob("*")
         if path.is_file()
     }
     assert held == set(raw)
@@ -194,7 +203,7 @@ def test_snakemakes_own_report_has_the_main_outputs_with_captions(project):
 
 
 def test_a_second_run_on_one_folder_is_refused(project):
-    """While one run makes the report, another one is told so and ends; the first ends well."""
+    """While one run makes the report, another one is refused and ends; the first succeeds."""
     project.path("results/report.html").unlink()
     first = subprocess.Popen(
         [sys.executable, "-m", "snakemake", "-j1", "--configfile", "config/small.yaml"],
@@ -207,12 +216,12 @@ def test_a_second_run_on_one_folder_is_refused(project):
     while not list(locks.glob("*.lock")):
         assert first.poll() is None, "the first run ended before it had locked the folder"
         time.sleep(0.05)
-    first.send_signal(signal.SIGSTOP)  # else it may have ended before the second one has planned
+    first.send_signal(signal.SIGSTOP)  # otherwise it may end before the second one has planned
     second = project.snakemake()
     first.send_signal(signal.SIGCONT)
     assert first.wait() == 0
     assert second.returncode != 0
-    # the second words are Snakemake's where a file goes while it plans, before it asks for the lock
+    # the second is Snakemake's where a file vanishes while it plans, before it asks for the lock
     refusals = ("cannot be locked", "could be that a concurrent process")
     assert any(words in second.stdout + second.stderr for words in refusals), second.stderr
     assert project.path("results/report.html").exists()

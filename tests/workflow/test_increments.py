@@ -68,13 +68,13 @@ RUN = ("specimen of a rubber: include → no", "raw file of a composite, the sam
 
 
 @pytest.mark.parametrize("name", RUN)
-def test_a_changed_material_solves_the_cases_that_rest_on_it(grown, tmp_path, name):
+def test_a_changed_material_solves_the_cases_that_depend_on_it(grown, tmp_path, name):
     change = CHANGES[NAMES.index(name)]
     folder = tmp_path / "changed"
     changed_copy(grown.folder, folder, change)
     assert summary(*run_change(folder)) == change.expected()
 
 
-def test_the_docs_hold_exactly_this_table():
+def test_the_docs_contain_exactly_this_table():
     page = (ROOT / "docs/runs.md").read_text(encoding="utf-8")
     assert table() in page, "python benchmarks/increments.py prints the table"

@@ -117,4 +117,4 @@ def test_a_limit_below_one_case_is_refused_in_words(tmp_path):
     assert done.returncode != 0
     assert cases == 0
     told = (tmp_path / "results/logs/solve/held_holder_1.log").read_text()
-    assert "one case takes 5 licence tokens, this run has 4" in told
+    assert "one case takes 5 licence tokens, but this run has 4" in told

@@ -129,7 +129,7 @@ def test_an_edited_solver_solves_its_cases_again(project):
     assert {r["solver_version"] for r in project.rows("cases.csv")} >= {"2"}
 
 
-def test_a_deleted_table_comes_back_and_nothing_is_solved(project):
+def test_a_deleted_table_is_made_again_and_nothing_is_solved(project):
     before = project.path("results/tables/impact.csv").read_bytes()
     project.path("results/tables/impact.csv").unlink()
     plan = project.planned()
@@ -193,7 +193,7 @@ def test_cases_that_raise_hang_or_die_are_rows_and_the_run_fails_after_the_repor
     assert not project.path("results/verdict.txt").exists()
 
 
-def test_bad_specimens_are_named_and_the_others_go_on(project):
+def test_bad_specimens_are_named_and_the_others_are_used(project):
     rows, columns = project.read_sheet()
     tension = [row for row in rows if row["test"] == "tension" and row["orientation_deg"] == "0"]
     rubber = [row for row in rows if row["material"] == "rubber_75A"]

@@ -115,3 +115,28 @@ def test_after_a_kill_and_after_a_signal_the_same_command_goes_on(unsolved):
     assert len(run.records()) == 10
     assert known.items() <= {file: file.stat().st_mtime_ns for file in run.records()}.items()
     assert list(run.temp.iterdir()) == []
+
+
+@pytest.mark.skipif(not sys.platform.startswith("linux"), reason="reads the process table of Linux")
+def test_a_kill_before_the_snakefile_is_read_leaves_nothing_in_the_temporary_folder(tmp_path):
+    (tmp_path / "Snakefile").write_text("import time\ntime.sleep(60)\n")
+    temp = tmp_path / "temp"
+    temp.mkdir()
+    process = subprocess.Popen(
+        [sys.executable, "-m", "snakemake", "-n", "--logger", "nptcs", "-d", str(tmp_path)],
+        cwd=tmp_path,
+        env={**os.environ, "TMPDIR": str(temp)},
+        stdin=subprocess.DEVNULL,
+        start_new_session=True,
+    )
+    until = time.monotonic() + 60.0
+    while not list(temp.rglob("snakemake*")) and time.monotonic() < until:
+        assert process.poll() is None
+        time.sleep(0.02)
+    assert list(temp.rglob("snakemake*"))
+    os.killpg(process.pid, signal.SIGKILL)
+    process.wait()
+    until = time.monotonic() + WITHIN_S
+    while list(temp.iterdir()) and time.monotonic() < until:
+        time.sleep(0.05)
+    assert list(temp.iterdir()) == []

@@ -27,7 +27,7 @@ STARTED = time.time()
 SCRIPTS = (
     Path(workflow.current_basedir.get_path_or_uri(secret_free=False)).parent / "scripts"
 )
-# unquoted, also where another workflow that uses this one as a module has read this file before
+# unquoted, even where another workflow that uses this one as a module has read this file before
 PYTHON = (
     sys.executable if Path(sys.executable).exists() else shlex.split(sys.executable)[0]
 )
@@ -82,9 +82,9 @@ def own_solvers():
 
 
 def decisive():
-    """The configuration without words of the report, which decide nothing that the rules must know.
+    """The configuration without the report's wording, which decides nothing that rules must know.
 
-    With files of the laboratory's own for the report, which are checked at the start, it is whole.
+    With the laboratory's own files for the report, which are checked at the start, it is complete.
     """
     own = CONFIG.laboratory.logo or CONFIG.report.templates
     return CONFIG.model_dump(mode="json", exclude=set() if own else set(WORDS_ONLY))
@@ -145,7 +145,7 @@ def code_of(script, *modules, words=False):
     """Hash of a rule's script, of everything that it imports from the package, and of further modules.
 
     Snakemake looks at the script's time stamp, which a checkout renews, and not at its imports.
-    Rules whose output shows messages and descriptions ask for `words` too.
+    Rules whose output shows messages and descriptions include these with `words`.
     """
     return FACTS.code_of(
         str(SCRIPTS / f"{script}.py"),
@@ -162,8 +162,8 @@ def content_of(path):
 def contents(paths):
     """Hash of each input file that a user gives, for `params`.
 
-    Such inputs are `ancient`: what they hold decides whether a rule runs, not their date, which
-    a copy, an archive or a checkout sets as it likes.
+    Such inputs are `ancient`: their content decides whether a rule runs, not their date, which a
+    copy, an archive or a checkout may change.
     """
     return {str(path): content_of(str(path)) for path in paths}
 
@@ -185,7 +185,7 @@ def records(specimens):
 
 
 def solver_of(study_name, solver_name):
-    """Facts on a study's solver and its options (`nptcs.start.facts.SolverFacts`)."""
+    """Facts about a study's solver and its options (`nptcs.start.facts.SolverFacts`)."""
     return FACTS.solvers[study_name][solver_name]
 
 
@@ -210,7 +210,7 @@ def batches_of(study_name, solver_name):
 
 
 def solved_in_bulk(study_name, solver_name):
-    """Whether a solver solves the cases of a study as a table: no record of each, no curves."""
+    """Whether a solver solves the cases of a study as a table, without a record of each."""
     cases = CONFIG.study(study_name).number_of_cases()
     able = solver_of(study_name, solver_name).solves_tables
     return able and cases >= CONFIG.campaign.bulk_from
@@ -232,7 +232,7 @@ def batches(study_name, solver_name=None):
 
 
 def record_batches(study_name, solver_name):
-    """As `batches`, but only those with a record of each case; none if it is solved in bulk."""
+    """Like `batches`, but only those with a record of each case; none if it is solved in bulk."""
     return (
         []
         if solved_in_bulk(study_name, solver_name)

@@ -1,4 +1,7 @@
-# Surfaces, cards and tolerances → how sure each response is, and designs that meet the goals.
+# Surfaces, cards and tolerances → uncertainty of each response, and designs that meet the goals.
+
+from nptcs.campaign.queue import confirmation_memory_mb, confirmation_minutes
+
 ADDED_CASES = (
     "results/7_decide/added_cases.csv"  # `nptcs design --confirm` appends to it
 )
@@ -38,6 +41,31 @@ def decide_job():
     }
 
 
+def confirming_solvers():
+    """The solver of each decision that is confirmed, and the most cases that it may solve."""
+    return [
+        (FACTS.solvers[one.study][one.solver], one.rounds)
+        for one in CONFIG.decisions
+        if one.confirm
+    ]
+
+
+def decide_tokens(wildcards):
+    return max((batch_tokens(1, one) for one, _ in confirming_solvers()), default=0)
+
+
+def decide_memory_mb(wildcards, attempt):
+    return confirmation_memory_mb([one for one, _ in confirming_solvers()], attempt)
+
+
+def decide_minutes(wildcards, attempt):
+    return confirmation_minutes(confirming_solvers(), attempt)
+
+
+def decide_licence(wildcards):
+    return licence_request(decide_tokens(wildcards), CONFIG.campaign.queue_licence)
+
+
 rule decide:
     input:
         models=expand("results/6_surface/models/{study}.json", study=SURFACE_STUDIES),
@@ -58,6 +86,11 @@ rule decide:
     log:
         "results/logs/decide.log",
     threads: CONFIG.campaign.cores_per_batch
+    resources:
+        licence_tokens=decide_tokens,
+        mem_mb=decide_memory_mb,
+        runtime=decide_minutes,
+        slurm_extra=decide_licence,
     params:
         job=decide_job(),
         store="results/5_solve/records",

@@ -49,7 +49,7 @@ for series in SERIES:
             input:
                 lambda wildcards, batch=batch: files_of_batch(batch),
             output:
-                # not removed before the job: what nothing changed for is left as it is
+                # not removed before the job: files for which nothing changed are left as they are
                 curves=update(curves(batch)),
                 records=update(records(batch)),
             log:

@@ -33,6 +33,7 @@ rule deformed_tyre:
             "cases": CONFIG.study(DRAWN[0]).neutral_line_cases if DRAWN else [],
             "code": code_of("deformed_tyre"),
         },
+        store="results/5_solve/outlines",
     script:
         "../scripts/deformed_tyre.py"
 

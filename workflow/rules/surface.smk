@@ -56,7 +56,7 @@ def published_coefficients(wildcards):
 
 
 def surface_ply(wildcards):
-    """The card of the plates' ply, where a surface of the study is made of its constants."""
+    """The card of the plates' ply, where a surface of the study uses its constants."""
     study = CONFIG.study(wildcards.study)
     if not study.needs_ply():
         return []
@@ -80,7 +80,7 @@ rule surface:
         problems="results/6_surface/{study}_problems.csv",
     log:
         "results/logs/surface/{study}.log",
-    priority: 2  # long, and more waits for it than for its neighbours
+    priority: 2  # long, and more rules wait for it than for the others
     params:
         job=surface_job,
     script:

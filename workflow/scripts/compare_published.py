@@ -1,4 +1,4 @@
-"""Compare each computed stiffness with the published one, and sum the differences up."""
+"""Compare each computed stiffness with the published one, and summarise the differences."""
 
 from typing import Any
 

@@ -1,5 +1,6 @@
 """Draw the outlines of one loaded tyre."""
 
+from pathlib import Path
 from typing import Any
 
 from nptcs.campaign.record import read_records
@@ -13,14 +14,14 @@ from nptcs.tables.tyres.cases import DesignTable
 from nptcs.tables.tyres.deformed_tyre import DeformedTyre
 
 
-def draw(job: dict[str, Any], config: dict[str, Any], outlines: str, **files: Any) -> None:
+def draw(job: dict[str, Any], store: str, outlines: str, **files: Any) -> None:
     rows = empty_table(DeformedTyre)
     if job["study"]:
+        config, records = read_config(files["config"]), read_records(files["records"])
         design = read_table(files["design"][0], DesignTable)
         ply = read_model(files["ply"][0], PlyCard).values()
-        records = read_records(files["records"])
         rows = outlines_of_study(
-            read_config(config), job["study"], job["solver"], records, design, ply
+            config, job["study"], job["solver"], records, design, ply, Path(store)
         )
     write_table(outlines, rows, DeformedTyre)
 

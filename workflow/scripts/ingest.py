@@ -1,4 +1,4 @@
-"""Ingest a batch of specimens: raw files → tidy curves and the records of how they came about."""
+"""Ingest a batch of specimens: raw files → tidy curves and the records of how they were made."""
 
 import json
 from typing import Any

@@ -1,4 +1,4 @@
-"""Fit and compare the surfaces of one study, for each solver that answered."""
+"""Fit and compare the surfaces of one study, for each solver that gave results."""
 
 from typing import Any
 

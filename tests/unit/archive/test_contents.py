@@ -1,4 +1,4 @@
-"""An archive holds every file that the configuration names, and refuses what lies elsewhere."""
+"""An archive contains every file that the configuration names; files elsewhere are refused."""
 
 from pathlib import Path
 

@@ -19,7 +19,7 @@ def compared(folder, before, after):
     return compare_folders(folder / "one", folder / "two")
 
 
-def test_the_wall_time_is_of_the_run_and_not_compared(tmp_path):
+def test_wall_times_are_not_compared(tmp_path):
     found = compared(tmp_path, {"t.csv": TABLE}, {"t.csv": TABLE.assign(wall_time_s=9.0)})
     assert [table.same(0.0) for table in found] == [True]
 
@@ -31,11 +31,11 @@ def test_the_wall_time_is_of_the_run_and_not_compared(tmp_path):
         (TABLE.assign(k=[1.0, 2.0]), "numbers differ by inf"),
         (TABLE.assign(case=["a", "c"]), "text of case differs"),
         (TABLE.assign(ok=[True, True]), "text of ok differs"),
-        (TABLE.head(1), "other columns or rows"),
-        (TABLE.rename(columns={"k": "m"}), "other columns or rows: ['k', 'm']"),
+        (TABLE.head(1), "different columns or rows"),
+        (TABLE.rename(columns={"k": "m"}), "different columns or rows: ['k', 'm']"),
     ],
 )
-def test_each_difference_is_said(tmp_path, other, said):
+def test_each_difference_is_reported(tmp_path, other, said):
     found = compared(tmp_path, {"t.csv": TABLE}, {"t.csv": other})
     assert [table.same(1e-6) for table in found] == [False]
     assert said in str(found[0])

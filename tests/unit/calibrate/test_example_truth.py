@@ -1,4 +1,4 @@
-"""The synthetic example data give back the truth that they were made from."""
+"""Reduction and calibration recover the constants that the synthetic data were made from."""
 
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -63,7 +63,7 @@ def settings(method: Any) -> ReductionSettings:
 
 
 @pytest.mark.parametrize("method", ["nearest_points", "interpolated", "least_squares"])
-def test_table_2_comes_back_within_its_stated_uncertainty(example: Example, method: str) -> None:
+def test_table_2_is_recovered_within_its_stated_uncertainty(example: Example, method: str) -> None:
     properties = example.properties(settings(method))
     card = calibrate_ply(properties, example.specimens, CalibrationSettings())
     table_2 = {
@@ -74,7 +74,7 @@ def test_table_2_comes_back_within_its_stated_uncertainty(example: Example, meth
     }
     for name, value in table_2.items():
         assert distance(card.constants[name], value) <= 1, name
-    # all at once, with their covariance: F quantile of Hotelling's T² is far above χ²
+    # all at once, with their covariance; Hotelling's T² would allow far more than χ²
     assert card.covariance is not None
     error = np.array([card.constants[n].value - table_2[n] for n in card.covariance.names])
     scale = np.sqrt(np.diag(card.covariance.matrix))
@@ -86,7 +86,7 @@ def test_table_2_comes_back_within_its_stated_uncertainty(example: Example, meth
 
 
 @pytest.mark.parametrize("rubber", truth.C10_MPA)
-def test_c10_comes_back_within_its_stated_uncertainty(example: Example, rubber: str) -> None:
+def test_c10_is_recovered_within_its_stated_uncertainty(example: Example, rubber: str) -> None:
     curves = {name: ingested.curve for name, ingested in example.ingested.items()}
     card = calibrate_rubber(rubber, curves, example.specimens, CalibrationSettings())
     assert distance(card.constants["c10_mpa"], truth.C10_MPA[rubber]) <= 1
@@ -94,7 +94,7 @@ def test_c10_comes_back_within_its_stated_uncertainty(example: Example, rubber: 
     assert card.fit_quality["r_squared"] > 0.99
 
 
-def test_strengths_and_numbers_of_specimens_come_back(example: Example) -> None:
+def test_strengths_and_numbers_of_specimens_are_recovered(example: Example) -> None:
     table = group_statistics(
         example.properties(ReductionSettings()), example.specimens, ReductionSettings()
     )

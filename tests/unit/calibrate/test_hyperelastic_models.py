@@ -117,7 +117,7 @@ def test_ogden_contains_neo_hookean_and_mooney_rivlin(mode: str) -> None:
 
 
 @pytest.mark.parametrize(("model", "constants"), CASES[:4], ids=IDS[:4])
-def test_exact_curves_give_back_their_constants(model: Any, constants: Any) -> None:
+def test_constants_are_recovered_from_exact_curves(model: Any, constants: Any) -> None:
     fit = fit_model(model, [data(model, constants)], 0.1)
     assert fit.constants == pytest.approx(constants, rel=1e-6)
     assert fit.rmse_mpa < 1e-8
@@ -126,7 +126,7 @@ def test_exact_curves_give_back_their_constants(model: Any, constants: Any) -> N
     assert fit_model(model, together, 0.1).constants == pytest.approx(constants, rel=1e-6)
 
 
-def test_ogden_with_two_terms_gives_back_its_constants_from_three_modes() -> None:
+def test_ogden_with_two_terms_is_recovered_from_three_modes() -> None:
     # Treloar's range: the stiff term shows only at large stretch
     truth = [0.4095, 1.3, 0.003, 5.0]
     together = [data(ogden(2), truth, mode, 4.0) for mode in MODES]
@@ -230,7 +230,7 @@ def test_equibiaxial_compression_is_uniaxial_tension_by_another_name() -> None:
     compressed = 1 + float(found[0].split()[-1])
     further = instabilities(MOONEY_RIVLIN, constants, 14.0)
     (uniaxial,) = [text for text in further if text.startswith("uniaxial tension")]
-    # onsets are found on 400 steps a path
+    # onsets are found on 400 steps per path
     assert 1 + float(uniaxial.split()[-1]) == pytest.approx(compressed**-2, rel=0.03)
 
 

@@ -68,7 +68,7 @@ def test_line_against_norris_with_its_certified_errors() -> None:
     assert line.r_squared == pytest.approx(0.999993745883712, rel=1e-12)
 
 
-def test_rank_is_told_and_weights_count() -> None:
+def test_rank_is_reported_and_weights_count() -> None:
     x = np.arange(5.0)
     design = np.column_stack([x, 2 * x])
     assert solve_linear(design, x, np.ones(5))[1] == 1

@@ -185,7 +185,7 @@ def test_one_specimen_has_no_error_and_the_card_says_so(
     assert "g12_mpa: one specimen, no standard error" in card.checks
 
 
-def test_crosshead_strain_is_said_in_the_card(properties: pd.DataFrame, sheet: list[Any]) -> None:
+def test_crosshead_strain_is_named_in_the_card(properties: pd.DataFrame, sheet: list[Any]) -> None:
     said = properties["test"].eq("shear").map({True: "crosshead strain: x", False: ""})
     card = calibrate_ply(properties.assign(flags=said), sheet, SETTINGS)
     assert any("g12_mpa is based on crosshead strain" in c and "S-3" in c for c in card.checks)

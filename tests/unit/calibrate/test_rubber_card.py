@@ -89,7 +89,7 @@ def test_left_out_missing_and_single_specimens(make_rubber: Make, make_curve: Ma
     assert "too few specimens" in card.constants["c10_mpa"].rule
 
 
-def test_crosshead_strain_is_said_in_the_card(make_rubber: Make, make_curve: Make) -> None:
+def test_crosshead_strain_is_named_in_the_card(make_rubber: Make, make_curve: Make) -> None:
     curves = {"R-1": make_curve(STRAIN, neo_hookean(1.18, STRAIN))}
     sources = {"R-1": "crosshead"}
     card = calibrate_rubber("rubber_75A", curves, [make_rubber()], SETTINGS, sources)
@@ -136,7 +136,7 @@ def test_errors_name_the_specimen_or_the_key(make_rubber: Make, make_curve: Make
         calibrate_rubber("rubber_75A", short, sheet, wrong)
 
 
-def test_confidence_interval_from_the_scatter_holds_the_truth_in_95_of_100() -> None:
+def test_confidence_interval_from_the_scatter_contains_the_truth_in_95_of_100() -> None:
     rng = np.random.default_rng(11)
     stretch, mode = np.linspace(1.0, 1.15, 31), "rubber_tension"
     weight = np.full(31, 1 / 31)

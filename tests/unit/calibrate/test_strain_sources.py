@@ -19,7 +19,7 @@ def test_travel_next_to_a_sensor_is_left_out_by_name(make_rubber: Make, sensor: 
     assert words == ["R-2: crosshead strain, where other specimens have a sensor: not in the fit"]
 
 
-def test_travel_alone_is_all_that_there_is(make_rubber: Make) -> None:
+def test_travel_is_kept_where_no_specimen_has_a_sensor(make_rubber: Make) -> None:
     sheet = [make_rubber(specimen=name) for name in ("R-1", "R-2")]
     sources = {"R-1": "crosshead", "R-2": "crosshead"}
     assert without_travel_next_to_sensors("rubber_75A", sheet, sources) == (sheet, [])

@@ -1,4 +1,4 @@
-"""A solver for the tests: its factor says how the case ends."""
+"""A solver for the tests: the value of its factor decides how the case ends."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""A solver of tables for the tests: a case's factor says what it does to its table."""
+"""A solver of tables for the tests: the value of a case's factor decides how its table ends."""
 
 import os
 import signal

@@ -1,4 +1,4 @@
-"""Cases solved as a table: the numbers of single cases, each fault a row, none solved twice."""
+"""Cases solved as a table have the numbers of single cases; each fault is a row."""
 
 from pathlib import Path
 
@@ -96,7 +96,7 @@ def test_a_table_has_the_numbers_of_single_cases(tmp_path, solver, options, fact
     checked = check(table, Cases, "cases")
     assert list(checked["status"]) == list(single["status"])
     assert list(checked["message"]) == list(single["message"])
-    # a table keeps the points of a curve, too
+    # a table also keeps the points of a curve
     assert set(single) == {name for name in table if not name.startswith(CURVE)}
     numbers = [name for name in single.select_dtypes("number") if name != "wall_time_s"]
     np.testing.assert_allclose(table[numbers], single[numbers], rtol=1e-9, atol=1e-12)
@@ -156,7 +156,7 @@ def test_batches_divide_the_cases(tmp_path):
     assert [list(part["kind"]) for part in parts] == [[10.0, 12.0], [11.0]]
 
 
-def test_who_solves_tables():
+def test_which_solvers_solve_tables():
     able = {name for name in MODULES if in_bulk(load_solver(MODULES[name]), 1000, 1000)}
     assert able == {"lca", "published", "ring"}
     assert not in_bulk(load_solver(MODULES["lca"]), 999, 1000)
@@ -171,7 +171,7 @@ TABLES = frames.data_frames(
 
 
 @given(TABLES)
-def test_a_file_holds_what_was_written(tmp_path_factory, table):
+def test_a_file_contains_what_was_written(tmp_path_factory, table):
     path = tmp_path_factory.mktemp("bulk") / "b.npz"
     write_bulk(path, table)
     once = path.read_bytes()
@@ -188,7 +188,7 @@ def test_a_file_that_is_cut_off_is_an_error(tmp_path, share):
     write_bulk(path, pd.DataFrame({"case_id": ["a"], "value_mm": [1.0]}))
     content = path.read_bytes()
     path.write_bytes(content[: int(share * len(content))])
-    with pytest.raises(InputError, match="not sound"):
+    with pytest.raises(InputError, match="cannot be used"):
         read_bulk(path)
 
 

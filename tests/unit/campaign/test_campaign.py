@@ -215,6 +215,7 @@ run_cases([slow], RecordStore({str(tmp_path)!r}), 1, quiet)
     campaign.wait()
     campaign.stdout.close()
 
+    deadline = time.monotonic() + 30
     while any(alive(pid) for pid in family) and time.monotonic() < deadline:
         time.sleep(0.05)
     assert not [pid for pid in family if alive(pid)]
@@ -237,7 +238,7 @@ SPOKES = """
 from nptcs.solvers.contract import SPOKE_RESPONSES, Solver, SolverResult
 
 def solve(inputs):
-    loaded = inputs.load_n == inputs.load_n  # not so for NaN
+    loaded = inputs.load_n == inputs.load_n  # false for NaN
     responses = dict.fromkeys(SPOKE_RESPONSES, 1.0)
     return SolverResult(status="ok", extra={"load_is_a_number": float(loaded), **responses})
 

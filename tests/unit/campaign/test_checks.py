@@ -71,7 +71,7 @@ FACTORS = [
         ),
         ({"load_n": 4000.0}, {}, "studies.plate.load_n", "at 5000 N, not at 4000 N"),
         ({"factors": FACTORS}, {}, "studies.plate.factors", "8,000,000 cases"),
-        ({}, {"campaign": {"most_cases": 8}}, "studies.plate.factors", "at most 8 of a study"),
+        ({}, {"campaign": {"most_cases": 8}}, "studies.plate.factors", "at most 8 cases of"),
         ({}, {"campaign": {"batches": 10}}, "campaign.batches", "only 9 cases"),
         ({"solvers": ["lca"]}, {}, "studies.plate.solvers", "does not use"),
     ],
@@ -91,7 +91,7 @@ def test_an_unknown_term_is_refused_as_the_configuration_is_read(archive):
         configuration(archive, {"terms": ["1", "speed"]})
 
 
-def test_all_faults_are_said_at_once(archive):
+def test_all_faults_are_reported_at_once(archive):
     study = {"load_n": 4000.0, "terms": ["1", "spacing_mm", "spacing_mm^2", "spacing_mm^3"]}
     faults = study_faults(configuration(archive, study))
     with pytest.raises(InputError, match=r"(?s)2 faults.*aliased.*4000 N"):
@@ -199,7 +199,7 @@ def test_cases_of_a_material_that_is_not_calibrated_are_not_counted(archive, tmp
 
 
 def by_fe(archive, levels, **study):
-    """A study that varies the spacing of plates, of which the finite elements take whole ones."""
+    """A study that varies the plates' spacing, which the finite elements round to whole plates."""
     factor = {"name": "spacing_mm", "label": "S", "unit": "mm", "levels": levels}
     fixed = {"thickness_mm": 1, "angle_deg": 45, "shear_band_c10_mpa": 5, "spoke_c10_mpa": 1}
     changes = {"factors": [factor], "fixed": fixed, "terms": [], "solvers": ["fe_tyre"]}
@@ -229,8 +229,8 @@ def test_a_spread_design_may_share_rounded_values_but_not_all(archive):
     assert "rounds its values" in fault.message
 
 
-def test_terms_are_held_against_the_values_that_a_solver_uses(archive):
-    """Three levels, of which a solver uses two, carry no square."""
+def test_terms_are_checked_against_the_values_that_a_solver_uses(archive):
+    """Four spacings that a solver rounds to two do not determine a square."""
     terms = ["1", "spacing_mm", "spacing_mm^2"]
     spread = {"kind": "latin_hypercube", "cases": 4}
     config = by_fe(archive, [14.0, 15.2], design=spread, terms=terms)
@@ -266,6 +266,6 @@ def test_a_study_may_not_have_the_name_of_a_folder_of_results(archive, name):
 
 
 @pytest.mark.parametrize("name", ["con", "NUL", "com3", "aux.v2"])
-def test_names_that_windows_keeps_are_refused(archive, name):
+def test_names_that_windows_reserves_are_refused(archive, name):
     faults = name_faults([specimen(material=name)], configuration(archive))
     assert [fault.value for fault in faults] == [name]

@@ -1,4 +1,4 @@
-"""What a batch asks of a queue grows with its cases, its attempt and its solver."""
+"""What a batch requests from a queue grows with its cases, its attempt and its solver."""
 
 import os
 import subprocess
@@ -54,7 +54,7 @@ def test_a_case_of_several_cores_counts_once():
 
 
 @pytest.mark.parametrize("tokens", [0, 5])
-def test_licences_are_asked_for_only_by_name(tokens):
+def test_licences_are_requested_only_by_name(tokens):
     assert licence_request(tokens, "") == ""
     assert licence_request(tokens, "abaqus") == ("--licenses=abaqus:5" if tokens else "")
 

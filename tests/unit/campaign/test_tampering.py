@@ -55,7 +55,7 @@ def without_seal(text):
 
 
 def resealed(**changes):
-    """A record with a sound checksum that no solver can have given."""
+    """A record with a sound checksum and a result that no solver can have given."""
 
     def change(text):
         content = json.loads(without_seal(text))
@@ -151,7 +151,7 @@ def test_a_tampered_batch_file_is_an_error_with_its_name_and_a_remedy(tmp_path, 
 
     file.write_text(tamper(file.read_text(encoding="utf-8")), encoding="utf-8")
 
-    with pytest.raises(InputError, match="not sound") as refusal:
+    with pytest.raises(InputError, match="cannot be used") as refusal:
         read_records([str(file)])
     assert "batch_1.jsonl" in str(refusal.value)
     assert "delete this file" in refusal.value.remedy
@@ -197,7 +197,7 @@ def test_a_tampered_card_is_an_error(tmp_path, card, tamper):
     write_model(file, card)
     assert read_model(file, type(card)) == card
     file.write_text(tamper(file.read_text(encoding="utf-8")), encoding="utf-8")
-    with pytest.raises(InputError, match="not a sound"):
+    with pytest.raises(InputError, match="not a valid"):
         read_model(file, type(card))
 
 
@@ -216,7 +216,7 @@ def test_tampered_surfaces_are_an_error(tmp_path, tamper):
     file = tmp_path / "plate.json"
     text = sealed_object({"published": {"coefficients_natural": [613.25]}}, "Surfaces")
     file.write_text(tamper(text), encoding="utf-8")
-    with pytest.raises(InputError, match="surfaces are not sound"):
+    with pytest.raises(InputError, match="surfaces cannot be used"):
         read_surfaces(file)
 
 

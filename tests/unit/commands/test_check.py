@@ -63,7 +63,7 @@ def in_sheet(**values):
 
 
 def another_composite(project):
-    """Test a second composite as the first one was."""
+    """Add a second composite with the tests of the first."""
     with (project / SHEET).open(encoding="utf-8", newline="") as stream:
         rows = list(csv.DictReader(stream))
     more = [

@@ -64,7 +64,7 @@ def test_a_faulty_configuration_is_one_clear_line(project, capsys):
     assert "Traceback" not in message
 
 
-def test_a_file_that_is_no_yaml_is_named(project, capsys):
+def test_a_file_that_is_not_yaml_is_named(project, capsys):
     (project / "broken.yaml").write_text("studies: [")
     assert main(["check", "broken.yaml"]) == 2
     assert "not YAML" in capsys.readouterr().err

@@ -1,4 +1,4 @@
-"""What the commands of the finite element route say of input that they cannot use."""
+"""What the commands of the finite element route say about input that they cannot use."""
 
 import numpy as np
 import pytest
@@ -33,7 +33,7 @@ def test_a_design_without_meaning_is_one_line(tmp_path, capsys, monkeypatch, wor
 
 
 @pytest.mark.parametrize("command", ["fe-picture", "fe-export"])
-def test_a_tyre_that_is_not_solved_is_one_line_with_how_far_it_came(
+def test_a_tyre_that_is_not_solved_is_one_line_that_says_how_far_it_got(
     tmp_path, capsys, monkeypatch, command
 ):
     if command == "fe-export":

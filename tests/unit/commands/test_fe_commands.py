@@ -93,7 +93,7 @@ def test_abaqus_deck_needs_the_bands_rubber(tmp_path, card, design):
     assert not (tmp_path / "x.inp").exists()
 
 
-def test_deck_refuses_a_configuration_that_is_none(tmp_path, card, design):
+def test_deck_refuses_a_configuration_that_is_not_yaml(tmp_path, card, design):
     (tmp_path / "none.yaml").write_text("studies: [")
     words = ["deck", design, "plate_001", "-o", tmp_path / "x.inp", "--card", card]
     arguments = parse(deck, *words, "--ply", "cfrp", "--config", tmp_path / "none.yaml")

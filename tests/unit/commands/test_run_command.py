@@ -1,4 +1,4 @@
-"""``nptcs run`` becomes Snakemake with the settings that it was given."""
+"""``nptcs run`` starts Snakemake with the settings that it is given."""
 
 import shutil
 import subprocess
@@ -48,7 +48,7 @@ def test_everything_is_passed_through(project):
 
 
 def larger(project, most_cases):
-    """Write a configuration whose study has more cases than a run solves unasked."""
+    """Write a configuration whose study has more cases than a run solves without being asked."""
     content = yaml.safe_load((project / "config/config.yaml").read_text(encoding="utf-8"))
     content["campaign"] = {"most_cases": most_cases}
     (project / "config/config.yaml").write_text(yaml.safe_dump(content), encoding="utf-8")

@@ -1,4 +1,4 @@
-"""Published values are put next to a study only under the conditions of their tables."""
+"""Published values are compared with a study only under the conditions of their tables."""
 
 from pathlib import Path
 
@@ -34,7 +34,7 @@ def factors(name, factor, levels):
 
 
 @pytest.mark.parametrize("name", ["plate", "rubber"])
-def test_the_papers_own_studies_are_under_its_conditions(name):
+def test_the_papers_own_studies_meet_its_conditions(name):
     assert surface_faults(study(name)) == []
 
 

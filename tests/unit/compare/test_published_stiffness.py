@@ -1,4 +1,4 @@
-"""Computed against published stiffness, by hand."""
+"""Computed stiffness against published stiffness, checked by hand."""
 
 import numpy as np
 import pandas as pd
@@ -56,7 +56,7 @@ def table(comparison):
     return check(compare_published(cases(), {"s": comparison}), StiffnessAgainstPublished, "table")
 
 
-def test_each_case_stands_beside_the_published_one(table):
+def test_each_case_is_next_to_the_published_one(table):
     np.testing.assert_allclose(table["difference_percent"][:3], [1.0, -5.0, 2.0])
     assert list(table["used_for_calibration"]) == [False, True, False, False]
     assert list(table)[-3:] == ["a", "b", "fixed_mm"]
@@ -70,7 +70,7 @@ def test_a_failed_case_is_a_row_with_its_status(table):
     assert np.isnan(failed["difference_percent"])
 
 
-def test_cases_are_matched_by_name_not_by_place(comparison):
+def test_cases_are_matched_by_name_not_by_position(comparison):
     shuffled = cases().iloc[::-1]
     table = compare_published(shuffled, {"s": comparison})
     np.testing.assert_allclose(table["difference_percent"][:3], [1.0, -5.0, 2.0])
@@ -139,7 +139,7 @@ def test_one_factor_with_a_failed_level_has_no_main_effect(comparison):
     assert len(stiffness_by_level(whole, {"s": alone})) == 4
 
 
-def test_without_published_studies_the_tables_are_empty_but_whole(tmp_path):
+def test_without_published_studies_the_tables_are_empty_but_have_all_columns(tmp_path):
     nothing = check(compare_published(cases(), {}), StiffnessAgainstPublished, "table")
     for name, table, contract in (
         ("table", nothing, StiffnessAgainstPublished),

@@ -75,7 +75,7 @@ def test_a_spoke_that_failed_is_a_row_with_its_status(published):
 
 
 @pytest.mark.parametrize("study", ["spoke", "other"])
-def test_only_rubbers_of_a_study_that_names_table_10_stand_beside_it(spoke, published, study):
+def test_only_rubbers_of_a_study_that_names_table_10_are_compared_with_it(spoke, published, study):
     changes = {"study": study, "values": {**spoke.values, "spoke_c10_mpa": 1.5}}
     if study == "other":
         changes["values"] = spoke.values
@@ -91,7 +91,7 @@ def test_curves_are_kept_point_by_point(tmp_path, spoke):
     assert list(back["force_n"]) == FORCE
 
 
-def test_without_spokes_the_tables_are_empty_but_whole(tmp_path):
+def test_without_spokes_the_tables_are_empty_but_have_all_columns(tmp_path):
     for table, contract in (
         (spoke_lines([], {}), SpokeLines),
         (spoke_curves([]), SpokeCurves),

@@ -1,4 +1,4 @@
-"""Exponents of the stiffness by each modulus, of laws whose exponents are known."""
+"""Exponents of the stiffness with respect to each modulus, for laws whose exponents are known."""
 
 import itertools
 
@@ -46,7 +46,7 @@ def test_every_row_of_a_power_law_has_its_exponent():
         assert rows["computed_exponent"].to_numpy() == pytest.approx(wanted[0])
         assert rows["published_exponent"].to_numpy() == pytest.approx(wanted[1])
         assert rows["exponent_difference"].to_numpy() == pytest.approx(wanted[0] - wanted[1])
-        # all levels and both steps, at six or six combinations of the others
+        # all levels and both steps, at six combinations of the other factors
         assert len(rows) == 3 * 6
         assert list(rows["levels"][:3]) == [3, 2, 2]
     first = table.iloc[0]
@@ -72,7 +72,7 @@ def test_cases_without_both_values_do_not_count():
     assert set(table["factor"]) == {"shear_band_c10_mpa"}
 
 
-def test_a_study_of_one_modulus_holds_nothing():
+def test_a_study_of_one_modulus_holds_no_other_factor():
     cases = law((0.4, 0.5), (0.4, 0.5))
     alone = cases[(cases["spoke_c10_mpa"] == 1.0) & (cases["spacing_mm"] == 10.0)]
     table = exponents(alone, ("shear_band_c10_mpa",))
@@ -80,7 +80,7 @@ def test_a_study_of_one_modulus_holds_nothing():
     assert table["computed_exponent"].to_numpy() == pytest.approx(0.4)
 
 
-def test_factors_that_are_no_moduli_have_no_exponent():
+def test_factors_other_than_moduli_have_no_exponent():
     assert exponents(law((0.4, 0.5), (0.4, 0.5)), ("spacing_mm",)).empty
     nothing = empty_table(StiffnessAgainstPublished)
     assert stiffness_exponents(nothing, {}).empty

@@ -92,7 +92,7 @@ def test_an_outside_case_is_added_and_the_surface_fitted_again(source, solved_de
     assert confirmation["difference"].iloc[0] == pytest.approx(-8.0, abs=1.0)
 
 
-def test_a_design_that_cannot_be_solved_is_said_to_be(source, solved_design):
+def test_a_design_that_cannot_be_solved_is_reported(source, solved_design):
     outcome, rounds, _ = confirmed(DECISION, source, Run(solved_design, 0.0, "diverged"))
     assert [one.result for one in rounds] == ["not solved"]
     tables = decision_tables([DecisionAnswer(DECISION, outcome, tuple(rounds), 1.0)])

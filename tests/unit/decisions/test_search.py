@@ -68,7 +68,7 @@ def test_designs_can_be_made_and_differ(lightest):
 
 
 def test_the_probability_costs_mass(source):
-    """At 0 degrees 16 plates of 1.2 mm lie just inside the target: a coin's chance, not 0.9."""
+    """At 0 degrees 16 plates of 1.2 mm lie just inside the target: an even chance, not 0.9."""
     goals = {"targets": ["K=302±5"], "minimise": ["plate_mass"], "hold": {"angle_deg": 0}}
     even, safe = (
         decide(decision(**goals, with_probability=chance), source) for chance in (0.3, 0.9)
@@ -154,7 +154,7 @@ def test_probabilities():
     np.testing.assert_allclose(at_least_all(np.array([[0.95, 0.9], [0.2, 0.3]])), [0.85, 0.0])
 
 
-def test_a_front_is_what_nothing_betters(source):
+def test_no_design_betters_one_of_the_front(source):
     light = read_goal(GoalKind.MINIMISE, "plate_mass")
     stiff = read_goal(GoalKind.MAXIMISE, "K")
 
@@ -176,7 +176,7 @@ def test_a_box_without_whole_plates_is_refused():
     assert design_space([mass], {}, {}, TyreGeometry(), whole_plates=False).cells == (None,)
 
 
-def test_steps_that_no_acceptable_design_has_are_said(source):
+def test_steps_that_miss_every_acceptable_design_are_reported(source):
     goals = {"targets": ["K=302±3"], "hold": {"spacing_mm": 13.5, "angle_deg": 0}}
     found = decide(decision(**goals, steps={"thickness_mm": 1.2}), source)
     assert found.found.feasible

@@ -1,7 +1,7 @@
-"""A small reader of Abaqus decks for the tests, apart from the code that writes them.
+"""A small reader of Abaqus decks for the tests, independent of the code that writes them.
 
 It flattens parts and instances into one model, and refuses keywords at a level where Abaqus does
-not take them.
+not accept them.
 """
 
 from __future__ import annotations
@@ -10,7 +10,7 @@ from dataclasses import dataclass, field
 
 import numpy as np
 
-# keyword: levels at which the Abaqus Keywords Reference Guide takes it
+# keyword: levels at which the Abaqus Keywords Reference Guide allows it
 PART = {"part", "instance"}
 ANYWHERE = PART | {"assembly"}
 LEVELS = {
@@ -54,7 +54,7 @@ LEVELS = {
     "ELEMENT OUTPUT": {"step"},
     "CONTACT OUTPUT": {"step"},
 }
-# keyword: keywords after which alone it may stand, data and comments apart
+# keyword: the only keywords that it may follow, data and comments aside
 AFTER = {
     "HYPERELASTIC": {"MATERIAL"},
     "ELASTIC": {"MATERIAL"},
@@ -220,7 +220,7 @@ def _instance(name: str, part: Part, data: list[list[str]]) -> Instance:
     turn, angle = np.eye(3), 0.0
     if len(rows) > 1:
         a, b, angle = np.array(rows[1][:3]), np.array(rows[1][3:6]), rows[1][6]
-        assert np.allclose(a, 0.0), "the tests know axes through the origin only"
+        assert np.allclose(a, 0.0), "the tests support only axes through the origin"
         n = (b - a) / np.linalg.norm(b - a)
         cross = np.array([[0.0, -n[2], n[1]], [n[2], 0.0, -n[0]], [-n[1], n[0], 0.0]])
         rad = np.radians(angle)
@@ -268,7 +268,7 @@ def held(bricks, points):
 
 
 def host(bricks, points):
-    """Number of a brick that holds each point, or -1, and the point's natural place in it.
+    """Number of a brick that contains each point, or -1, and the point's natural place in it.
 
     By Newton's method, in all bricks near the point.
     """

@@ -1,9 +1,9 @@
-"""One spoke of an Abaqus deck, solved for small motions by a solver of its own.
+"""One spoke of an Abaqus deck, solved for small motions by an independent solver.
 
 It takes everything from the deck as `abaqus_deck` reads it: bricks, shells, plies, orientations,
 materials, what is embedded, held and moved. Bricks have one pressure (C3D8H), shells are
 shear-flexible with one point for the shear (as S4R), their translations are those of the bricks
-around them and their rotations are free, as *EMBEDDED ELEMENT has it.
+around them and their rotations are free, as with *EMBEDDED ELEMENT.
 """
 
 from __future__ import annotations

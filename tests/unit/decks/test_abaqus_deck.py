@@ -1,4 +1,4 @@
-"""The Abaqus deck: every name leads somewhere, and each block holds what the paper says."""
+"""The Abaqus deck: every name refers to something, and each block contains what the paper says."""
 
 import numpy as np
 import pytest
@@ -155,7 +155,7 @@ def test_load_grows_linearly_over_a_static_second_with_large_displacements(deck)
     assert deck.named("SURFACE BEHAVIOR")[0].parameters["PRESSURE-OVERCLOSURE"] == "HARD"
 
 
-def test_curve_and_fields_are_asked_for(deck):
+def test_curve_and_fields_are_requested(deck):
     printed = {b.parameters["NSET"]: b.data[0] for b in deck.named("NODE PRINT")}
     assert printed == {"RIM-REF": ["U2"], "GROUND-REF": ["RF2"], "BAND-1.NEUTRAL": ["COORD"]}
     field, history = deck.named("OUTPUT")

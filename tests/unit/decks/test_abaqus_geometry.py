@@ -18,7 +18,7 @@ from nptcs.fe.elements.lagrange import gauss, jacobians, tensor_shape
 from nptcs.fe.spoke.equilibrium import SpokeModel
 from nptcs.fe.spoke.period import SpokeDesign
 
-# a section of its own: what follows must not move with the calibrated one
+# a section for these tests alone: they must not change with the calibrated one
 SECTION = SpokeGeometry(
     leg_angle_deg=26.433,
     height_mm=84.1,
@@ -227,7 +227,7 @@ def slice_stiffness(mesh):
 
 
 def test_the_decks_spoke_is_as_stiff_as_the_packages_own(small_deck, reader, spoke_solver, ply):
-    """All that the deck says of a spoke, solved at rest: embedding and plate count differ."""
+    """All that the deck says about a spoke, solved at rest: embedding and plate spacing differ."""
     deck = small_deck(AbaqusModel(geometry=SECTION, mesh=AbaqusMesh(around=60, band_axial=1)))
     design = SpokeDesign(
         geometry=SECTION,

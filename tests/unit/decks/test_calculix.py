@@ -26,7 +26,7 @@ from nptcs.fe.spoke.period import SpokeDesign
 CORNERS = [0, 4, 3, 7, 1, 5, 2, 6]
 
 
-# a stout section of its own: the check must not move with the calibrated one
+# a stout section for this check alone: it must not change with the calibrated one
 SECTION = SpokeGeometry(
     leg_angle_deg=28.06,
     leg_thickness_mm=4.35,
@@ -92,7 +92,7 @@ def kernel_blocks(mesh, design):
         gradient, volume = jacobians(slope, positions[local])
         if name == "RUBBER":
             bulk = design.mesh.bulk_to_shear_ratio * 2.0 * design.c10_mpa
-            # a pressure of its own at each point is the displacement formulation
+            # one pressure per point is the displacement formulation
             blocks.append(
                 RubberGroup(local, gradient, volume * weights, np.eye(8), design.c10_mpa, bulk)
             )
@@ -112,7 +112,7 @@ def kernel_blocks(mesh, design):
 
 
 def solve_with_kernel(mesh, design, u_r):
-    """Newton's method with dense algebra: written again, apart from `SpokeModel`."""
+    """Newton's method with dense algebra, written again, independently of `SpokeModel`."""
     positions, number, blocks = kernel_blocks(mesh, design)
     master = np.arange(len(positions))
     for far, near in mesh.pairs:
@@ -176,7 +176,7 @@ def test_the_deck_is_complete(ply):
     assert max(line.count(",") for line in text.splitlines() if not line.startswith("*")) <= 16
 
 
-def test_plies_of_true_thickness_are_asked_for(ply):
+def test_plies_of_true_thickness_are_required(ply):
     design = small_design(ply)
     thin = SpokeDesign(**{**vars(design), "thickness_mm": 2.0})
     with pytest.raises(ValueError, match="plate_layer_mm"):
@@ -192,7 +192,7 @@ def test_totals_are_read_from_the_result_file():
 
 
 @pytest.mark.parametrize("text", ["", "\n                        S T E P       1\n\n"])
-def test_a_result_file_of_no_completed_step_holds_no_forces(text):
+def test_a_result_file_of_no_completed_step_contains_no_forces(text):
     assert total_forces(text).shape == (0, 3)
 
 

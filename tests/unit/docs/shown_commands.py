@@ -1,4 +1,4 @@
-"""The commands that the docs show: where they are, and whether the program takes them.
+"""The commands that the docs show: where they are, and whether the program accepts them.
 
 A command is a line of a fenced ``sh`` block, or a code span in a sentence that begins with the name
 of a program. Each program has a check that runs nothing: its own parser, the targets of the
@@ -26,7 +26,7 @@ PLACEHOLDER = re.compile(r"…|\bCOMMAND\b|\.\.\.|-jN\b")
 
 
 def in_blocks(text: str, only_run: bool = False) -> list[str]:
-    """Return the commands of a page's shell blocks, joined where they go on, without comments.
+    """Return the commands of a page's shell blocks, with lines joined and without comments.
 
     With `only_run` only those of blocks without words after the language: on a page that is
     followed, such words say what a block needs that the page has not made.
@@ -44,7 +44,7 @@ def in_sentences(text: str) -> list[str]:
 
 
 def fault(command: str) -> str | None:
-    """Return why a program would not take a command, or None."""
+    """Return why a program would not accept a command, or None."""
     program, *arguments = shlex.split(command)
     check = CHECKS.get(program)
     if check is None:
@@ -53,7 +53,7 @@ def fault(command: str) -> str | None:
 
 
 def nptcs(arguments: list[str]) -> str | None:
-    """Ask the parser of the command line, but not whether files exist."""
+    """Ask the parser of the command line, which does not look whether files exist."""
     from nptcs.errors import InputError
 
     try:
@@ -63,7 +63,7 @@ def nptcs(arguments: list[str]) -> str | None:
 
 
 def _parser() -> argparse.ArgumentParser:
-    """Return the parser of the command line, which takes the names of files as they are."""
+    """Return the parser of the command line, made to accept the name of any file."""
     from nptcs.cli import build_parser
 
     parser = build_parser()
@@ -136,7 +136,7 @@ def pip(arguments: list[str]) -> str | None:
 
 
 def tool(arguments: list[str]) -> str | None:
-    """Take a command of the shell, or of a program that is not ours, as it is."""
+    """Accept any command of the shell, or of a program that is not ours."""
     return None
 
 

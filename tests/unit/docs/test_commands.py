@@ -1,12 +1,15 @@
-"""Every command that the docs show is run by a test, or taken by its program's parser.
+"""Every command that the docs show in a block is run by a test; three cannot be run here.
 
 `test_how_to.py` follows the tutorial and the how-to pages and so runs what they show. A command of
-any other page, or of a page that is not followed, must be among these or listed in `NOT_RUN` with
-the reason. Each command, run or not, must be one that its program takes.
+any other page, or of a page that is not followed, must be a text that a test hands to its function
+`shell`, or be listed in `NOT_RUN` with the reason. Each command, run or not, must be one that its
+program takes.
 """
 
+import ast
 import importlib.util
 import re
+import shlex
 from pathlib import Path
 
 import pytest
@@ -32,48 +35,16 @@ def load(name):
 shown = load("shown_commands")
 FOLLOWED = load("test_how_to").PAGES
 
-DEFAULT_STUDY = "needs the finished default study, ten minutes of finite elements"
 NOT_RUN = {
-    "make run": "the run itself: .ci/run does it with the small study",
-    "make test": "this test suite",
-    "make setup": "the environment of whoever reads",
-    ". .venv/bin/activate": "the environment of whoever reads",
-    "nptcs inspect raw_data/my_lab/T0-1_wdw.txt --write-profile "
-    "config/formats/my-machine.yaml": "add-a-vendor-format.md runs it on a file that needs one",
-    "nptcs new-sheet raw_data/my_lab --fill 'T90: test=tension material=cfrp' --fill "
-    "'S45: test=shear material=cfrp orientation_deg=45'": "the tutorial runs it with all series",
-    "pip install snakemake-executor-plugin-cluster-generic": "changes the environment of the tests",
-    "nptcs run": DEFAULT_STUDY,
-    "nptcs run --cores 4 --configfile config/joint.yaml": DEFAULT_STUDY,
-    "nptcs run --dry-run": "tests/unit/commands/test_run_command.py tests it",
-    "nptcs run --configfile config/mine.yaml": "needs the laboratory's own files",
-    "pip install pre-commit": "changes the environment that runs the tests",
-    "pre-commit install": "writes into the repository",
-    "nptcs deck results/4_design/rubber.csv rubber_013 --solver abaqus --card "
-    "results/material_card.json --ply cfrp --spacing 15 --thickness 1.8 --angle 45 -o "
-    "tyre.inp": DEFAULT_STUDY,
     "abaqus job=tyre input=tyre.inp datacheck interactive": "Abaqus needs a licence",
-    "snakemake -j8 --resources licence_tokens=16": "Abaqus needs a licence",
     "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
     "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "an hour of finite elements",
-    "nptcs design --target 'K=300±5@5000' --minimise plate_mass --confirm": DEFAULT_STUDY,
-    "nptcs compare ../march .": "tests/unit/runs/test_compare_runs.py runs it",
-    "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx": "the same",
-    "nptcs verify study.zip --rerun again": "tests/workflow/test_elsewhere.py runs it",
-    "pip install -c constraints.txt 'nptcs[slurm]'": "changes the environment that runs the tests",
     "snakemake --workflow-profile profiles/slurm": "needs Slurm: tests/slurm/cluster.py runs it",
-}
-OTHERS_PROGRAMS = {
-    "snakemake --executor cluster-generic": "needs a plug-in and a queue that CI does not have",
 }
 
 
 def name(page):
     return str(page.relative_to(ROOT))
-
-
-def not_ours(command):
-    return any(command.startswith(start) for start in OTHERS_PROGRAMS)
 
 
 @pytest.fixture(scope="module")
@@ -89,13 +60,32 @@ def run_by_following():
     }
 
 
+def run_by_tests():
+    """Commands that a test hands to its function `shell`, whole and as the docs show them."""
+    return {
+        shlex.join(shlex.split(text))
+        for file in (ROOT / "tests").rglob("test_*.py")
+        for text in texts_for_the_shell(ast.parse(file.read_text("utf-8")))
+    }
+
+
+def texts_for_the_shell(module):
+    return [
+        word.value
+        for call in ast.walk(module)
+        if isinstance(call, ast.Call) and getattr(call.func, "id", None) == "shell"
+        for word in call.args
+        if isinstance(word, ast.Constant)
+    ]
+
+
 def test_every_command_of_a_block_is_run_or_says_why_not(blocks):
-    run = run_by_following()
+    run = run_by_following() | run_by_tests()
     others = {
         command: page
         for page, commands in blocks.items()
         for command in commands
-        if command not in run and not not_ours(command)
+        if command not in run
     }
     assert {c: page for c, page in others.items() if c not in NOT_RUN} == {}
     assert set(NOT_RUN) - set(others) == set(), "no page shows these any longer"
@@ -106,7 +96,7 @@ def test_each_command_is_one_that_its_program_takes(page):
     text = page.read_text("utf-8")
     # the blocks of a page that is followed are run, in a tree with its files
     commands = [] if page in FOLLOWED else shown.in_blocks(text)
-    found = {command: shown.fault(command) for command in commands if not not_ours(command)}
+    found = {command: shown.fault(command) for command in commands}
     found |= {name: shown.fault_of_name(name) for name in shown.in_sentences(text)}
     assert {command: why for command, why in found.items() if why} == {}
 
@@ -116,6 +106,11 @@ def test_the_examples_of_the_command_line_are_commands():
     found = {command: shown.fault(command) for command in shown.EXAMPLE.findall(text)}
     assert found
     assert {command: why for command, why in found.items() if why} == {}
+
+
+def test_only_what_is_handed_to_the_shell_counts():
+    module = ast.parse("said = 'make run'\nshell(tree, 'nptcs run', code=0)\nother('make setup')")
+    assert texts_for_the_shell(module) == ["nptcs run"]
 
 
 def test_each_test_that_runs_a_command_instead_exists():

@@ -1,4 +1,4 @@
-"""The pages are plain Markdown, and their equations are TeX that can be set."""
+"""The pages are plain Markdown, and their equations are TeX that can be typeset."""
 
 import re
 from pathlib import Path
@@ -31,11 +31,11 @@ def fault(tex):
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: str(page.relative_to(ROOT)))
-def test_equations_can_be_set(page):
+def test_equations_can_be_typeset(page):
     blocks, inline = equations(page.read_text("utf-8"))
     found = {tex: fault(tex) for tex in [*blocks, *inline]}
     assert {tex: why for tex, why in found.items() if why} == {}
-    # a forge sets $…$ only if no blank is next to the dollars
+    # GitHub typesets $…$ only if there is no space inside the dollars
     assert [tex for tex in inline if tex != tex.strip()] == []
 
 

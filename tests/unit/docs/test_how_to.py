@@ -1,6 +1,12 @@
-"""The tutorial and each how-to page work when followed to the letter, in a copy of the project."""
+"""The tutorial and each how-to page work when followed to the letter, in a copy of the project.
+
+The study that the tutorial leaves behind is then the one on which the commands of the other pages
+are run, as they are shown: `small_tree.shorten` puts it, and one of rubbers, in the place of the
+default study. They run in the order of this file.
+"""
 
 import importlib.util
+import re
 import shutil
 from pathlib import Path
 
@@ -8,38 +14,167 @@ import pytest
 
 ROOT = Path(__file__).parents[3]
 DOCS = ROOT / "docs"
+TUTORIAL = DOCS / "tutorial.md"
 SAYS_SO = "is run by `tests/unit/docs/test_how_to.py`"
 PAGES = [
     page
     for page in sorted(DOCS.rglob("*.md"))
     if SAYS_SO in " ".join(page.read_text("utf-8").split())
 ]
+LOGO = (
+    '<svg xmlns="http://www.w3.org/2000/svg" width="40" height="20"><path d="M0 0h40v20z"/></svg>'
+)
 
 
-def load_pages():
+def load(name):
     spec = importlib.util.spec_from_file_location(
-        "how_to_pages", Path(__file__).with_name("pages.py")
+        f"{name}_of_docs", Path(__file__).with_name(f"{name}.py")
     )
     module = importlib.util.module_from_spec(spec)
     spec.loader.exec_module(module)
     return module
 
 
-pages = load_pages()
+pages = load("pages")
+small_tree = load("small_tree")
 
 
-@pytest.fixture
-def tree(tmp_path):
+def copy_project(folder):
     leave = shutil.ignore_patterns("__pycache__", "*.egg-info")
     for name in ("config", "docs", "profiles", "raw_data", "workflow"):
-        shutil.copytree(ROOT / name, tmp_path / name, ignore=leave)
-    return tmp_path
+        shutil.copytree(ROOT / name, folder / name, ignore=leave)
+    return folder
 
 
-@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.stem)
-def test_the_page_can_be_followed(page, tree):
-    pages.follow(page, tree)
+@pytest.mark.parametrize("page", [p for p in PAGES if p != TUTORIAL], ids=lambda page: page.stem)
+def test_the_page_can_be_followed(page, tmp_path):
+    pages.follow(page, copy_project(tmp_path))
 
 
 def test_pages_that_say_so_are_followed():
     assert {"tutorial", "add-a-factor", "add-a-result-table"} <= {page.stem for page in PAGES}
+
+
+@pytest.fixture(scope="module")
+def april(tmp_path_factory):
+    """The folder in which the tutorial was followed; next to it a copy, `march`."""
+    base = tmp_path_factory.mktemp("followed")
+    tree = copy_project(base / "april")
+    pages.follow(TUTORIAL, tree)
+    shutil.copytree(tree, base / "march")
+    small_tree.complete(tree)
+    return tree
+
+
+def shell(tree, *lines, **options):
+    return small_tree.shell(list(lines), tree, **options)
+
+
+def test_the_tutorial_can_be_followed(april):
+    assert (april / "study.zip").is_file()
+
+
+def test_a_machine_is_set_up_without_fetching_anything(april):
+    printed = shell(april, "make setup", ". .venv/bin/activate", "command -v nptcs")
+    assert printed.splitlines()[-1] == str(april / ".venv/bin/nptcs")
+    here = shell(
+        april,
+        ". .venv/bin/activate",
+        "pip install -c constraints.txt 'nptcs[slurm]'",
+        PIP_NO_DEPS="1",  # the plug-in would have to be fetched
+        PYTHONPATH="",
+    )
+    assert "already satisfied: nptcs[slurm]" in here
+    assert "does not provide the extra" not in here
+    shell(april, "pip install snakemake-executor-plugin-cluster-generic")
+    shell(april, "pip install pre-commit", "pre-commit install")
+    assert (april / ".git/hooks/pre-commit").is_file()
+    assert "7 passed" in shell(april, "make test")
+
+
+def test_a_file_and_a_sheet_as_on_the_page_of_lab_data(april):
+    shell(
+        april,
+        "nptcs inspect raw_data/my_lab/T0-1_wdw.txt --write-profile config/formats/my-machine.yaml",
+    )
+    profile = april / "config/formats/my-machine.yaml"
+    assert profile.is_file()
+    profile.unlink()  # else two profiles fit that machine's files
+    sheet = april / "raw_data/my_lab/specimens.csv"
+    before = sheet.read_text("utf-8")
+    shell(
+        april,
+        "nptcs new-sheet raw_data/my_lab --fill 'T90: test=tension material=cfrp' --fill "
+        "'S45: test=shear material=cfrp orientation_deg=45'",
+    )
+    assert sheet.read_text("utf-8") == before  # the tutorial has filled it in
+
+
+def test_a_queue_solves_a_new_study(april):
+    """A stand-in for `sbatch` gets the jobs that solve; the rest runs here."""
+    small_tree.shorten(april)
+    plan = shell(april, "nptcs run --dry-run")
+    assert re.search(r"^solve +2$", plan, re.MULTILINE)
+    shell(
+        april,
+        "snakemake --executor cluster-generic -j4 --latency-wait 30 --cluster-generic-submit-cmd "
+        "'sbatch --parsable --cpus-per-task={threads} --mem={resources.mem_mb} "
+        "--time={resources.runtime} --output=results/logs/slurm_%j.log' "
+        "--cluster-generic-cancel-cmd scancel",
+    )
+    submitted = (april / "submitted.txt").read_text("utf-8").splitlines()
+    assert len(submitted) == 3  # the cases of two solvers and the decisions
+    assert all(re.search(r"--mem=\d+ --time=\d+ ", line) for line in submitted)
+
+
+def test_the_joint_study_runs_on_top(april):
+    printed = shell(april, "nptcs run --cores 4 --configfile config/joint.yaml")
+    assert "joint/ring 24/24" in printed
+    assert "Nothing to be done" in shell(april, "make joint")
+
+
+def test_the_study_runs_by_each_of_its_commands(april):
+    """The first one leaves the joint study out again."""
+    assert "report: results/report.html" in shell(april, "nptcs run")
+    assert "Nothing to be done" in shell(april, "make run")
+    assert "Nothing to be done" in shell(april, "snakemake -j8 --resources licence_tokens=16")
+
+
+def test_the_reports_page_is_the_laboratorys(april):
+    page = (DOCS / "how-to/laboratory-page.md").read_text("utf-8")
+    settings = re.search(r"^```yaml\n# config/mine.yaml\n(.*?)^```$", page, re.M | re.S)[1]
+    (april / "config/mine.yaml").write_text(settings, encoding="utf-8")
+    (april / "my_report").mkdir()
+    (april / "my_report/logo.svg").write_text(LOGO, encoding="utf-8")
+    shell(april, "nptcs run --configfile config/mine.yaml")
+    report = (april / "results/report.html").read_text("utf-8")
+    assert "Composite Tyre Laboratory" in report
+    assert "CTL-2026-017" in report
+
+
+def test_a_deck_is_written_for_a_case_of_the_run(april):
+    shell(
+        april,
+        "nptcs deck results/4_design/rubber.csv rubber_013 --solver abaqus --card "
+        "results/material_card.json --ply cfrp --spacing 15 --thickness 1.8 --angle 45 -o tyre.inp",
+    )
+    assert "*HEADING" in (april / "tyre.inp").read_text("utf-8").upper()
+
+
+def test_two_runs_are_compared(april):
+    printed = shell(april, "nptcs compare ../march .", code=1)
+    assert "rubber" in printed
+    shutil.copy2(april / "study.zip", april / "march.zip")
+    shell(april, "nptcs archive april.zip --config config/config.yaml")
+    shell(
+        april,
+        "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx",
+        code=1,
+    )
+    assert "march.zip" in (april / "changes.html").read_text("utf-8")
+    assert (april / "changes.xlsx").is_file()
+
+
+def test_a_design_is_found_and_confirmed(april):
+    printed = shell(april, "nptcs design --target 'K=300±5@5000' --minimise plate_mass --confirm")
+    assert "inside" in printed

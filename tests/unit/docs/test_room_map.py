@@ -33,7 +33,7 @@ EVERYWHERE = {
 
 
 def read_map():
-    """Return what each room of the map rests on, directly or indirectly."""
+    """Return what each room of the map depends on, directly or indirectly."""
     rests_on = {}
     for rooms, needs in ROW.findall((ROOT / "CONTRIBUTING.md").read_text("utf-8")):
         named = set(re.findall(r"`(\w+)`", needs))

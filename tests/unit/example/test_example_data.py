@@ -37,7 +37,7 @@ def committed():
 
 
 def test_the_seed_gives_the_committed_files(regenerated):
-    """Texts equal; numbers equal but for the last digit, which another processor may round."""
+    """Texts are equal, and numbers but for the last digit: another processor may round it up."""
     assert committed() == sorted(path.name for path in regenerated.iterdir())
     for name in committed():
         ours, theirs = (EXAMPLE / name).read_bytes(), (regenerated / name).read_bytes()
@@ -137,7 +137,7 @@ def drawn(series, index):
     ids=[series.prefix for series in truth.SERIES],
 )
 def test_conditioning_does_not_bias(index, series):
-    """Each specimen's own modulus comes back; the noise of the slower camera allows 1.5 %."""
+    """Each specimen's own modulus is recovered; the noise of the slower camera allows 1.5 %."""
     errors = [estimates()[one.name][0] / one.modulus - 1 for one in drawn(series, index)]
     assert max(abs(error) for error in errors) < 0.015
     assert abs(float(np.mean(errors))) < 0.007

@@ -58,7 +58,7 @@ def test_a_stretched_plate_has_the_stress_of_its_plies_at_both_faces(make):
 
 
 def test_a_bent_plate_is_read_at_half_its_thickness(make):
-    """Curvature κ gives the faces ±κ T/2: more than at any point inside, as thickness asks."""
+    """Curvature κ gives the faces the strain ±κ T/2, more than any point inside."""
     for thickness in (1.2, 2.4):
         model = make(thickness_mm=thickness, angle_deg=0.0)
         curvature = 1e-5
@@ -98,7 +98,7 @@ def test_rubber_extremes_of_a_spoke_stretched_evenly(make):
     assert strain == pytest.approx(0.1, rel=1e-6)
 
 
-def test_the_stress_of_another_program_is_found_again(ply):
+def test_the_stress_of_a_separate_program_is_reproduced(ply):
     """A separate study of this section gave 89 MPa at the motion of the spoke over the contact."""
     section = SpokeGeometry(
         leg_angle_deg=29.55,

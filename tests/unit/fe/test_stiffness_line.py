@@ -1,4 +1,4 @@
-"""Lines through the origin by hand."""
+"""Lines through the origin, checked by hand."""
 
 import numpy as np
 import pytest

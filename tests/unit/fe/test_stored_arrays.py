@@ -12,7 +12,7 @@ ARRAYS = {
 KIND = "numbers 1 key"
 
 
-def test_arrays_come_back_as_they_were(tmp_path):
+def test_arrays_are_read_back_unchanged(tmp_path):
     path = tmp_path / "folder" / "a.npz"
     write_arrays(path, KIND, ARRAYS)
     back = read_arrays(path, KIND)
@@ -21,7 +21,7 @@ def test_arrays_come_back_as_they_were(tmp_path):
     }
 
 
-def test_another_kind_version_or_key_is_not_believed(tmp_path):
+def test_another_kind_version_or_key_is_a_miss(tmp_path):
     path = tmp_path / "a.npz"
     write_arrays(path, KIND, ARRAYS)
     assert read_arrays(path, "numbers 2 key") is None
@@ -34,7 +34,7 @@ def test_pickled_objects_are_not_read(tmp_path):
     assert read_arrays(path, KIND) is None
 
 
-def test_a_number_that_is_not_finite_is_not_believed(tmp_path):
+def test_a_number_that_is_not_finite_is_a_miss(tmp_path):
     path = tmp_path / "a.npz"
     write_arrays(path, KIND, {"field": np.array([1.0, np.inf])})
     assert read_arrays(path, KIND) is None
@@ -44,7 +44,7 @@ def test_a_number_that_is_not_finite_is_not_believed(tmp_path):
 @settings(
     max_examples=150, deadline=None, suppress_health_check=[HealthCheck.function_scoped_fixture]
 )
-def test_a_harmed_file_is_a_miss_or_as_it_was(tmp_path, data):
+def test_a_damaged_file_is_a_miss_or_unchanged(tmp_path, data):
     path = tmp_path / "a.npz"
     write_arrays(path, KIND, ARRAYS)
     content = bytearray(path.read_bytes())

@@ -19,12 +19,12 @@ TABLE = SpokeEnergyTable(
 
 
 def cells(edges, pressure):
-    """Parts between edges, as long on the ground as they were unloaded."""
+    """Contact cells between edges, as long on the ground as when unloaded."""
     return ContactCells(edges[:-1], edges[1:], np.asarray(pressure, float), np.diff(edges))
 
 
 @pytest.mark.parametrize("count", [6, 12, 600])
-def test_an_even_pressure_has_its_own_length_at_any_mesh(count):
+def test_an_even_pressure_has_its_own_length_on_any_mesh(count):
     found = contact_responses(cells(np.linspace(7.0, 47.0, count + 1), np.full(count, 0.5)))
     assert found["contact_length_mm"] == pytest.approx(40.0)
     assert found["mean_pressure_mpa"] == pytest.approx(0.5)
@@ -60,7 +60,7 @@ def test_the_length_does_not_jump_as_the_contact_moves_over_the_points(phase):
     assert found["contact_length_mm"] == pytest.approx(np.sqrt(12.0 / 5.0) * 20.0, rel=0.04)
 
 
-def test_of_too_few_points_no_length_is_told():
+def test_too_few_points_give_no_length():
     found = contact_responses(cells(np.linspace(0.0, 30.0, 4), [0.1, 0.5, 0.1]))
     assert set(found) == {"contact_cells"}
     assert found["contact_cells"] < 3.0

@@ -55,7 +55,7 @@ def coupon() -> Callable[..., Specimen]:
 
 
 class Lab:
-    """Ingests small invented files as a laboratory would, and measures what came out."""
+    """Ingests small invented files as a laboratory would, and measures the results."""
 
     cases = ROOT / "tests" / "unit" / "labcases"
 
@@ -63,7 +63,7 @@ class Lab:
         self.profiles = profiles
 
     def ingest(self, folder: Path, force_file: str, **fields: Any) -> Ingested:
-        """Ingest a file as a coupon of 10 mm², unless the fields say another."""
+        """Ingest a file as a coupon of 10 mm², unless the fields say otherwise."""
         standard: dict[str, Any] = {
             "specimen": "S",
             "test": "tension",
@@ -91,7 +91,7 @@ class Lab:
 
     @staticmethod
     def flagged(done: Ingested, text: str) -> bool:
-        """Tell whether a flag of the record holds a text."""
+        """Tell whether a flag of the record contains a text."""
         return any(text in flag for flag in done.record.flags)
 
     @staticmethod

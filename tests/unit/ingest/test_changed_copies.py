@@ -51,7 +51,7 @@ def test_a_changed_copy_is_found(tmp_path, change):
 @settings(max_examples=25, deadline=None)
 @given(seed=st.integers(0, 10_000), digits=st.integers(3, 8))
 def test_specimens_on_one_ramp_of_strain_are_not_copies(tmp_path_factory, seed, digits):
-    """Also with a load cell of few steps, and the same strains to the last digit."""
+    """Even with a coarse load cell, and with strains that are equal to the last digit."""
     path = tmp_path_factory.getbasetemp()
     copies = ChangedCopies()
     found = [
@@ -61,7 +61,7 @@ def test_specimens_on_one_ramp_of_strain_are_not_copies(tmp_path_factory, seed, 
     assert found == [""] * 6
 
 
-def test_idle_readings_and_short_records_tell_nothing(tmp_path):
+def test_idle_readings_and_short_records_have_no_sketch(tmp_path):
     assert sketch_of(1.2e6 * STRAIN, STRAIN, tmp_path) == ()
     assert sketch_of(np.zeros(100), np.zeros(100), tmp_path) == ()
     assert sketch_of(record_of(1)[:30], STRAIN[:30], tmp_path) == ()

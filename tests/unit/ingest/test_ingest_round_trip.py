@@ -1,4 +1,4 @@
-"""Numbers written in any format come back; mutated files are read right or refused."""
+"""Numbers written in any format are read back; mutated files are read correctly or refused."""
 
 from __future__ import annotations
 
@@ -79,7 +79,7 @@ TABLES = st.lists(st.tuples(NUMBERS, NUMBERS, NUMBERS), min_size=6, max_size=30)
     quoting=st.sampled_from([csv.QUOTE_MINIMAL, csv.QUOTE_ALL]),
     head=st.lists(st.text("abc äöü:", max_size=20), max_size=5),
 )
-def test_any_plain_table_is_read_right_or_refused(
+def test_any_plain_table_is_read_correctly_or_refused(
     read, rows, delimiter, decimal, end, encoding, quoting, head
 ):
     out = io.StringIO(newline="")
@@ -95,7 +95,7 @@ def test_any_plain_table_is_read_right_or_refused(
     assert table.values["time"].tolist() == [row[0] for row in rows]
 
 
-def test_mutated_files_are_read_right_or_refused():
+def test_mutated_files_are_read_correctly_or_refused():
     spec = importlib.util.spec_from_file_location(
         "ingest_fuzz", ROOT / "benchmarks" / "ingest_fuzz.py"
     )

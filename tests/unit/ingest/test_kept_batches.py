@@ -85,7 +85,7 @@ def test_a_damaged_result_is_made_again(batch, tmp_path, damage):
     else:
         path.write_text(path.read_text().replace("1", "2", 1))
     assert not is_kept(curve, record, "")
-    assert batch() in (["A"], [])  # a record that was unlinked may get its old number
+    assert batch() in (["A"], [])  # a record that was unlinked may get its old inode
     made = read_model(record, IngestRecord)
     assert made.curve_sha256 == sha256_of_file(curve)
     assert is_kept(curve, record, made.made_from)

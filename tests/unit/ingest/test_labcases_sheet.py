@@ -88,7 +88,7 @@ def proposed(folder, profiles):
 
 
 def accepted(folder, proposal, **filled):
-    """Fill in what no file can tell, and read the sheet as `check` does."""
+    """Fill in what no file states, and read the sheet as `check` does."""
     for row in proposal.rows:
         row |= {key: value for key, value in filled.items() if not row.get(key)}
     (folder / "specimens.csv").write_text(proposal.text())
@@ -153,7 +153,7 @@ def camera_file(lab, path, seed):
 
 
 def test_a_campaign_of_32_specimens_in_parallel_folders(lab, profiles, tmp_path):
-    """Machine and camera in folders of their own, one table of dimensions per series."""
+    """Machine and camera in separate folders, one table of dimensions per series."""
     series = ("UD_0deg", "UD_90deg", "IPS_pm45", "Compression_0deg")
     seed = 0
     for name in series:
@@ -206,7 +206,7 @@ def test_two_cameras_of_one_specimen_are_left_to_a_person(lab, profiles, tmp_pat
     assert all("one of 2 strain files" in reason for reason in proposal.left.values())
 
 
-def test_a_missing_unit_is_said(lab, profiles, tmp_path):
+def test_a_missing_unit_is_reported(lab, profiles, tmp_path):
     columns = {"Time [s]": TIME, "Load": FORCE, "Strain [%]": 100 * STRAIN}
     lab.write(tmp_path / "a.csv", columns)
     table, _ = proposed(tmp_path, profiles)
@@ -235,7 +235,7 @@ def test_inspect_says_which_of_load_and_strain_it_did_not_read(
 
 
 @pytest.mark.parametrize("names", [("Time [s]", "Load [N]"), ("Time [s]", "exx [1]", "eyy [1]")])
-def test_a_file_of_load_or_strain_alone_is_whole(lab, profiles, tmp_path, names):
+def test_a_file_of_load_or_strain_alone_has_nothing_unread(lab, profiles, tmp_path, names):
     lab.write(tmp_path / "a.csv", dict(zip(names, (TIME, FORCE, 0.3 * STRAIN), strict=False)))
     assert inspect_file(tmp_path / "a.csv", profiles).unread() == ""
 
@@ -290,7 +290,7 @@ def test_a_sheet_beyond_a_limit_is_refused(profiles, tmp_path, cell, limit):
     refused(tmp_path / "a.xlsx", profiles, "has more than", **limit)
 
 
-def test_nothing_behind_a_link_out_of_the_folder_is_looked_at(lab, profiles, tmp_path):
+def test_no_file_behind_a_link_out_of_the_folder_is_read(lab, profiles, tmp_path):
     outside = tmp_path / "outside"
     outside.mkdir()
     machine_file(lab, outside / "secret.csv", 1)
@@ -326,14 +326,14 @@ def test_short_words_of_a_name_propose_the_test(name, test):
     assert proposed_test(name, []) == test
 
 
-def test_the_lock_of_an_open_document_is_no_data(lab, profiles, tmp_path):
+def test_the_lock_of_an_open_document_is_not_data(lab, profiles, tmp_path):
     lab.write(tmp_path / "a.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": 100 * STRAIN})
     shutil.copy(tmp_path / "a.csv", tmp_path / "~$a.csv")
     assert [row["force_file"] for row in propose_sheet(tmp_path, profiles).rows] == ["a.csv"]
 
 
 @pytest.mark.parametrize(("unit", "word"), [("[N]", ""), ("", "'Load') is not known"), ("[V]", "")])
-def test_a_camera_file_with_the_force_of_the_machine_is_a_test_of_its_own(
+def test_a_camera_file_with_the_force_of_the_machine_is_a_separate_test(
     lab, profiles, tmp_path, unit, word
 ):
     lab.write(tmp_path / "m_2.csv", {"Time [s]": TIME, "Load [N]": FORCE, "Strain [%]": STRAIN})

@@ -16,7 +16,7 @@ def digest(read, factor: float, decimals: int = 12) -> str:
 
 
 @pytest.mark.parametrize("factor", [1e-3, 1e3, 1e-200, 1e150])
-def test_a_factor_of_ten_leaves_it_as_it_is(read, factor):
+def test_a_factor_of_ten_does_not_change_it(read, factor):
     assert digest(read, factor) == digest(read, 1.0)
 
 

@@ -31,7 +31,7 @@ def folder_of(lab, tmp_path, names, table=""):
         ("brunch1", ""),
     ],
 )  # fmt: skip
-def test_a_run_is_told_from_its_name(name, piece):
+def test_a_run_is_recognised_by_its_name(name, piece):
     assert piece_of(name) == piece
 
 

@@ -1,4 +1,4 @@
-"""`new-sheet` for folders as laboratories keep them: series, frames, days in names, limits."""
+"""`new-sheet` for folders as laboratories keep them: series, frames, dates in names, limits."""
 
 from __future__ import annotations
 
@@ -128,14 +128,14 @@ def test_series_of_equal_names_in_two_folders_are_two():
         ("UD_1_20240502_1030.csv", "UD_1_20240502_1412.csv"),
     ],
 )
-def test_days_in_names_do_not_part_machine_and_camera(lab, profiles, tmp_path, names):
+def test_dates_in_names_do_not_separate_machine_and_camera(lab, profiles, tmp_path, names):
     machine(lab, tmp_path / "mts" / names[0])
     camera(lab, tmp_path / "dic" / names[1])
     (row,) = table_of(propose_sheet(tmp_path, profiles)).to_dict("records")
     assert row["strain_file"] == f"dic/{names[1]}"
 
 
-def test_a_name_that_is_nothing_but_a_day_keeps_it():
+def test_a_name_that_is_nothing_but_a_date_keeps_it():
     assert tokens("20240502.csv") == {"20240502": 1}
 
 
@@ -193,7 +193,7 @@ def test_check_finds_equal_data_in_other_bytes(lab, profiles, tmp_path):
 
 
 def test_check_names_a_missing_length_and_a_file_that_cannot_be_read(lab, profiles, tmp_path):
-    """A travel or an extension in mm needs the length that it happens over."""
+    """A travel or an extension in mm needs the length over which it occurs."""
     time = np.arange(0, 30, 0.5)
     pull = {"Time (s)": time, "Load (N)": 40 * time}
     lab.write(tmp_path / "r.csv", pull | {"Extensometer (mm)": 0.5 * time})
@@ -243,7 +243,7 @@ def write_names(lab, folder, names):
         ([f"UD{k}.is_tens_RawData/Specimen_RawData_1.csv" for k in (1, 2)], {"UD1": 1, "UD2": 1}),
     ],
 )
-def test_series_of_folders_and_days(lab, profiles, tmp_path, names, series):
+def test_series_of_folders_and_dates(lab, profiles, tmp_path, names, series):
     write_names(lab, tmp_path, names)
     proposal = propose_sheet(tmp_path, profiles)
     assert {name: count for name, (count, _) in proposal.open_series().items()} == series
@@ -261,7 +261,7 @@ def test_cameras_that_count_from_zero_are_not_paired_by_number(lab, profiles, tm
     assert "pair them by hand" in proposal.left["DIC/sp_0.csv"]
 
 
-def test_a_table_of_dimensions_may_lie_on_its_side(lab, profiles, tmp_path):
+def test_a_table_of_dimensions_may_be_transposed(lab, profiles, tmp_path):
     write_names(lab, tmp_path, ["UD-1.csv", "UD-2.csv"])
     table = "Specimen,UD-1,UD-2\nWidth (mm),10,10.1\nThickness (mm),1,1.02\n"
     (tmp_path / "dimensions.csv").write_text(table)

@@ -1,4 +1,4 @@
-"""The specimen sheet: good rows go on, bad rows are named with line, column and remedy."""
+"""The specimen sheet: good rows are kept, bad rows are named with line, column and remedy."""
 
 from __future__ import annotations
 
@@ -49,7 +49,7 @@ def test_series_of_a_rubber_has_no_angle(tmp_path):
         ("T0-1,tension,cfrp,0,15,0.9,b.csv,yes,", "specimen", None),
     ],
 )
-def test_bad_row_is_one_error_and_the_others_go_on(tmp_path, row, column, value):
+def test_bad_row_is_one_error_and_the_others_are_kept(tmp_path, row, column, value):
     specimens, (error,) = read_sheet(sheet(tmp_path, GOOD, row))
     assert [specimen.specimen for specimen in specimens] == ["T0-1"]
     assert (error.line, error.column, error.value) == (3, column, value)
@@ -98,7 +98,7 @@ def test_files_of_bad_rows_are_still_known(tmp_path):
     }
 
 
-def test_section_that_is_no_rectangle():
+def test_section_that_is_not_a_rectangle():
     specimen = Specimen(
         specimen="S",
         test="tension",

@@ -98,7 +98,7 @@ def closed_texts() -> Iterator[str]:
 
 
 def texts_of_the_example() -> Iterator[str]:
-    """Yield what the sheet of the example says in words of its specimens."""
+    """Yield the reasons and remarks of the specimens in the example's sheet."""
     with (ROOT.parents[2] / "raw_data/example/specimens.csv").open(encoding="utf-8") as sheet:
         for row in csv.DictReader(sheet):
             yield from filter(None, (row["reason"], row["remarks"]))

@@ -76,7 +76,7 @@ def test_a_text_is_written_in_the_language_of_the_block():
     assert tr_count(*PROBLEMS, 2, counts="a") == "2 problems: a"
 
 
-def test_a_text_that_no_catalogue_holds_stays_as_it_is():
+def test_a_text_that_no_catalogue_contains_stays_as_it_is():
     with language("zh"):
         assert tr("Meine {eigene} Studie") == "Meine {eigene} Studie"
         assert tr("") == ""

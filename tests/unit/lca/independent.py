@@ -1,6 +1,6 @@
 """The load-bearing model once more, written out for ``scipy.integrate.solve_bvp``.
 
-Nothing of the package's mathematics is used. Lengths are in R, forces in GA, moments in GA R;
+None of the package's mathematics is used. Lengths are in R, forces in GA, moments in GA R;
 ``ε = GA/EA``, ``κ² = GA R²/EI``. Each region is mapped to 0…1 and all are solved at once, with the
 angles as unknown parameters.
 """

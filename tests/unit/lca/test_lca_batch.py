@@ -1,4 +1,4 @@
-"""Tables of designs: the same numbers as one by one, and a clear word where there are none."""
+"""Tables of designs: the same numbers as one by one, and a clear message where there are none."""
 
 import numpy as np
 import pytest
@@ -58,7 +58,7 @@ def test_brackets_find_what_newton_finds(sweep):
     np.testing.assert_allclose(quick.transition[quick.found], transition[quick.found], rtol=1e-10)
 
 
-def test_bad_rows_are_marked_and_the_rest_goes_on(section, spokes):
+def test_bad_rows_are_marked_and_the_others_are_solved(section, spokes):
     from nptcs.lca.single import design_row
 
     row = design_row(section, spokes)

@@ -1,4 +1,4 @@
-"""Spokes that follow a curve or stand singly."""
+"""Spokes that follow a curve, and spokes that are not smeared."""
 
 import numpy as np
 import pytest
@@ -54,7 +54,7 @@ def test_law_is_monotone_passes_its_points_and_has_its_own_slope(steps, left):
         ([0, 1], [0, 1], "must contain the origin"),
     ],
 )
-def test_curves_that_are_none_are_refused(elongation, force, text):
+def test_curves_that_are_not_a_law_are_refused(elongation, force, text):
     with pytest.raises(InputError, match=text):
         lca.SpokeLaw(np.array(elongation, float), np.array(force, float))
 

@@ -43,7 +43,7 @@ def test_printed_section_misses_table_11(rows):
     assert table_11["theta_t_difference_percent"].abs().max() > 5
 
 
-def test_published_values_stand_at_their_own_load_only(rows):
+def test_published_values_are_given_at_their_own_load_only(rows):
     elsewhere = rows[rows["load_n"] != 5000]
     assert elsewhere["published_displacement_mm"].isna().all()
     assert elsewhere["displacement_difference_percent"].isna().all()

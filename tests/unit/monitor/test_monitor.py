@@ -57,7 +57,7 @@ def case(seconds, status="ok"):
 def test_the_time_left_comes_from_the_cases_that_ran(tmp_path):
     log = tmp_path / "plate_fe_tyre_1.log"
     writer = ProgressWriter(log, "plate", "fe_tyre", 2)
-    writer.case(case(99.0), True, 1, 11)  # known: says nothing of the time
+    writer.case(case(99.0), True, 1, 11)  # known: says nothing about the time
     assert read_progress(log)["left_s"] is None
     writer.written = 0.0
     writer.case(case(4.0), False, 2, 11)
@@ -77,7 +77,7 @@ def test_a_file_that_cannot_be_read_is_no_progress(tmp_path, content):
     assert read_progress(log) is None
 
 
-def test_one_line_adds_the_parts_of_a_study_up():
+def test_one_line_adds_up_the_parts_of_a_study():
     parts = {
         str(n): {
             "study": "plate", "solver": "fe_tyre", "done": n, "total": 20, "failed": 1,
@@ -94,7 +94,7 @@ def test_one_line_adds_the_parts_of_a_study_up():
     assert status_line(run, 120) == "40 of 95 jobs"
 
 
-def test_snakemakes_chatter_is_quiet_and_errors_are_not(handler):
+def test_snakemakes_chatter_is_suppressed_and_errors_are_not(handler):
     handler.emit(record("Building DAG of jobs..."))
     handler.emit(record("Select jobs to execute..."))
     assert handler.stream.getvalue() == ""
@@ -102,6 +102,23 @@ def test_snakemakes_chatter_is_quiet_and_errors_are_not(handler):
     handler.emit(record("disk quota exceeded", logging.ERROR))
     shown = handler.stream.getvalue().splitlines()
     assert shown == ["Nothing to be done (all requested files are present).", "disk quota exceeded"]
+
+
+@pytest.mark.parametrize("recorded", [False, True])
+def test_results_that_were_copied_here_are_not_believed_in_silence(handler, tmp_path, recorded):
+    (tmp_path / "results").mkdir()
+    (tmp_path / "results/report.html").touch()
+    folder = tmp_path / ".snakemake/metadata"
+    folder.mkdir(parents=True)
+    if recorded:
+        # the name that Snakemake gives it
+        (folder / "cmVzdWx0cy9yZXBvcnQuaHRtbA==").touch()
+    handler.emit(record("Nothing to be done (all requested files are present)."))
+    handler.close()
+    shown = handler.stream.getvalue()
+    assert "report: results/report.html" in shown
+    assert ("no record of how this was made" in shown) != recorded
+    assert ("snakemake -j2 --forceall" in shown) != recorded
 
 
 def test_of_an_error_only_the_users_message_is_left():
@@ -127,9 +144,11 @@ def test_a_failed_job_is_named_at_once_and_at_the_end(handler, tmp_path):
     assert "FAILED ingest T0-1: a.csv, specimen T0-1: no unit. Remedy: name it" in end
     assert "report: results/report.html" in end
     assert "workbook" not in end
+    handler.close()
+    assert handler.stream.getvalue() == end
 
 
-def test_the_end_is_said_once_and_not_of_a_run_without_jobs(handler):
+def test_a_run_without_jobs_ends_without_a_word(handler):
     handler.close()
     handler.close()
     assert handler.stream.getvalue() == ""

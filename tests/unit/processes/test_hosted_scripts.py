@@ -1,4 +1,4 @@
-"""Scripts in forks of one process: each as isolated as in an interpreter of its own."""
+"""Scripts in forks of one process: each as isolated as in its own interpreter."""
 
 import os
 import signal
@@ -184,7 +184,7 @@ def gone(pid, seconds=5.0):
 
 
 class Script:
-    """As Snakemake's class of Python scripts."""
+    """A stand-in for Snakemake's class of Python scripts."""
 
     started = []
 

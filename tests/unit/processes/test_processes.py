@@ -1,4 +1,4 @@
-"""Who lives, what the dead leave, and that nothing outlives its run by more than seconds."""
+"""Which processes live, what ended ones leave, and that nothing outlives its run by much."""
 
 import dataclasses
 import json
@@ -55,7 +55,9 @@ def test_a_process_is_known_as_long_as_it_lives(sleeper):
     name = process_name(sleeper.pid)
     assert lives(name) is True
     assert read_name(name.text()) == name
-    assert lives(dataclasses.replace(name, started="0 ticks")) is False  # the number, used again
+    assert (
+        lives(dataclasses.replace(name, started="0 ticks")) is False
+    )  # the same number, used again
     assert lives(ended(sleeper)) is False
     wait_for_end(name)
     with pytest.raises(ProcessLookupError):
@@ -124,7 +126,7 @@ def test_a_run_on_another_machine_is_named_with_the_command_to_type(locked, caps
     assert "snakemake --unlock" in said
 
 
-def test_a_lock_of_which_nothing_is_noted_stays(locked):
+def test_a_lock_without_a_note_of_its_run_stays(locked):
     assert runs.begin_run(locked) is False
     assert locks(locked) == 2
 
@@ -148,7 +150,7 @@ def test_a_note_that_was_cut_off_is_of_a_dead_run(locked):
     assert locks(locked) == 0
 
 
-def test_a_run_that_ends_in_order_leaves_no_note(tmp_path):
+def test_a_run_that_ends_normally_leaves_no_note(tmp_path):
     code = f"from nptcs.processes.runs import *; begin_run(Path({str(tmp_path)!r}))"
     process = python(code)
     process.communicate()

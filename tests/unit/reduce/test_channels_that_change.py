@@ -1,4 +1,4 @@
-"""Tests whose truth is known and whose record changes in the middle: true, not assessed or refused.
+"""Tests of known truth whose record changes in the middle: right, not assessed or refused.
 
 A value that is given must be the true one; what must not be given is named for each.
 """

@@ -62,7 +62,7 @@ def test_a_cyclic_test_is_in_the_table_of_ranges(bench: Any, run: Make) -> None:
     assert np.isnan(beyond["c10_mpa"])
 
 
-def test_two_runs_of_a_piece_in_one_fit_are_said(bench: Any, run: Make) -> None:
+def test_two_runs_of_a_piece_in_one_fit_are_reported(bench: Any, run: Make) -> None:
     folder, curves, sheet = bench.labcases / "cyclic_rubber", {}, []
     for name, file in (("R-1", "rub_cyc3.csv"), ("R-2", "rub_mono.csv")):
         _, specimen, done = run(folder, name, "rubber_tension", force_file=file, piece="R")
@@ -152,7 +152,7 @@ def test_the_energy_is_that_of_the_loading_that_broke(
 
 
 @pytest.mark.parametrize("noise", [0.0, 2e-5])
-def test_serrations_noise_and_slips_are_no_loadings(noise: float) -> None:
+def test_serrations_noise_and_slips_are_not_loadings(noise: float) -> None:
     random = np.random.default_rng(3)
     strain = np.linspace(0, 0.012, 500) + noise * random.standard_normal(500)
     force = 1e5 * np.linspace(0, 0.012, 500)

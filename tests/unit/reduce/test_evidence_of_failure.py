@@ -1,4 +1,4 @@
-"""What a test shows of failure and what not: stopped, held, unloaded and broken specimens."""
+"""What shows that a specimen failed, and what does not: stopped, held, unloaded, broken ones."""
 
 from collections.abc import Callable
 from pathlib import Path
@@ -23,7 +23,7 @@ def test_a_run_that_is_stopped_has_a_modulus_and_no_strength(bench: Any, run: Ma
     assert table.loc["ultimate_strain", "value"] == pytest.approx(0.012, rel=2e-3)
 
 
-def test_unloading_is_no_failure(bench: Any, run: Make, tmp_path: Path) -> None:
+def test_unloading_is_not_failure(bench: Any, run: Make, tmp_path: Path) -> None:
     up, down = np.linspace(0, 0.0035, 200), np.linspace(0.0035, 0.0001, 120)
     strain = np.concatenate([up, down])
     name = bench.export(tmp_path, np.arange(320) * 0.2, bench.laminate(strain), strain)
@@ -33,7 +33,7 @@ def test_unloading_is_no_failure(bench: Any, run: Make, tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("rows_of_return", [4, 6, 12])
-def test_a_quick_return_of_the_machine_is_no_failure(
+def test_a_quick_return_of_the_machine_is_not_failure(
     bench: Any, run: Make, tmp_path: Path, rows_of_return: int
 ) -> None:
     # loaded slowly, unloaded a hundred times as fast
@@ -71,7 +71,7 @@ def test_a_gauge_that_springs_back_a_little_while_the_force_goes_is_on_a_broken_
 
 @pytest.mark.parametrize("rows_of_return", [4, 8, 20])
 @pytest.mark.parametrize("bend", [1.0, 3.0])
-def test_a_quick_return_of_a_laminate_that_yielded_is_no_failure(
+def test_a_quick_return_of_a_laminate_that_yielded_is_not_failure(
     bench: Any, run: Make, tmp_path: Path, rows_of_return: int, bend: float
 ) -> None:
     # it unloads as stiffly as it began to load, and keeps a set
@@ -88,7 +88,7 @@ def test_a_quick_return_of_a_laminate_that_yielded_is_no_failure(
 
 @pytest.mark.parametrize("rows_of_return", [6, 10, 25])
 @pytest.mark.parametrize(("power", "left"), [(2.0, 0.0), (3.5, 0.0), (2.5, 0.2)])
-def test_a_quick_return_of_a_softened_specimen_is_no_failure(
+def test_a_quick_return_of_a_softened_specimen_is_not_failure(
     bench: Any, run: Make, tmp_path: Path, rows_of_return: int, power: float, left: float
 ) -> None:
     # a filled rubber or a foam: on the way back the force is gone long before the strain
@@ -116,7 +116,7 @@ def test_a_break_before_the_machine_returns_is_failure(
     assert table.loc["strength", "value"] == pytest.approx(1500, rel=1e-3)
 
 
-def test_relaxation_at_a_held_strain_is_no_failure(bench: Any, run: Make, tmp_path: Path) -> None:
+def test_relaxation_at_a_held_strain_is_not_failure(bench: Any, run: Make, tmp_path: Path) -> None:
     up = np.linspace(0, 0.0035, 200)
     strain = np.concatenate([up, np.full(300, 0.0035)])
     force = bench.laminate(strain) * np.concatenate(
@@ -205,7 +205,7 @@ def test_a_shear_test_that_is_stopped_early_has_no_strength(
     assert shear(0.08).loc["shear_strength", "value"] == pytest.approx(60 * np.tanh(2.6225))
 
 
-def test_no_mean_takes_a_stopped_run_in(bench: Any, run: Make, tmp_path: Path) -> None:
+def test_no_mean_includes_a_stopped_run(bench: Any, run: Make, tmp_path: Path) -> None:
     tables, sheet = [], []
     for number in range(5):
         strain = np.linspace(0, 0.0134 + 1e-4 * number if number < 3 else 0.0035, 300)

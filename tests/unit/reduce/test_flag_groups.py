@@ -71,14 +71,14 @@ def test_kinds(flag, kind):
     assert flag_kind(flag, "ASTM D3039") == kind
 
 
-def test_names_with_digits_are_no_numbers():
+def test_names_with_digits_are_not_numbers():
     one, other = "mean of the runs T0-1, T0-2", "mean of the runs T0-1, T0-3"
     assert NUMBER.sub("#", one) == one
     assert NUMBER.sub("#", other) != NUMBER.sub("#", one)
 
 
 @given(st.lists(st.floats(-1e6, 1e6, allow_nan=False), min_size=1, max_size=6))
-def test_the_range_holds_every_value(values):
+def test_the_range_contains_every_value(values):
     flags = [f"failure after {value:.4g} min, requires 1 to 10" for value in values]
     ends = [float(text) for text in NUMBER.findall(with_ranges(flags))][:-2]
     shown = [float(f"{value:.4g}") for value in values]

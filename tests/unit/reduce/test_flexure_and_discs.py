@@ -236,7 +236,7 @@ def test_a_disc_after_conditioning(tmp_path: Path, profiles: Any, sign: float) -
     assert card.constants["c10_mpa"].value == pytest.approx(1.0, rel=5e-3)
 
 
-def test_missing_conditioning_and_friction_are_said(tmp_path: Path, profiles: Any) -> None:
+def test_missing_conditioning_and_friction_are_reported(tmp_path: Path, profiles: Any) -> None:
     table, _, _ = squeeze(tmp_path, profiles, [1.0], 1.0, platens="")
     flags = table.loc["stress_at_10_percent", "flags"]
     assert "1 of 4 loadings, ISO 7743 measures the last" in flags

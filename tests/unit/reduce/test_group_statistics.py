@@ -92,7 +92,7 @@ def test_known_sample(make_specimen: Make) -> None:
     assert "provisional: n = 5 < 18" in row["notes"]
 
 
-def test_a_basis_value_that_would_be_negative_is_none(make_specimen: Make) -> None:
+def test_a_basis_value_that_would_be_negative_is_not_given(make_specimen: Make) -> None:
     table = properties([1.0, 2.0, 3.0, 4.0, 10.0])
     row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
     assert np.isnan(row["b_basis"])
@@ -143,7 +143,7 @@ def test_one_specimen_has_no_scatter_and_equal_values_no_outlier(make_specimen: 
     assert np.isnan(row["mnr"])
 
 
-def test_ranges_that_differ_inside_a_group_are_said(make_specimen: Make) -> None:
+def test_ranges_that_differ_inside_a_group_are_reported(make_specimen: Make) -> None:
     other = properties([2.0], prefix="U", range="25 to 50 % of the ultimate strain (below 0.006)")
     table = pd.concat([properties([1.0, 2.0]), other])
     row = group_statistics(table, sheet(table, make_specimen), SETTINGS).iloc[0]
@@ -151,7 +151,7 @@ def test_ranges_that_differ_inside_a_group_are_said(make_specimen: Make) -> None
     assert " | " in row["range"]
 
 
-def test_crosshead_strain_is_said_wherever_the_modulus_shows(make_specimen: Make) -> None:
+def test_crosshead_strain_is_named_wherever_the_modulus_shows(make_specimen: Make) -> None:
     table = properties([1.0, 2.0, 3.0])
     table["flags"] = TRAVEL
     table.loc[2, "flags"] += "; failure after 20 min"
@@ -240,7 +240,7 @@ def test_pooled_scatter_is_that_within_the_groups(make_specimen: Make) -> None:
         ([10.0, 12.0, 60.0, 100.0, -90.0], "the variances differ: do not pool"),
     ],
 )
-def test_groups_that_differ_are_said_not_to_pool(
+def test_groups_that_differ_are_reported_as_not_poolable(
     values: list[float], words: str, make_specimen: Make
 ) -> None:
     tension = properties([10.0, 12.0, 14.0, 11.0, 12.5, 11.5])
@@ -259,7 +259,7 @@ def test_pooled_b_basis_holds_for_every_group_in_95_of_100() -> None:
         assert below.mean() == pytest.approx(0.95, abs=3 * np.sqrt(0.05 * 0.95 / repetitions))
 
 
-def test_confidence_interval_holds_the_truth_in_95_of_100_and_b_basis_in_95_of_100() -> None:
+def test_confidence_interval_contains_the_truth_and_b_basis_is_valid_in_95_of_100() -> None:
     rng = np.random.default_rng(3)
     truth, scatter, tenth = 100.0, 4.0, 100.0 - 1.281552 * 4.0
     repetitions, inside, below = 2000, 0, 0

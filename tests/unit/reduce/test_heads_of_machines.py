@@ -1,6 +1,6 @@
-"""Heads as machines write them: read right to the properties, or refused with what to do.
+"""Headers as machines write them: read correctly, down to the properties, or refused with a remedy.
 
-The test and the writing of an export are those of `test_vendor_quirks`; all numbers are made up.
+Test and export are those of `written_exports`, as in `test_vendor_quirks`; all numbers are made up.
 """
 
 from __future__ import annotations
@@ -67,7 +67,7 @@ def test_a_load_in_a_unit_of_some_machine_is_read(tmp_path, profiles, name):
 
 
 @pytest.mark.parametrize("unit", ["ton", "Ton", "tons", "tonf", "T"])
-def test_a_ton_among_metric_units_is_metric_and_said(tmp_path, profiles, unit):
+def test_a_ton_among_metric_units_is_metric_and_reported(tmp_path, profiles, unit):
     columns = CLOCK | {f"Load ({unit})": TONS, "Strain (%)": PERCENT, "Disp. (mm)": TRAVEL}
     table, record = reduced(tmp_path, profiles, export(columns))
     assert table.loc["modulus", "value"] == pytest.approx(E_MPA, rel=0.02)
@@ -140,7 +140,7 @@ def test_two_gauges_of_one_kind_are_refused_by_name(tmp_path, profiles):
         reduced(tmp_path, profiles, content, **LENGTH)
 
 
-def test_a_modulus_in_the_table_is_no_strain(tmp_path, profiles):
+def test_a_modulus_in_the_table_is_not_a_strain(tmp_path, profiles):
     content = export(NEWTON | {"Strain (%)": PERCENT, "E (GPa)": np.full(len(TIME), 120.0)})
     table, _ = reduced(tmp_path, profiles, content)
     assert table.loc["modulus", "value"] == pytest.approx(E_MPA, rel=0.02)

@@ -1,4 +1,4 @@
-"""Exports with a fault that a person sees, from the file to the properties: right, or said."""
+"""Exports with a fault that a person sees, from file to properties: read right, or reported."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ def text_of(columns: Mapping[str, Sequence[Any]], head: Sequence[str] = (), by: 
 
 
 def reduce(folder: Path, profiles: Any, files: Mapping[str, str], **fields: Any) -> Any:
-    """Write the files, ingest and reduce them; properties by name, flags of each, and flags."""
+    """Write, ingest and reduce files; return values and flags by property, and all ingest flags."""
     for name, text in files.items():
         (folder / name).parent.mkdir(exist_ok=True)
         (folder / name).write_text(text, encoding="utf-8")
@@ -170,7 +170,7 @@ EARLY = slice(60, LOADED + AFTER)
     ],
     ids=lambda value: value if isinstance(value, str) and value.islower() else "",
 )  # fmt: skip
-def test_an_export_is_read_right_or_the_fault_is_said(
+def test_an_export_is_read_correctly_or_the_fault_is_reported(
     tmp_path, profiles, name, files, fields, expected, said
 ):
     values, flags, words = reduce(tmp_path, profiles, files, **fields)
@@ -189,25 +189,24 @@ def test_a_slip_within_the_range_gives_no_modulus_or_that_before_it(tmp_path, pr
 
 
 @pytest.mark.parametrize("readings", [2, 5])
-def test_a_slip_over_several_readings_is_one_too(tmp_path, profiles, readings):
-    force, strain = np.repeat(FORCE, 1), STRAIN
-    time = np.arange(10 * len(force)) / 100
-    fine = np.interp(time, TIME, strain)
+def test_a_slip_over_several_readings_is_found_too(tmp_path, profiles, readings):
+    time = np.arange(10 * len(FORCE)) / 100
+    fine = np.interp(time, TIME, STRAIN)
     slip = 2e-4 * np.clip((np.arange(len(time)) - 1000) / readings, 0, 1)
-    columns = {"Time [s]": time, "Force [N]": np.interp(time, TIME, force),
+    columns = {"Time [s]": time, "Force [N]": np.interp(time, TIME, FORCE),
                "Strain [%]": 100 * (fine + slip)}  # fmt: skip
     values, flags, _ = reduce(tmp_path, profiles, {"a.csv": text_of(columns)})
     check(values, flags, {"modulus": None})
 
 
 @pytest.mark.parametrize("quantum", [2e-5, 1e-4])
-def test_coarse_steps_of_a_logger_are_no_slip(tmp_path, profiles, quantum):
+def test_coarse_steps_of_a_logger_are_not_a_slip(tmp_path, profiles, quantum):
     coarse = np.round(STRAIN / quantum) * quantum
     values, flags, _ = reduce(tmp_path, profiles, one(strain=coarse))
     assert values["modulus"] == pytest.approx(E_MPA, rel=0.06), flags["modulus"]
 
 
-def test_a_shear_strain_of_two_growing_strains_is_no_shear_strain(tmp_path, profiles):
+def test_a_shear_strain_of_two_growing_strains_is_not_assessed(tmp_path, profiles):
     gamma = np.append(np.linspace(0, 0.06, 900), np.full(15, 0.02))
     tau = np.append(80 * np.tanh(4500 * gamma[:900] / 80), np.full(15, 0.5))
     columns = {"Time [s]": np.arange(915) / 10, "Load [N]": 20 * tau,
@@ -225,7 +224,7 @@ def test_a_camera_force_in_volts_that_is_another_signal_is_refused(tmp_path, pro
         reduce(tmp_path, profiles, files, strain_file="b.csv")
 
 
-def test_a_head_entry_above_the_names_is_no_row_of_units(tmp_path, profiles):
+def test_a_header_entry_above_the_names_is_not_a_row_of_units(tmp_path, profiles):
     files = {"a.csv": "Operator,Ada,\nThickness,1,mm\n" + one()["a.csv"]}
     values, flags, _ = reduce(tmp_path, profiles, files)
     check(values, flags, ALL)
@@ -271,15 +270,15 @@ def changed(readings: Any, rows: Any, value: float) -> Any:
         "strain to zero",
     ],
 )
-def test_a_channel_that_is_away_for_some_readings_is_emptied(tmp_path, profiles, force, strain):
+def test_a_channel_that_drops_out_for_some_readings_is_emptied(tmp_path, profiles, force, strain):
     values, flags, words = reduce(tmp_path, profiles, one(force, strain))
     check(values, flags, ALL)
     assert LOST in words
 
 
 @pytest.mark.parametrize("rows", [2, 4])
-def test_a_machine_that_lets_go_and_loads_again_is_no_lost_cable(tmp_path, profiles, rows):
-    """Force and strain leap together: a loading of its own, or a step of dead weights."""
+def test_a_machine_that_lets_go_and_loads_again_is_not_a_lost_cable(tmp_path, profiles, rows):
+    """Force and strain leap together: a separate loading, or a step of dead weights."""
     up = np.linspace(0, 0.004, 200)
     strain = np.concatenate([up, np.zeros(rows), up, STRAIN])
     force = np.concatenate([1.2e6 * up, np.zeros(rows), 1.2e6 * up, FORCE])

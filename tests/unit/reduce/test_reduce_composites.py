@@ -22,7 +22,7 @@ reduce_specimen = partial(nptcs.reduce.reduce_specimen, failure_seen=True)
 SETTINGS = ReductionSettings()
 
 
-def test_tension_gives_back_modulus_poisson_ratio_and_strength(
+def test_tension_recovers_modulus_poisson_ratio_and_strength(
     make_specimen: Make, make_curve: Make, value_of: Make
 ) -> None:
     strain = np.linspace(0, 0.012, 241)
@@ -113,7 +113,7 @@ def test_deviations_from_the_standard_go_with_every_value(
         assert table["flags"].str.contains(words).all(), words
 
 
-def test_crosshead_strain_is_said_once(make_specimen: Make, make_curve: Make) -> None:
+def test_crosshead_strain_is_named_once(make_specimen: Make, make_curve: Make) -> None:
     strain = np.linspace(0, 0.012, 241)
     told = ["crosshead strain: modulus and strains include the compliance of machine and grips"]
     table = reduce_specimen(
@@ -193,7 +193,7 @@ def test_shear_modulus_offset_strength_and_cut_at_5_percent(
     assert value_of(table, "offset_shear_strength") == pytest.approx(tau(low), rel=1e-6)
 
 
-def test_iso_14129_takes_its_range_and_knows_no_offset_strength(
+def test_iso_14129_takes_its_range_and_has_no_offset_strength(
     make_specimen: Make, make_curve: Make, value_of: Make, flags_of: Make
 ) -> None:
     specimen = make_specimen("S-1", "shear")

@@ -23,7 +23,7 @@ Make = Callable[..., Any]
         ),
     ],
 )
-def test_a_gauge_taken_off_for_the_way_to_failure(
+def test_a_gauge_taken_off_before_failure(
     bench: Any, run: Make, folder: str, fields: dict[str, str]
 ) -> None:
     table, _, _ = run(bench.labcases / folder, width_mm=(10.0,), **fields)
@@ -35,7 +35,7 @@ def test_a_gauge_taken_off_for_the_way_to_failure(
 
 
 @pytest.mark.parametrize(("stated", "count"), [(None, 2), (True, 3), (False, 2)])
-def test_no_mean_takes_a_failure_in_that_no_reading_shows(
+def test_no_mean_includes_a_failure_that_no_reading_shows(
     bench: Any, run: Make, tmp_path: Path, stated: bool | None, count: int
 ) -> None:
     """Two that break, and one whose gauge is taken off and whose record ends at the top."""
@@ -61,7 +61,7 @@ def test_no_mean_takes_a_failure_in_that_no_reading_shows(
 
 
 @pytest.mark.parametrize("leaves_at", [0.85, 0.97])
-def test_a_gauge_that_leaves_near_the_end_says_nothing_of_a_way_to_failure(
+def test_a_gauge_taken_off_near_the_end_does_not_imply_failure(
     bench: Any, run: Make, tmp_path: Path, leaves_at: float
 ) -> None:
     """A modulus run whose gauge is taken off where it is stopped."""
@@ -72,7 +72,7 @@ def test_a_gauge_that_leaves_near_the_end_says_nothing_of_a_way_to_failure(
     bench.assert_not_assessed(table, ["strength"], "no failure seen")
 
 
-def test_a_gauge_that_leaves_before_a_hold_says_nothing_of_a_way_to_failure(
+def test_a_gauge_taken_off_before_a_hold_does_not_imply_failure(
     bench: Any, run: Make, tmp_path: Path
 ) -> None:
     strain = np.append(np.linspace(0, 0.006, 400), np.linspace(0.006, 0.00601, 200))

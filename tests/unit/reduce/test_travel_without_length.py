@@ -1,4 +1,4 @@
-"""A test of which only force and crosshead travel are known gives its strength and nothing else."""
+"""A test with only force and crosshead travel gives its strength and nothing else."""
 
 from __future__ import annotations
 
@@ -62,6 +62,6 @@ def test_no_strength_where_the_record_ends_at_its_largest_force(tmp_path):
     assert np.isnan(table.loc["strength", "value"])
 
 
-def test_the_word_of_the_sheet_counts(tmp_path):
+def test_what_the_sheet_states_counts(tmp_path):
     table = reduced(tmp_path, LARGEST_N * RISE, 2 * RISE, failed=True)
     assert table.loc["strength", "value"] == pytest.approx(LARGEST_N / AREA_MM2, rel=0.005)

@@ -1,4 +1,4 @@
-"""Invented exports of many programs, each with a quirk: read right to the properties, or refused.
+"""Invented exports of many programs, each with a quirk: read correctly to the end, or refused.
 
 The names are those that the programs write; all numbers are made up.
 """
@@ -43,7 +43,7 @@ def bluehill(names: Sequence[str], by: str = ",", decimal: str = ".") -> str:
 
 
 def blocks(head: Sequence[str], names: bool) -> str:
-    """One test in blocks of 100 readings, each under a header of its own."""
+    """One test in blocks of 100 readings, each under its own header."""
     text = ""
     for start in range(0, len(TIME), 100):
         part = slice(start, start + 100)
@@ -195,7 +195,7 @@ for written, factor in UNITS.items():
 
 
 @pytest.mark.parametrize("name", READ)
-def test_a_quirk_is_read_right(tmp_path, profiles, name):
+def test_a_quirk_is_read_correctly(tmp_path, profiles, name):
     content, expected, fields = READ[name]
     table, record = reduced(tmp_path, profiles, content, **fields)
     for key, value in expected.items():
@@ -224,7 +224,7 @@ def test_what_could_mean_two_things_is_refused(tmp_path, profiles, name):
         reduced(tmp_path, profiles, content)
 
 
-def test_blocks_that_begin_at_zero_again_stay_tests_of_their_own(tmp_path, profiles):
+def test_blocks_that_begin_at_zero_again_stay_separate_tests(tmp_path, profiles):
     again = export(PULL | {"Strain [%]": PERCENT}) + "\n" + export(PULL | {"Strain [%]": PERCENT})
     with pytest.raises(InputError, match="holds 2 tests"):
         reduced(tmp_path, profiles, again)
@@ -259,7 +259,7 @@ def record_of(strain: Any, stress: Any) -> str:
 
 @pytest.mark.parametrize("softest", [0.5, 0.7, 0.8])
 @pytest.mark.parametrize("depth", [0.002, 0.003, 0.004, 0.006])
-def test_a_toe_that_reaches_into_the_range_is_said(tmp_path, profiles, depth, softest):
+def test_a_toe_that_reaches_into_the_range_is_reported(tmp_path, profiles, depth, softest):
     table, record = reduced(tmp_path, profiles, record_of(*toe(depth, softest)))
     value, flags = table.loc["modulus", ["value", "flags"]]
     close = abs(value / E_MPA - 1) < 0.03
@@ -267,7 +267,7 @@ def test_a_toe_that_reaches_into_the_range_is_said(tmp_path, profiles, depth, so
 
 
 @pytest.mark.parametrize("growth", [0.0, 10.0, 20.0])
-def test_fibres_that_stiffen_are_no_toe(tmp_path, profiles, growth):
+def test_fibres_that_stiffen_are_not_a_toe(tmp_path, profiles, growth):
     strain = np.linspace(0, ULTIMATE, LOADED)
     content = record_of(strain, E_MPA * (strain + growth * strain**2 / 2))
     table, _ = reduced(tmp_path, profiles, content)
@@ -294,7 +294,7 @@ def stopped(readings: int, seconds: float, back: float) -> str:
         (0, 1.0, 1.0, False), (0, 0.1, 1.0, True), (0, 1.0, 0.3, True), (2, 0.1, 0.2, True),
     ],
 )  # fmt: skip
-def test_a_quick_return_of_the_machine_is_no_break(
+def test_a_quick_return_of_the_machine_is_not_a_break(
     tmp_path, profiles, readings, seconds, back, broken
 ):
     table, _ = reduced(tmp_path, profiles, stopped(readings, seconds, back))

@@ -1,4 +1,4 @@
-"""The page without barriers: axe-core in a real browser, light and dark; keyboard; print."""
+"""The page is accessible: axe-core in a real browser, light and dark; keyboard; print."""
 
 import pytest
 from axe_check import CHROMIUM, NO_CHROMIUM, chromium, opened, violations

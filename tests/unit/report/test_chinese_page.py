@@ -1,4 +1,4 @@
-"""The report in Chinese: no word of the report's own stays English, no number is another one."""
+"""The report in Chinese: none of its own words stays English, and no number changes."""
 
 import io
 import re
@@ -26,7 +26,7 @@ KEPT = re.compile(
     re.DOTALL,
 )
 """Texts that are the same in both languages: symbols, units, files, names, a user's own titles,
-and what the tables of these tests say in words of no stage."""
+and texts in the tables of these tests that no stage writes."""
 
 RULES = frozenset(name for row in TABLES.values() for name in (row.rule, *row.rule.split(", "))) | {
     "calibrate_ply, material_card",
@@ -37,7 +37,7 @@ RULES = frozenset(name for row in TABLES.values() for name in (row.rule, *row.ru
 
 
 class Recorder(NullTranslations):
-    """Notes the texts that the catalogue does not hold."""
+    """Notes the texts that the catalogue does not contain."""
 
     def __init__(self):
         super().__init__()

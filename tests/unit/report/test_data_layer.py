@@ -1,4 +1,4 @@
-"""What a report holds is read without a library that draws."""
+"""The data of a report are read without a plotting library."""
 
 import os
 import subprocess

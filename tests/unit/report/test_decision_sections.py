@@ -186,7 +186,7 @@ def words(section):
     return " ".join([*texts, *(f"{fact.what}: {fact.result}" for fact in facts)])
 
 
-def test_the_sections_say_what_the_tables_hold(decided):
+def test_the_sections_say_what_the_tables_contain(decided):
     sheets = sheets_of(decided)
     said = words(uncertainty_section(decided, sheets))
     assert "264.4 ± 2.3 N/mm (SD), 95 % interval 259.9 to 268.9; shear band C10 (T-C) 72 %" in said

@@ -38,7 +38,7 @@ def test_two_processes_draw_what_one_draws_in_the_language_of_the_page():
 
 @pytest.fixture
 def named(monkeypatch):
-    """A name for each figure of this file, whose code is no module of the package."""
+    """A name for each figure of this file, whose code is not in a module of the package."""
     monkeypatch.setattr("nptcs.report.plots.figure_key", lambda draw, count: f"{count}")
 
 
@@ -60,7 +60,7 @@ def test_figures_are_kept_once_they_are_drawn(tmp_path, processes):
 
 
 @pytest.mark.parametrize("processes", [1, 2])
-def test_what_goes_wrong_in_a_figure_is_said(processes):
+def test_what_goes_wrong_in_a_figure_is_reported(processes):
     drawers = Drawers(processes)
     with pytest.raises(InputError, match="no figure"):
         drawers.start(refused, 3)()

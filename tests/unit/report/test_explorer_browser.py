@@ -53,7 +53,7 @@ LOADS = {3000.0: 1.04, 5000.0: 1.0}
 
 
 def fitted(study, cases):
-    """Surfaces of a study's published stiffness, at two loads and with a response of its own."""
+    """Surfaces of a study's published stiffness at two loads, and of a second response."""
     names = [factor.name for factor in study.factors]
     rows = cases[cases["study"] == study.name]
     x, k = rows[names].to_numpy(float), rows["vertical_stiffness_n_per_mm"].to_numpy(float)
@@ -142,11 +142,11 @@ def spoke_surface():
 
 
 def difference(tab, surface):
-    """Largest difference of values, and of the squares of what the bounds are off them, relative.
+    """Largest relative difference of the values, and of the bounds' squared distances from them.
 
-    What is near zero is compared with the standard deviation of the response over the cases. A
-    variance is what both compute: at a case it is zero up to rounding, whose root would be compared
-    if the bounds were.
+    What is near zero is compared with the standard deviation of the response over the cases. Both
+    compute a variance, which at a case is zero up to rounding: comparing the bounds would compare
+    the root of that rounding.
     """
     low, high = surface.x.min(axis=0), surface.x.max(axis=0)
     x = low + (high - low) * np.random.default_rng(12).random((POINTS, len(low)))
@@ -171,7 +171,7 @@ def difference(tab, surface):
 
 
 def squares_of_offsets(found):
-    """Of the bounds from the value, with their signs."""
+    """Squared distances of the bounds from the value, with their signs."""
     offset = found[:, 1:] - found[:, :1]
     return np.sign(offset) * offset**2
 
@@ -254,7 +254,7 @@ def test_outside_the_cases_there_is_a_warning_and_no_number_where_a_model_is_ref
     assert tab.complaints == []
 
 
-def test_the_state_goes_into_the_address_and_comes_back(tab, address):
+def test_the_state_goes_into_the_address_and_is_restored(tab, address):
     state = "#s=12.5&t=2.1&a=33&load=3000&study=plate&solver=published&model=polynomial%20of%20log"
     state += "&band=250..270&x=a&y=t&shown=plate_mass%40&turn=-40&tilt=50"
     tab.open(address + state)

@@ -62,7 +62,7 @@ def test_thinning_keeps_the_ends_and_the_peak():
     assert (curve["strain_axial"].iloc[0], curve["strain_axial"].iloc[-1]) == (0, 1)
 
 
-def test_a_curve_without_strain_is_no_line():
+def test_a_curve_without_strain_is_not_drawn():
     nothing = pd.DataFrame({"strain_axial": [np.nan], "stress_mpa": [5.0]})
     assert not stress_strain("cfrp", {"T0-1": nothing}, []).axes[0].get_lines()
 

@@ -80,19 +80,19 @@ def test_the_stiffness_comes_with_its_uncertainty_and_no_more_digits_than_it_all
     assert "published" in found.sketch.svg
 
 
-def test_a_computing_solver_is_said_before_the_published_one(compared):
+def test_a_computing_solver_is_named_before_the_published_one(compared):
     both = [UNCERTAIN, {**UNCERTAIN, "solver": "fe_tyre_paper", "mean": 262.0}]
     found = stiffness_finding(with_tables(compared, uncertainty=both))
     assert found.answer.startswith("262.0 ± 2.3")
 
 
-def test_without_uncertainty_the_solved_reference_is_given_and_said_to_be_without(results):
+def test_without_uncertainty_the_solved_reference_is_given_and_the_lack_is_stated(results):
     found = stiffness_finding(results)
     assert found.answer == "263.7 N/mm at 5000 N"
-    assert "uncertain its stiffness is was not assessed" in words_of(found)
+    assert "uncertainty of its stiffness was not assessed" in words_of(found)
 
 
-def test_another_load_is_the_one_that_is_said(results):
+def test_the_load_of_the_study_is_the_one_that_is_stated(results):
     at_4000 = with_study(results, "plate", load_n=4000.0)
     uncertain = {**UNCERTAIN, "at": "4000 N"}
     found = stiffness_finding(with_tables(at_4000, uncertainty=[uncertain, UNCERTAIN]))
@@ -125,9 +125,9 @@ def test_the_largest_impact_governs(results):
     assert not governing_finding(none).assessed
 
 
-def test_no_decision_is_said_to_be_none(results):
+def test_a_run_without_decisions_says_so(results):
     (found,) = recommended_findings(results)
-    assert found.answer == "Not asked"
+    assert found.answer == "Not requested"
     assert not found.assessed
 
 
@@ -163,7 +163,11 @@ def test_the_chosen_design_is_written_for_people_and_confirmed(decided):
             {"result": "not solved", "solved": np.nan},
             "not confirmed",
         ),
-        ({"confirmation": "not asked"}, {}, "No solved case was asked for: not confirmed."),
+        (
+            {"confirmation": "not asked"},
+            {},
+            "No confirmation by a solved case was requested: not confirmed.",
+        ),
         ({"status": "infeasible", "message": "out of reach"}, {}, "out of reach"),
         ({"status": "refused", "message": "no surface"}, {}, "no surface"),
     ],
@@ -207,7 +211,7 @@ def test_measured_specimens_are_not_called_synthetic(measured):
     assert "All specimens were measured." in findings_on_tests(measured).words
 
 
-def test_flags_stand_above_the_sections(results, monkeypatch):
+def test_flags_are_above_the_sections(results, monkeypatch):
     monkeypatch.setattr("nptcs.report.drawing.compact", lambda svg: "<svg ></svg>")
     page = render_report(with_tables(results, flags=[FLAG]))
     text = re.sub(r'<span class="nb">(.*?)</span>', r"\1", page)

@@ -108,7 +108,7 @@ def test_titles_and_messages_are_text_not_markup(html, faulty_html):
     assert "step 7 &lt;cut back&gt; 5 times" in faulty_html
 
 
-def test_every_problem_stands_at_the_top(faulty_html):
+def test_every_problem_is_at_the_top(faulty_html):
     head = faulty_html[: faulty_html.index('<div class="findings">')]
     assert "2 problems: 77 of 78 cases solved; 1 of 3 specimens used" in head
     assert "diverged" in head
@@ -119,7 +119,7 @@ def test_every_problem_stands_at_the_top(faulty_html):
 
 def test_stray_files_are_pointed_out_at_the_top_and_notes_are_not(page):
     head, rest = page.text.split("Worth knowing", 1)[1].split("Sensitivity", 1)
-    assert "No row of the sheet names these files of the folder: notes.txt " in head
+    assert "No row of the sheet names these files in the folder: notes.txt " in head
     assert "README" not in head
     assert "README.md note" in rest
 
@@ -158,7 +158,7 @@ def test_a_reader_can_evaluate_the_surface_from_the_page(html, results, study):
     np.testing.assert_allclose(value, surface.predict(factors), atol=1e-5)
 
 
-def test_printed_values_stand_beside_ours(html):
+def test_printed_values_are_next_to_ours(html):
     rows = table_after(html, "Average gradients and comprehensive impact values, by every rule")
     spacing = next(row for row in rows if row[2] == "plate spacing S")
     assert "54.93" in spacing

@@ -1,4 +1,4 @@
-"""A laboratory's own page: cover, logo, signatures, templates of its own."""
+"""A laboratory's own page: cover, logo, signatures, its own templates."""
 
 import struct
 import zlib
@@ -79,7 +79,7 @@ def test_names_are_translated_and_what_the_catalogue_lacks_stays():
     assert "Customer" not in page
 
 
-def test_a_laboratory_that_says_nothing_has_no_cover():
+def test_a_laboratory_that_gives_nothing_has_no_cover():
     laboratory = Laboratory()
     assert cover_lines(laboratory) == ()
     assert not laboratory.has_cover
@@ -87,7 +87,7 @@ def test_a_laboratory_that_says_nothing_has_no_cover():
 
 
 @pytest.mark.parametrize("dates", [{"Report": "17.4.2026"}, {"": "2026-04-17"}, {"Report": "soon"}])
-def test_a_date_that_is_none_is_refused(dates, config):
+def test_a_text_that_is_not_a_date_is_refused(dates, config):
     values = config.model_dump(mode="json") | {"laboratory": {"dates": dates}}
     with pytest.raises(InputError, match="laboratory"):
         read_config(values)
@@ -99,7 +99,7 @@ def test_an_unknown_language_is_refused(config):
         read_config(values)
 
 
-def test_a_png_and_an_svg_are_taken_by_their_content(tmp_path):
+def test_a_png_and_an_svg_are_recognised_by_their_content(tmp_path):
     assert logo_uri(written(tmp_path / "a", PNG)).startswith("data:image/png;base64,")
     assert logo_uri(written(tmp_path / "b", SVG)).startswith("data:image/svg+xml;base64,")
 
@@ -115,7 +115,7 @@ def test_a_png_and_an_svg_are_taken_by_their_content(tmp_path):
         (PNG.replace(b"IDAT", b"IDAX"), "this PNG is damaged"),
         (b"\x89PNG\r\n\x1a\n" + b"0" * LARGEST_BYTES, "more than 500,000"),
         (SVG.replace("<path", '<image href="https://x/y.png"/><path'), "needs another file"),
-        (SVG.replace("<path", "<script>1</script><path"), "holds an element <script>"),
+        (SVG.replace("<path", "<script>1</script><path"), "contains an element <script>"),
         ('<!DOCTYPE s [<!ENTITY a "b">]>' + SVG, "declares entities"),
     ],
 )
@@ -144,7 +144,7 @@ def test_logo_and_templates_are_inputs_that_are_checked_and_archived(tmp_path):
     assert [fault.message for fault in page_faults(changed)][1:] == ["this logo does not exist"]
 
 
-def test_a_template_of_ones_own_is_taken_and_the_others_are_the_packages(tmp_path):
+def test_an_own_template_is_used_and_the_others_are_the_packages(tmp_path):
     written(tmp_path / "cover.html.j2", "<h1>MINE {{ laboratory.name }}</h1>")
     assert cover(str(tmp_path)) == "<h1>MINE Tyre lab</h1>"
     (tmp_path / "cover.html.j2").unlink()
@@ -175,10 +175,10 @@ def test_a_broken_template_names_file_and_line(tmp_path, own, line, said):
     with pytest.raises(InputError, match=said) as refusal:
         cover(str(tmp_path))
     assert (Path(refusal.value.file), refusal.value.line) == (file, line)
-    assert "the package's own is taken then" in refusal.value.remedy
+    assert "the package's own is then used" in refusal.value.remedy
 
 
-def test_a_template_that_nothing_asks_for_is_named(tmp_path):
+def test_a_template_that_nothing_uses_is_named(tmp_path):
     written(tmp_path / "covr.html.j2", "x")
     (fault,) = template_faults(str(tmp_path))
     assert "no template of the report has this name" in str(fault)

@@ -55,7 +55,7 @@ def written(block, macro_name=macro_of):
     return page.render(view=block)
 
 
-def test_each_kind_of_block_is_tried_here_and_has_a_macro_of_its_own():
+def test_each_kind_of_block_is_tried_here_and_has_its_own_macro():
     assert {type(block) for block in BLOCKS} == set(get_args(PageBlock))
     assert sorted(macro_of(block) for block in BLOCKS) == sorted(get_args(BlockMacro))
 

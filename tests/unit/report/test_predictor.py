@@ -116,7 +116,7 @@ def computed(predicted, tmp_path_factory):
 
 
 def expected(model, point, tyre):
-    """What Python says of a polynomial: prediction, interval, and whether it holds there."""
+    """What Python says about a polynomial: prediction, interval, and whether it is valid there."""
     inputs = dict(zip(INPUTS, point, strict=True))
     used = dict(inputs)
     if model.snaps:

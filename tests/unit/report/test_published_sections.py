@@ -80,7 +80,7 @@ def test_every_case_is_a_row_and_failed_and_calibrated_ones_are_marked(compared)
     assert section.synthetic
 
 
-def test_cases_stand_beside_each_other(compared):
+def test_cases_are_next_to_each_other(compared):
     table = compared.table(StiffnessAgainstPublished)
     view, headings = case_comparison(table[table["study"] == "plate"], ["spacing_mm", "angle_deg"])
     case = view.set_index("case_id").loc["plate_032"]
@@ -105,14 +105,14 @@ def test_words_on_levels_give_signed_means_and_directions(compared):
     words = {fact.what: fact.result for fact in level_facts(compared)}
     spoke = words["spoke C10 (S-C) [MPa], study rubber, solver fe_tyre_paper"]
     assert "+2.0 % at 1, +1.0 % at 2, +0.0 % at 3, -1.0 % at 4, -2.0 % at 5" in spoke
-    assert "every step has the published direction" in spoke
+    assert "every step goes in the published direction" in spoke
     # made-up differences jump by 3 % at 60 deg, against table 5's means: 263.42 falls to 256.52
     angle = words["fibre angle A [°], study plate, solver fe_tyre_paper"]
-    assert "other direction than published: 45 to 60 (+" in angle
+    assert "opposite direction to the published ones: 45 to 60 (+" in angle
     assert "published -6.90)" in angle
 
 
-def test_the_spokes_differences_stand_beside_those_of_the_tyres(compared):
+def test_the_spokes_differences_are_next_to_those_of_the_tyres(compared):
     (fact,) = spoke_facts(compared.table(SpokeLines))
     text = fact.result
     first = compared.table(SpokeLines).iloc[0]
@@ -185,7 +185,7 @@ def test_neutral_lines_are_drawn_by_solver(compared):
     assert "radius 303.875 mm" in lines.caption
 
 
-def test_a_neutral_line_that_no_solver_gave_is_said_to_be_missing(compared):
+def test_a_neutral_line_that_no_solver_gave_is_reported_as_missing(compared):
     without = replace(
         compared,
         tables={**compared.tables, "neutral_line.csv": compared.table(NeutralLine).iloc[:0]},
@@ -199,7 +199,7 @@ def test_a_neutral_line_that_no_solver_gave_is_said_to_be_missing(compared):
     assert "rubber_011" not in missing
 
 
-def test_spokes_stand_beside_table_10(compared):
+def test_spokes_are_next_to_table_10(compared):
     section = spoke_section(compared, sheets_of(compared))
     (view,) = blocks(section, TableView)
     assert [css for css, _ in view.rows] == ["", "", "", "", "bad"]
@@ -267,7 +267,7 @@ def test_near_ties_are_named_with_the_ranking(compared):
     assert all("near tie" in text for text in sentences)
 
 
-def test_another_ranking_is_said_to_be_another(compared):
+def test_a_ranking_that_differs_is_reported(compared):
     swapped = compared.table(Impact).copy()
     rows = swapped["solver"] == "fe_tyre_paper"
     published = swapped.loc[rows, "published_rank"]
@@ -278,10 +278,10 @@ def test_another_ranking_is_said_to_be_another(compared):
     )
     mine = [text for text in words if text.startswith("fe_tyre_paper")]
     assert mine
-    assert all("NOT that of table 9" in text for text in mine)
+    assert all("NOT the same as in table 9" in text for text in mine)
 
 
-def test_the_ply_is_named_beside_table_2(compared, results):
+def test_the_ply_is_named_next_to_table_2(compared, results):
     words = ply_words(compared)
     assert "fe_tyre_paper and fe_spoke" in words
     assert "cfrp of the material card (SYNTHETIC data)" in words
@@ -304,7 +304,7 @@ def test_all_tables_are_sheets(compared):
     assert build_workbook(compared)
 
 
-def test_a_study_without_terms_is_no_problem(compared):
+def test_a_study_without_terms_is_not_a_problem(compared):
     from nptcs.report.sections.studies import design_section, surfaces_section
 
     section = surfaces_section(compared, sheets_of(compared))
@@ -314,7 +314,7 @@ def test_a_study_without_terms_is_no_problem(compared):
     assert loads == {"plate": "5000", "rubber": "5000", "spoke": "–"}
 
 
-def test_solvers_compared_over_different_cases_have_published_means_of_their_own(compared):
+def test_solvers_compared_over_different_cases_have_their_own_published_means(compared):
     levels = compared.table(StiffnessByLevel)
     rows = levels[levels["factor"] == "spoke_c10_mpa"]
     other = rows.assign(solver="lca", published_mean_n_per_mm=rows["published_mean_n_per_mm"] + 1)
@@ -336,8 +336,8 @@ def test_the_models_that_solvers_choose_are_named(compared):
     assert said["fe_spoke"] == "one spoke"
 
 
-def test_the_ring_and_the_rest_of_table_7_are_told_from_the_tables(compared):
-    """Only one of the two rings is in this run, so that nothing is said of both."""
+def test_the_ring_and_the_rest_of_table_7_are_read_from_the_tables(compared):
+    """Only one of the two rings is in this run, so nothing is said about both."""
     rings, known, excluded, clue = ring_blocks(compared)
     (fact,) = rings.facts
     assert fact.what == "fe_tyre_paper"
@@ -356,7 +356,7 @@ def test_the_ring_and_the_rest_of_table_7_are_told_from_the_tables(compared):
     assert clue.text.startswith("The open clue")
 
 
-def test_both_rings_stand_in_the_report(compared):
+def test_both_rings_are_in_the_report(compared):
     tables = {}
     for file in ("stiffness_errors.csv", "stiffness_exponents.csv"):
         mine = compared.tables[file]
@@ -368,5 +368,5 @@ def test_both_rings_stand_in_the_report(compared):
     assert [fact.what for fact in rings.facts] == ["fe_tyre_paper", "fe_tyre"]
 
 
-def test_without_a_finite_element_tyre_nothing_is_said_of_rings(results):
+def test_without_a_finite_element_tyre_nothing_is_said_about_rings(results):
     assert ring_blocks(results) == []

@@ -63,7 +63,7 @@ def test_columns_without_a_value_are_left_out_but_still_mark_rows():
     assert [css for css, _ in view.rows] == ["", "bad"]
 
 
-def test_full_numbers_stand_behind_the_cells():
+def test_full_numbers_are_stored_with_the_cells():
     view = table_view(pd.DataFrame({"a": [math.pi]}), FILES)
     cell = view.rows[0][1][0]
     assert cell.text == "3.1416"
@@ -83,7 +83,7 @@ def test_hashes_are_not_wrapped():
 
 
 def test_a_long_text_that_all_rows_have_is_said_once():
-    text = "no chance where the results come from a deterministic solver, which has no noise"
+    text = "not a probability where the results come from a solver, which has no noise"
     other = [text, text.replace("no noise", "noise")]
     table = pd.DataFrame({"a": [1.0, 2.0], "p_meaning": text, "form": other, "short": "same"})
     view = table_view(table, FILES)

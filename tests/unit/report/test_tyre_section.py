@@ -161,7 +161,7 @@ def test_the_section_draws_figure_10_and_names_what_is_missing(solved, monkeypat
     assert all(isinstance(table, TableView) for table in folded.tables)
 
 
-def test_the_fiducial_plates_are_drawn_beside_the_most_stressed_ones(solved, monkeypatch):
+def test_the_fiducial_plates_are_drawn_next_to_the_most_stressed_ones(solved, monkeypatch):
     monkeypatch.setattr("nptcs.report.drawing.to_svg", lambda figure: "<svg/>")
     stress = solved.table(PlateStress)
     larger = stress.assign(

@@ -56,7 +56,7 @@ def run_isolated(folder, code, *arguments):
 
 @pytest.fixture(scope="module")
 def installed(tmp_path_factory):
-    """Build the wheel from a copy of the tree and install it into a folder of its own."""
+    """Build the wheel from a copy of the tree and install it into its own folder."""
     tree = tmp_path_factory.mktemp("tree")
     for name in ("pyproject.toml", "README.md", "LICENSE"):
         shutil.copy(ROOT / name, tree)

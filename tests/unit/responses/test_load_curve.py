@@ -28,7 +28,7 @@ def test_load_and_displacement_name_the_same_point(load):
     assert again.load_n == pytest.approx(load, rel=1e-6)
 
 
-def test_beyond_the_curve_nothing_is_said():
+def test_beyond_the_curve_there_is_no_point():
     curve = LoadCurve(displacement(LOADS), LOADS)
     assert curve.at_load(5001.0) is None
     assert curve.at_displacement(25.0) is None
@@ -37,7 +37,7 @@ def test_beyond_the_curve_nothing_is_said():
 
 
 @pytest.mark.parametrize("loads", [LOADS[:3], LOADS[::-1], np.zeros(5)])
-def test_points_that_are_no_curve_are_refused(loads):
+def test_points_that_are_not_a_curve_are_refused(loads):
     with pytest.raises(ValueError, match="four points"):
         LoadCurve(displacement(loads), loads)
 
@@ -46,7 +46,7 @@ def test_points_that_are_no_curve_are_refused(loads):
 def test_a_tangent_does_not_follow_the_ripple_of_single_contact_points(steps):
     load = np.linspace(0.0, 5000.0, steps + 1)
     smooth = LoadCurve(displacement(load), load).at_load(5000.0).tangent_n_per_mm
-    # a contact point that comes on at a time: the displacement goes up and down by 5 µm
+    # contact points come on one at a time: the displacement goes up and down by 5 µm
     for phase in (0.0, 1.5, 3.0):
         ripple = 0.005 * np.sin(2 * np.pi * load / 230.0 + phase) * (load > 0)
         tangent = LoadCurve(displacement(load) + ripple, load).at_load(5000.0).tangent_n_per_mm

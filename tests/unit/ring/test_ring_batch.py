@@ -75,11 +75,11 @@ def test_columns_reach_the_tyre(named):
         ({"shear_band_c10_mpa": "five"}, "bad_input", "not a number"),
         ({"load_n": None}, "bad_input", "empty"),
         ({"wire_layers": 1}, "bad_input", "wire_layers"),
-        ({"rim_diameter_mm": 400.0}, "bad_input", "room"),
+        ({"rim_diameter_mm": 400.0}, "bad_input", "distance between rim and band"),
         ({"load_n": 1e5}, "beyond_table", "outside the table's range"),
     ],
 )
-def test_a_row_that_fails_says_why_and_the_others_go_on(named, change, status, word):
+def test_a_row_that_fails_says_why_and_the_others_are_solved(named, change, status, word):
     found = solved([row(), row(**change)], named)
     assert found["status"].tolist() == ["ok", status]
     assert word in found["message"].iloc[1]
@@ -110,7 +110,7 @@ def test_a_left_out_spoke_is_predicted(surrogate, table, law):
     assert rises[0] == pytest.approx(rises[1], rel=0.003)
 
 
-def test_a_known_spoke_comes_back_with_a_small_error(surrogate, designs, table, law):
+def test_a_known_spoke_is_predicted_with_a_small_error(surrogate, designs, table, law):
     inside = surrogate.predict(designs[0])
     true = law(designs[0], table)
     scale = np.abs(true.coefficients).max()

@@ -69,7 +69,7 @@ def test_refinement_changes_little(table, loaded):
     assert rises[0] == pytest.approx(rises[1], rel=0.003)
 
 
-def test_half_a_pitch_on(table):
+def test_the_ring_turned_by_half_a_pitch(table):
     """Which spoke meets the ground matters by less than a tenth."""
     one, other = (
         press_through_loads(built(table, mesh=RingElements(first_spoke_deg=angle)), LOADS)[
@@ -145,7 +145,7 @@ def test_loads_that_do_not_rise_are_refused(table, loads):
 
 
 def test_spokes_that_do_not_fit_the_tyre_are_refused(table):
-    with pytest.raises(ValueError, match="room between rim and band"):
+    with pytest.raises(ValueError, match="distance between rim and band"):
         built(table, tyre=TyreGeometry(rim_diameter_mm=420.0))
 
 

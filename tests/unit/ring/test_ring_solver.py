@@ -52,7 +52,7 @@ def test_a_load_beyond_the_table_is_diverged_with_its_last_point(folder, result)
 
 def test_a_tyre_that_contradicts_its_spokes_is_bad_input(folder):
     options = ring.RingSolverOptions(spoke_cache=folder, **OPTIONS)
-    with pytest.raises(InputError, match="room between rim and band"):
+    with pytest.raises(InputError, match="distance between rim and band"):
         solved(ring, options, tyre=TyreGeometry(rim_diameter_mm=420.0))
 
 

@@ -34,7 +34,7 @@ def file(surrogate, tmp_path_factory):
     return path
 
 
-def test_it_comes_back_from_its_file(surrogate, file):
+def test_it_is_read_back_from_its_file(surrogate, file):
     again = read_surrogate(file)
     assert again.study == "joint"
     assert again.model == MODEL
@@ -48,11 +48,11 @@ def test_an_edited_file_is_refused(file, tmp_path):
     content = json.loads(file.read_text())
     content["coefficients"][0][0] *= 2
     (tmp_path / "s.json").write_text(json.dumps(content))
-    with pytest.raises(InputError, match="not sound"):
+    with pytest.raises(InputError, match="cannot be used"):
         read_surrogate(tmp_path / "s.json")
 
 
-def test_a_shorter_range_holds_the_same_energy(table):
+def test_a_shorter_range_has_the_same_energy(table):
     short = replace(table, low=np.array([-25.0, *table.low[1:]]))
     both = on_common_range([table, short])
     assert np.array_equal(both[1].low, short.low)

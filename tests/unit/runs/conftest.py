@@ -185,5 +185,5 @@ def march(tmp_path_factory):
 
 @pytest.fixture(scope="session")
 def april(tmp_path_factory):
-    """The same campaign, but for the files of rubber_88A."""
+    """The same campaign, except for the files of rubber_88A."""
     return write_run(tmp_path_factory.mktemp("april"), OTHER_RUBBER, OTHER_MARKS, day=2)

@@ -1,4 +1,4 @@
-"""Two runs compared: what differs is named, what cannot be compared is said."""
+"""Two runs compared: what differs is named, what cannot be compared is reported."""
 
 import io
 import json
@@ -59,7 +59,7 @@ def test_a_run_and_itself_have_no_difference(march, capsys):
     assert "Both runs have the same identity." in said
 
 
-def test_times_are_no_difference(march, tmp_path):
+def test_times_are_not_a_difference(march, tmp_path):
     slow = write_run(tmp_path, C10, MARKS, wall_time=99.0, day=9)
     done = both(march, slow)
     assert done.same
@@ -167,10 +167,10 @@ def test_a_case_is_matched_by_its_values_where_the_levels_differ(march, tmp_path
     found = part.table.set_index("case_a")
     assert found.loc["tested_003", "case_b"] == "tested_001"
     assert found[RESULT].tolist() == [Found.ONLY_A] * 2 + [Found.SAME] * 4
-    assert "defines its cases in another way in B" in part.remarks[0]
+    assert "defines its cases differently in B" in part.remarks[0]
 
 
-def test_missing_tables_columns_and_rows_are_said(march, tmp_path):
+def test_missing_tables_and_columns_are_reported(march, tmp_path):
     def without_columns(path):
         pd.read_csv(path).drop(columns="effect").to_csv(path, index=False)
 
@@ -193,7 +193,7 @@ def test_missing_tables_columns_and_rows_are_said(march, tmp_path):
     assert not done.same
 
 
-def test_a_table_without_a_column_that_the_ranking_needs_is_said(march, tmp_path):
+def test_a_table_without_a_column_that_the_ranking_needs_is_reported(march, tmp_path):
     older = write_run(
         tmp_path,
         C10,
@@ -245,7 +245,7 @@ def test_a_run_that_does_not_exist_is_refused(march, tmp_path, capsys):
     assert "this run does not exist" in capsys.readouterr().err
 
 
-def test_a_run_without_identity_is_compared_and_that_is_said(march, tmp_path):
+def test_a_run_without_identity_is_compared_and_this_is_reported(march, tmp_path):
     older = write_run(tmp_path, C10, MARKS, identified=False)
     done = both(march, older)
     assert "without identity" in done.b

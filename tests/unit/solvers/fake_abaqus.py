@@ -1,7 +1,7 @@
 """A command that behaves as Abaqus does, for the tests: ``fake_abaqus.py MODE [FILE] job=…``.
 
-Its texts are in the layout of Abaqus' own files; lines on the licence are quoted from jobs of real
-users.
+Its texts are in the layout of Abaqus' own files; lines about the licence are quoted from jobs of
+real users.
 """
 
 import subprocess

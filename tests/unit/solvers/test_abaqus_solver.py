@@ -146,7 +146,7 @@ def test_a_job_that_does_not_converge_keeps_its_last_point():
         ("says nothing", "code 9"),
     ],
 )
-def test_what_is_no_result_is_an_error(mode, message):
+def test_output_without_a_result_is_an_error(mode, message):
     result = case(mode)
     assert result.status is Status.ERROR
     assert message in result.message

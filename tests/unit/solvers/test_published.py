@@ -39,7 +39,7 @@ def test_case_32_of_table_5_is_the_fiducial_one():
         ),
     ],
 )
-def test_what_the_archive_does_not_hold_is_an_error_never_a_guess(values, message):
+def test_what_the_archive_does_not_contain_is_an_error_never_a_guess(values, message):
     result = solve(**values)
     assert result.status == "error"
     assert message in result.message

@@ -20,7 +20,7 @@ def persistence():
     return Persistence
 
 
-def test_pandas_objects_are_found_where_pandas_is_there():
+def test_pandas_objects_are_found_where_pandas_is_imported():
     changed = persistence()
     look_for_pandas_only_if_imported(changed)
     assert changed()._serialize_param_pandas(pd.Series([1])) == "series [1]"

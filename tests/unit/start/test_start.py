@@ -1,4 +1,4 @@
-"""Facts for the rules are found once, and anew when anything changes on which they rest."""
+"""Facts for the rules are found once, and again when anything changes that they depend on."""
 
 import atexit
 import json

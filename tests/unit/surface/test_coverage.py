@@ -61,7 +61,7 @@ def test_each_level_counts_what_was_solved_failed_and_never_run():
         ([1, 3, 5], 3, "one level left of b"),
     ],
 )
-def test_what_failures_do_to_the_terms_is_said(failed, least, word):
+def test_what_failures_do_to_the_terms_is_reported(failed, least, word):
     assert word in covered(cases(failed=failed), least).loc[("", ""), "estimable"]
 
 

@@ -82,7 +82,7 @@ def test_a_surface_through_the_origin_equals_the_exact_one(exact_solution):
     assert surface.predict(np.array([[0.0]]))[0] == 0.0
 
 
-@pytest.mark.skipif(not NIST.is_dir(), reason="NIST's sets are in ../shared, which is not here")
+@pytest.mark.skipif(not NIST.is_dir(), reason="NIST's sets (../shared/labdata) are absent")
 @pytest.mark.parametrize("name", benchmark.SETS)
 def test_digits_of_the_nist_sets(name):
     surface, certified = benchmark.fit_set(NIST, name)

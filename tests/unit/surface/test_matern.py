@@ -1,13 +1,14 @@
-"""The likelihood of a Matérn process against scikit-learn's, its slope against differences."""
+"""Covariance and likelihood of a Matérn process against scikit-learn's, slopes by differences."""
 
 import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 from sklearn.gaussian_process import GaussianProcessRegressor
+from sklearn.gaussian_process.kernels import ConstantKernel, Matern, WhiteKernel
 
-from nptcs.surface.kinds.gaussian_process import kernel_of
-from nptcs.surface.kinds.matern import MaternLikelihood
+from nptcs.surface.kinds.gaussian_process import has_noise
+from nptcs.surface.kinds.matern import ROWS, MaternLikelihood, covariance
 
 NUGGET = 1e-8
 
@@ -20,12 +21,34 @@ def cases(noisy):
     return points, values + noisy * np.random.default_rng(4).normal(0, 0.1, 14)
 
 
+def their_kernel(noisy):
+    kernel = ConstantKernel(1.0) * Matern([1.0, 1.0], nu=2.5)
+    return kernel + WhiteKernel(1e-2) if noisy else kernel
+
+
+def test_the_covariance_is_that_of_scikit_learn():
+    rng = np.random.default_rng(1)
+    points, others = rng.uniform(-1, 1, (ROWS + 7, 2)), rng.uniform(-1, 1, (9, 2))
+    theta = np.array([0.4, -1.0, 0.7])
+    theirs = their_kernel(False).clone_with_theta(theta)(points, others)
+    np.testing.assert_allclose(covariance(theta, points, others), theirs, rtol=1e-12)
+
+
+def test_equal_cases_with_different_responses_have_noise():
+    points, values = cases(True)
+    assert has_noise(points, values)
+    assert not has_noise(points, np.tile(values[:7], 2))
+    assert not has_noise(*cases(False))
+    assert has_noise(points[[0, 3, 8, 0]], np.array([1.0, 2.0, 3.0, 1.1]))
+    assert not has_noise(points[[0, 3, 8, 0]], np.array([1.0, 2.0, 3.0, 1.0 + 1e-7]))
+
+
 @pytest.mark.parametrize("noisy", [False, True])
 @settings(max_examples=30, deadline=None)
 @given(logarithms=st.lists(st.floats(-2.0, 2.0), min_size=4, max_size=4))
 def test_value_and_slope_are_those_of_scikit_learn(noisy, logarithms):
     points, values = cases(noisy)
-    kernel = kernel_of(points, values)
+    kernel = their_kernel(noisy)
     theta = np.array(logarithms)[: len(kernel.theta)]
     theirs = GaussianProcessRegressor(kernel, alpha=NUGGET, optimizer=None).fit(points, values)
     value, slope = theirs.log_marginal_likelihood(theta, eval_gradient=True)

@@ -1,4 +1,4 @@
-"""The interval of a Gaussian process: its mean's coefficients, its variance, untold lengths."""
+"""A Gaussian process's interval: its mean's coefficients, its variance, undetermined lengths."""
 
 from pathlib import Path
 
@@ -9,9 +9,9 @@ import pytest
 from nptcs.config.studies.surface import GaussianProcessModel, LaminationModel, PolynomialModel
 from nptcs.errors import InputError
 from nptcs.surface.diagnostics.comparison import leave_one_level_out, leave_one_out
-from nptcs.surface.kinds.gaussian_process import GaussianProcess, fit_process, kernel_of
+from nptcs.surface.kinds.gaussian_process import GaussianProcess, bounds_of, fit_process
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
-from nptcs.surface.kinds.matern import MaternLikelihood
+from nptcs.surface.kinds.matern import MaternLikelihood, covariance
 from nptcs.surface.kinds.models import FitCases, fit_surface
 from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
 
@@ -35,21 +35,19 @@ def plates():
 
 
 def drawn(length_along, seed, points):
-    """A sample of a Matérn process that reaches as far along the first axis as is said."""
-    kernel = kernel_of(points, np.arange(len(points)))
-    kernel = kernel.clone_with_theta(np.log([1.0, length_along, 0.7]))
-    covariance = kernel(points) + 1e-10 * np.eye(len(points))
-    return np.linalg.cholesky(covariance) @ np.random.default_rng(seed).normal(size=len(points))
+    """A sample of a Matérn process with the stated length along the first axis."""
+    spread = covariance(np.log([1.0, length_along, 0.7]), points, points)
+    spread += 1e-10 * np.eye(len(points))
+    return np.linalg.cholesky(spread) @ np.random.default_rng(seed).normal(size=len(points))
 
 
-def test_one_value_of_a_length_where_the_cases_tell_it_two_where_they_do_not():
-    kernel = kernel_of(LEVELS, np.arange(len(LEVELS)))
-    kernel = kernel.clone_with_theta(np.log([1.0, 0.05, 0.7]))
+def test_one_value_of_a_length_where_the_cases_determine_it_two_where_they_do_not():
+    theta = np.log([1.0, 0.05, 0.7])
     y = drawn(0.05, 3, LEVELS)
     likelihood = MaternLikelihood(LEVELS, y, 1e-8, noisy=False)
-    found = lengths_as_likely(likelihood, kernel.theta, kernel.bounds)
+    found = lengths_as_likely(likelihood, theta, bounds_of(2, noisy=False))
     assert found.shape == (2, 3)
-    np.testing.assert_allclose(found[:, [0, 2]], kernel.theta[[0, 2]][None].repeat(2, 0))
+    np.testing.assert_allclose(found[:, [0, 2]], theta[[0, 2]][None].repeat(2, 0))
     assert np.exp(found[0, 1]) == pytest.approx(0.05)
     assert 0.2 < np.exp(found[1, 1]) < 3.0
 
@@ -58,7 +56,7 @@ def test_one_value_of_a_length_where_the_cases_tell_it_two_where_they_do_not():
     assert len(surface.spread) == 1
 
 
-def test_between_levels_the_interval_holds_what_it_promises():
+def test_between_levels_the_interval_has_its_stated_coverage():
     """Many functions, cases at three levels of one factor: half of the points lie between them."""
     between = np.stack(
         np.meshgrid(np.linspace(-0.9, 0.9, 7), np.linspace(-0.95, 0.95, 6)), -1
@@ -77,7 +75,7 @@ def test_between_levels_the_interval_holds_what_it_promises():
 
 
 def test_far_from_all_cases_the_interval_has_the_error_of_the_means_coefficients():
-    """A process that reaches no other case: the prediction interval of least squares is left."""
+    """A process that reaches no other case leaves the prediction interval of least squares."""
     rng = np.random.default_rng(2)
     x = np.linspace(0.0, 1.0, 5)[:, None]
     y = 1 + 2 * x[:, 0] + rng.normal(0, 0.1, 5)
@@ -105,7 +103,7 @@ def test_unseen_spacings_and_left_out_cases_of_the_finite_elements(plates):
     assert 90 <= left_out.coverage_percent <= 99
 
 
-def test_two_spacings_do_not_tell_how_spacing_acts(plates):
+def test_two_spacings_do_not_determine_how_spacing_acts(plates):
     kept = plates.x[:, 0] != np.unique(plates.x[:, 0])[1]
     cases = FitCases(plates.x[kept], plates.y[kept], PLATES, (), PUBLISHED_PLY)
     with pytest.raises(InputError, match="do not determine the 7 coeff.*2 of spacing_mm"):

@@ -85,7 +85,7 @@ def test_a_surface_in_the_realised_pitch_finds_the_true_coefficients():
     assert quality["realised_factors"].to_dict() == {"published": "", "fe_tyre": "spacing_mm"}
 
 
-def test_impact_says_in_what_values_it_is_and_what_failed():
+def test_impact_states_its_values_and_what_failed():
     cases = table(failed=(2, 12))
     done = fit_study(cases, STUDY)
     design = cases[cases["solver"] == "published"][FACTORS]
@@ -107,7 +107,7 @@ def test_impact_says_in_what_values_it_is_and_what_failed():
         ("fe_tyre", "thickness_mm"): "given",
     }
     assert set(rows["failed_cases"]) == {2}
-    # table 9 still stands next to the pitch: its levels are the paper's
+    # table 9 still applies to the pitch: its levels are the paper's
     table_9 = pd.DataFrame(
         [("plate", "spacing_mm", 5.49, 10.0, 54.93)],
         columns=["study", "factor", "gradient", "range", "impact"],
@@ -131,7 +131,7 @@ SOLVER = Solver("own", "1", solve, frozenset({"spacing_mm"}), about="own", reali
 """
 
 
-def test_the_campaign_records_what_a_solver_realises_of_each_solved_case(tmp_path):
+def test_the_campaign_records_what_a_solver_realises_for_each_solved_case(tmp_path):
     module = tmp_path / "own.py"
     module.write_text(OWN_SOLVER)
     design = pd.DataFrame({"case_id": ["a", "b"], "case": [1, 2], "spacing_mm": [15.0, 20.0]})

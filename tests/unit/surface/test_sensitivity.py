@@ -91,7 +91,7 @@ def test_ranking_is_that_of_the_paper_under_every_rule(rule):
         assert order[3:] == ["angle_deg", "thickness_mm"]
 
 
-def test_printed_values_stand_only_beside_the_same_range():
+def test_printed_values_are_given_only_for_the_same_range():
     ours = pd.DataFrame(
         {
             "solver": "s",

@@ -5,10 +5,13 @@ from itertools import product
 import numpy as np
 import pandas as pd
 import pytest
+from SALib.analyze import sobol as salib_analysis
+from SALib.sample import sobol as salib_sample
 
 from nptcs.config.studies.sensitivity import NormalFactor, Sensitivity, Sobol, UniformFactor
 from nptcs.errors import InputError
 from nptcs.surface.fit import fit
+from nptcs.surface.sensitivity.saltelli import RESAMPLES, estimates
 from nptcs.surface.sensitivity.sobol import factor_distribution, main_effect, sobol_indices
 from nptcs.surface.sensitivity.sobol_tables import variance_shares
 from nptcs.surface.sensitivity.ties import near_ties
@@ -39,6 +42,38 @@ def test_ishigami():
     assert found.second[0, 2] == pytest.approx(v13 / total, abs=0.03)
     error = np.abs(found.total - np.array([v1 + v13, v2, v13]) / total)
     assert (error < 2 * found.total_confidence).all()
+
+
+@pytest.mark.parametrize("interactions", [True, False])
+@pytest.mark.parametrize("confidence", [0.95, 0.6])
+def test_indices_and_bootstrap_are_those_of_salib(interactions, confidence):
+    problem = {"num_vars": 3, "names": list("abc"), "bounds": [[-np.pi, np.pi]] * 3}
+    points = salib_sample.sample(problem, 256, calc_second_order=interactions, seed=5)
+    response = 1000.0 + ishigami(points)
+    theirs = salib_analysis.analyze(
+        problem,
+        response,
+        calc_second_order=interactions,
+        num_resamples=RESAMPLES,
+        conf_level=confidence,
+        seed=7,
+    )
+    ours = estimates(response, 3, interactions, confidence, 7)
+    for name, found, width in (
+        ("S1", ours.first, ours.first_confidence),
+        ("ST", ours.total, ours.total_confidence),
+        *([("S2", ours.second, ours.second_confidence)] if interactions else []),
+    ):
+        np.testing.assert_array_equal(found, theirs[name])
+        np.testing.assert_allclose(width, theirs[f"{name}_conf"], rtol=1e-12)
+
+
+def test_a_seed_of_zero_is_a_seed():
+    found = [
+        sobol_indices(ishigami, uniform("abc", -np.pi, np.pi), Sobol(points=64, seed=0))
+        for _ in range(2)
+    ]
+    np.testing.assert_array_equal(found[0].total_confidence, found[1].total_confidence)
 
 
 def test_normal_factors_share_the_variance_by_the_square_of_their_spread():

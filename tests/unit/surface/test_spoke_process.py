@@ -78,7 +78,7 @@ def test_a_response_that_changes_sign_is_not_taken_as_a_logarithm():
     assert np.abs(surface.predict(x) - surface.y).max() < 1e-2
 
 
-def test_it_comes_back_from_its_file(surface):
+def test_it_is_read_back_from_its_file(surface):
     registry = SurfaceRegistry("joint", (FittedSurface("joint", "ring", "s", RESPONSE, surface),))
     again = load_registry(dump_registry(registry)).surfaces[0].surface
     assert isinstance(again, SpokeProcess)

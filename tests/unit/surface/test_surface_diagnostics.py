@@ -190,7 +190,7 @@ def test_variance_inflation_equals_one_over_one_minus_r_squared():
         assert inflation[column] == pytest.approx(spread / rest)
 
 
-def test_what_the_cases_say_of_noise():
+def test_what_the_cases_say_about_noise():
     x = pd.DataFrame({"x": [0.0, 1.0, 1.0, 2.0, 3.0]})
     noisy = fit(x, pd.Series([0.0, 1.0, 1.2, 2.0, 3.1]), ["x"], ["1", "x"])
     equal = fit(x, pd.Series([0.0, 1.0, 1.0, 2.0, 3.1]), ["x"], ["1", "x"])

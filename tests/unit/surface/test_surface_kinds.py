@@ -70,7 +70,7 @@ def test_the_lamination_form_predicts_unseen_cases_with_seven_coefficients(fitte
     assert falling[1] == 0  # stiffer with the thickness
 
 
-def test_the_gaussian_process_on_it_is_better_and_its_interval_holds(fitted):
+def test_the_gaussian_process_on_it_is_better_and_its_interval_has_its_coverage(fitted):
     surface = fitted["gaussian process on lamination 7"]
     left_out = leave_one_out(surface)
     assert np.abs(left_out.error).max() <= 0.35
@@ -190,7 +190,7 @@ def test_repeated_cases_that_differ_give_the_process_a_noise():
 
     assert len(surface.theta) == 3
     assert np.abs(surface.predict(between) - np.sin(4 * between[:, 0])).max() < 0.15
-    # the interval of a further case holds the noise: ± 1.96 · 0.1 at the least
+    # the interval of a further case contains the noise: ± 1.96 · 0.1 at least
     assert np.median(high - low) == pytest.approx(0.39, rel=0.35)
 
 

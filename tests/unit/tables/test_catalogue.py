@@ -1,4 +1,4 @@
-"""The catalogue of result tables is free of doubt."""
+"""The catalogue of result tables is unambiguous."""
 
 import pytest
 

@@ -1,4 +1,4 @@
-"""Every stage that a problem names is one that the table of problems takes."""
+"""Every stage that a problem names is one that the table of problems allows."""
 
 import re
 from pathlib import Path
@@ -16,6 +16,6 @@ def test_each_stage_that_the_package_names_is_known():
     assert found <= set(STAGES)
 
 
-def test_the_contract_takes_every_stage():
+def test_the_contract_allows_every_stage():
     rows = [(stage, "plate", "fe_tyre", "refused", "a reason") for stage in STAGES]
     assert len(Problems.validate(problems_table(rows))) == len(STAGES)

@@ -1,4 +1,4 @@
-"""Tables survive the way through a file, and a broken one is named with line and column."""
+"""Tables survive a round trip through a file, and a broken one is named with line and column."""
 
 import numpy as np
 import pandas as pd
@@ -37,7 +37,7 @@ def impact():
     )
 
 
-def test_numbers_and_text_come_back_exactly(tmp_path, impact):
+def test_numbers_and_text_are_read_back_exactly(tmp_path, impact):
     write_table(tmp_path / "impact.csv", impact, Impact)
     again = read_table(tmp_path / "impact.csv", Impact)
     assert again["gradient"].tolist() == [1 / 3, -2.0]
@@ -52,7 +52,7 @@ def test_empty_text_stays_text(tmp_path):
     pd.testing.assert_frame_equal(read_table(tmp_path / "problems.csv", Problems), table)
 
 
-def test_a_table_without_rows_comes_back(tmp_path):
+def test_a_table_without_rows_is_read_back(tmp_path):
     write_table(tmp_path / "empty.csv", empty_table(Impact), Impact)
     assert list(read_table(tmp_path / "empty.csv", Impact)) == list(Impact.to_schema().columns)
 

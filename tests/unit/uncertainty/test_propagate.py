@@ -2,17 +2,19 @@
 
 import numpy as np
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 from SALib.analyze import sobol as sobol_analysis
 from SALib.sample import sobol as sobol_sample
 from scipy import stats
 
 from nptcs.tables.analysis.uncertainty import SourceKind
 from nptcs.uncertainty.inputs import UncertainInput
-from nptcs.uncertainty.propagate import assessed, distribution, moments
+from nptcs.uncertainty.propagate import assessed, distribution, moments, shares_percent
 
 
 class Model:
-    """f(x + changes) of given factors, without an own error unless stated."""
+    """f(x + changes) of given factors; the model itself has no error unless stated."""
 
     def __init__(self, function, factors, sd=0.0):
         self.function, self.factors, self.sd = function, factors, sd
@@ -112,3 +114,17 @@ def test_an_input_without_a_known_effect_is_set_apart():
     followed, rest = assessed(model, inputs)
     assert [one.name for one in followed] == ["a"]
     assert [one.name for one in rest] == ["e1_mpa"]
+
+
+@given(st.lists(st.floats(0.0, 1e12), min_size=1, max_size=8))
+def test_a_share_is_never_more_than_the_whole(variances):
+    shares = shares_percent(np.array(variances))
+    assert (shares >= 0.0).all()
+    assert (shares <= 100.0).all()
+    assert shares.sum() == pytest.approx(100.0 if any(variances) else 0.0)
+
+
+def test_the_only_source_has_the_whole():
+    alone = np.linspace(0.01, 0.9, 1000)
+    assert max(shares_percent(np.array([one, 0.0])).max() for one in alone) == 100.0
+    assert (100 * alone / alone).max() > 100.0  # what the order of the division is for

@@ -61,9 +61,8 @@ def card():
 
 def test_constants_of_the_same_specimens_vary_together():
     tests, missing = ply_inputs(ply(), "standard_error")
-    assert [one.quantities for one in tests] == [("g12_mpa", "g13_mpa"), ("e1_mpa", "nu12")] or [
-        one.quantities for one in tests
-    ] == [("e1_mpa", "nu12"), ("g12_mpa", "g13_mpa")]
+    groups = sorted(one.quantities for one in tests)
+    assert groups == [("e1_mpa", "nu12"), ("g12_mpa", "g13_mpa")]
     tension = next(one for one in tests if "e1_mpa" in one.quantities)
     np.testing.assert_allclose(tension.root @ tension.root.T, [[4.0e6, 3.0], [3.0, 1e-4]])
     assert tension.source == "ply cfrp: specimens T0-1, T0-2, T0-3, T0-4"

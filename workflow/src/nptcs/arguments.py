@@ -1,4 +1,4 @@
-"""Arguments of commands, checked while they are read: nothing long begins with a wrong one.
+"""Arguments of commands, checked while they are read, so that nothing long starts with a wrong one.
 
 Each function returns a type for `argparse`; a refusal names the argument, the value and what is
 allowed.
@@ -56,7 +56,7 @@ def add_command(
     subparsers : argparse action
         Of the parser of ``nptcs``, or of a command that has actions.
     name, summary, description : str
-        The command, what it does in half a line, and in full.
+        The command, a short summary of what it does, and the full description.
     *examples : str
         Command lines as they can be typed.
     """
@@ -78,7 +78,7 @@ def add_card(parser: argparse.ArgumentParser) -> None:
         type=_card,
         metavar="CARD.json",
         help="material card, or 'published' for table 2 of the paper; default: "
-        "results/material_card.json if a run has left it here, else the paper's",
+        "results/material_card.json if a run has written it here, otherwise the paper's",
     )
     parser.add_argument("--ply", help="name of a ply of the card, if it has several")
 
@@ -105,7 +105,7 @@ def add_reading(parser: argparse.ArgumentParser) -> None:
         "--config",
         type=Path,
         default=Path("config/config.yaml"),
-        help="configuration whose limits on the size of files count; default: %(default)s",
+        help="configuration with the limits on file sizes; default: %(default)s",
     )
 
 
@@ -175,7 +175,7 @@ def existing_folder(text: str) -> Path:
 def output_file(*endings: str) -> Callable[[str], str]:
     """Return the type of a file that is to be written, with one of these endings if any is given.
 
-    Its folder must exist and take files.
+    Its folder must exist and be writable.
     """
 
     def read(text: str) -> str:

@@ -13,7 +13,7 @@ from nptcs.arguments import HelpFormatter, Parser
 from nptcs.errors import InputError, explained
 from nptcs.threads import one_thread_per_process
 
-EPILOG = """examples, in the order in which a study goes:
+EPILOG = """examples, in the order of a study:
   nptcs new-sheet raw_data/mine    propose a specimen sheet for a folder of exports
   nptcs check                      find faults and print the plan, without running anything
   nptcs run                        run the study and write results/report.html

@@ -15,7 +15,7 @@ from nptcs.processes.stops import end_with_run
 def clear_errors(log: str | Path) -> Iterator[None]:
     """Write an `InputError` to the log as one message without a traceback, and exit with 1.
 
-    So does an error of the operating system for which there is a remedy (disk full, permission).
+    The same goes for an error of the operating system with a known remedy (disk full, permission).
     Any other exception is a fault of the program and keeps its traceback. The script ends when its
     run does.
     """
@@ -35,7 +35,7 @@ def clear_errors(log: str | Path) -> Iterator[None]:
 
 
 def _say(log: Path, text: str) -> None:
-    """Write a message to log and screen, and leave; it may be the log that cannot be written."""
+    """Write a message to log and screen, and exit; it may be the log that cannot be written."""
     with suppress(OSError):
         log.write_text(f"{text}\n", encoding="utf-8")
     print(text, file=sys.stderr)

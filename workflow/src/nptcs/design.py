@@ -54,7 +54,7 @@ def build_design(
     Raises
     ------
     InputError
-        When a level names a rubber that has no card, two levels of a factor coincide, the design
+        If a level names a rubber that has no card, two levels of a factor coincide, the design
         needs values between tested rubbers, or it does not suit the number of factors or cases.
     """
     levels = _levels(study, rubber_c10_mpa)
@@ -90,7 +90,7 @@ def full_factorial(study: Study, rubber_c10_mpa: Mapping[str, float]) -> pd.Data
 
     The last factor of the configuration changes fastest, so that spacing × thickness × angle
     gives the numbering of table 5 and T-C × S-C that of table 7. Parameters, result and errors
-    are those of `build_design`.
+    are those of `build_design`, without the tyre.
 
     Examples
     --------

@@ -61,7 +61,7 @@ class InputError(ValueError):
         return text
 
     def __reduce__(self) -> tuple[type, tuple[object, ...]]:
-        """Survive the way back from a worker process with every field."""
+        """Keep every field when the error is pickled on its way back from a worker process."""
         fields = (self.message, self.remedy, self.file, self.line, self.column)
         return (type(self), (*fields, self.specimen, self.value))
 

@@ -72,11 +72,11 @@ def atomic_path(path: str | Path) -> Iterator[Path]:
 
 
 UNFINISHED = ".nptcs-"
-"""How the name of a file begins that is being written."""
+"""Start of the name of a file that is being written."""
 
 
 def _own_prefix() -> str:
-    """Return the beginning of names that says which process writes the file."""
+    """Return the start of a name, which says which process writes the file."""
     return f"{UNFINISHED}{socket.gethostname()}-{os.getpid()}-"
 
 
@@ -110,7 +110,7 @@ def write_text(path: str | Path, text: str) -> None:
 
 
 REWRITE = "delete this file and run snakemake again; the run writes a new one"
-"""Remedy for a file of ours that is damaged: Snakemake does not look into a file that is there."""
+"""Remedy for a file of ours that is damaged: Snakemake does not look into existing files."""
 
 
 def write_model(path: str | Path, record: BaseModel) -> None:
@@ -120,28 +120,28 @@ def write_model(path: str | Path, record: BaseModel) -> None:
 
 
 def read_model(path: str | Path, model: type[Model], by_hand: bool = False) -> Model:
-    """Read a JSON file that holds one record or one card.
+    """Read a JSON file that contains one record or one card.
 
     Parameters
     ----------
     path : str or Path
         Written by `write_model`.
     model : type of BaseModel
-        What the file must hold.
+        What the file must contain.
     by_hand : bool
         Whether a file without a checksum, as a user may write it, is accepted.
 
     Raises
     ------
     InputError
-        For a file that is missing, was edited or damaged, or does not hold such a record.
+        For a file that is missing, was edited or damaged, or does not contain such a record.
     """
     kind = model.__name__
     try:
         return model.model_validate(open_object(read_stored(path, kind), kind, by_hand))
     except (BrokenSealError, ValidationError) as error:
         reason = " ".join(str(error).splitlines()[:3])
-        raise InputError(f"this file is not a sound {kind}: {reason}", REWRITE, path) from None
+        raise InputError(f"this file is not a valid {kind}: {reason}", REWRITE, path) from None
 
 
 def write_sealed(path: str | Path, content: Mapping[str, Any], kind: str) -> None:
@@ -153,13 +153,13 @@ def write_sealed(path: str | Path, content: Mapping[str, Any], kind: str) -> Non
     content : mapping
         Plain values; numbers must be finite.
     kind : str
-        A key of `nptcs.seal.FORMATS`, which a new kind of file joins.
+        A key of `nptcs.seal.FORMATS`; a new kind of file is added there.
     """
     write_text(path, sealed_object(content, kind))
 
 
 def read_sealed(path: str | Path, kind: str) -> dict[str, Any]:
-    """Read what `write_sealed` has written.
+    """Read what `write_sealed` wrote.
 
     Raises
     ------
@@ -169,11 +169,11 @@ def read_sealed(path: str | Path, kind: str) -> dict[str, Any]:
     try:
         return open_object(read_stored(path, kind), kind)
     except BrokenSealError as error:
-        raise InputError(f"this file is not a sound {kind}: {error}", REWRITE, path) from None
+        raise InputError(f"this file is not a valid {kind}: {error}", REWRITE, path) from None
 
 
 def read_stored(path: str | Path, kind: str) -> str:
-    """Read the text of a file that this pipeline has written.
+    """Read the text of a file that this pipeline wrote.
 
     Raises
     ------
@@ -186,11 +186,11 @@ def read_stored(path: str | Path, kind: str) -> str:
     try:
         return Path(path).read_text(encoding="utf-8")
     except UnicodeDecodeError as error:
-        raise InputError(f"this file is not a sound {kind}: {error}", REWRITE, path) from None
+        raise InputError(f"this file is not a valid {kind}: {error}", REWRITE, path) from None
 
 
 def files_below(folder: str | Path) -> list[Path]:
-    """List the files of a folder and of the folders in it, sorted; none if it does not exist."""
+    """List the files of a folder and its subfolders, sorted; none if it does not exist."""
     return sorted(path for path in Path(folder).rglob("*") if path.is_file())
 
 

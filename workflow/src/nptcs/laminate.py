@@ -12,7 +12,7 @@ from nptcs.arrays import Array
 def reduced_stiffness(ply: Mapping[str, float | Array]) -> Array:
     """Plane-stress stiffness Q of a ply in its fibre axes, MPa.
 
-    Shape (3, 3); (m, 3, 3) where a constant has m values.
+    Shape (3, 3); (m, 3, 3) if a constant has m values.
     """
     e1, e2, nu12, g12 = np.broadcast_arrays(
         *(np.asarray(ply[name], dtype=float) for name in ("e1_mpa", "e2_mpa", "nu12", "g12_mpa"))
@@ -33,7 +33,7 @@ def rotated_stiffness(ply: Mapping[str, float | Array], angle_deg: float | Array
 
     Examples
     --------
-    Across the fibres a ply is as stiff as its matrix lets it be:
+    Across the fibres, the stiffness E2/(1 - ν12 ν21):
 
     >>> from nptcs.tables.laboratory.material_card import PUBLISHED_PLY
     >>> rotated_stiffness(PUBLISHED_PLY, 90)[0, 0].round(0).item()

@@ -1,8 +1,8 @@
-"""The search for a Gaussian process's hyperparameters, whether it has arrived, and its errors.
+"""The search for a Gaussian process's hyperparameters, whether it has converged, and its errors.
 
-scikit-learn warns of two different things in one class: a hyperparameter on its bound, which is an
-answer (a factor without effect, no noise), and a search that broke off, which is not. Here a broken
-search goes on by another method, and one that does not arrive is said.
+scikit-learn has one class of warning for two different things: a hyperparameter on its bound, which
+is an answer (a factor without effect, no noise), and a search that stopped early, which is not.
+Here such a search continues with another method, and one that does not converge is an error.
 """
 
 from __future__ import annotations
@@ -21,8 +21,8 @@ from sklearn.gaussian_process import GaussianProcessRegressor
 from nptcs.arrays import Array
 
 ARRIVED = 1e-3
-"""Slope of the log likelihood by a log hyperparameter, as far as bounds leave it free, that counts
-as zero: a change of a length by one per cent then changes the likelihood by 1e-5 of itself."""
+"""Slope of the log likelihood that counts as zero, by the log of a hyperparameter off its bounds:
+a change of a length by one per cent then changes the likelihood by 1e-5 of itself."""
 
 
 class SearchError(RuntimeError):
@@ -42,19 +42,19 @@ def maximise(objective: Callable[..., Any], start: Array, bounds: Array) -> tupl
     Raises
     ------
     SearchError
-        If two methods both break off away from a maximum.
+        If two methods both stop away from a maximum.
     """
     best = minimize(objective, start, method="L-BFGS-B", jac=True, bounds=bounds)
     if not best.success:
         other = minimize(objective, best.x, method="TNC", jac=True, bounds=bounds)
         best = other if other.fun <= best.fun else best
     if not best.success and free_slope(objective, best.x, bounds) > ARRIVED * (1 + abs(best.fun)):
-        raise SearchError(f"the search for hyperparameters broke off: {best.message}")
+        raise SearchError(f"the search for hyperparameters stopped early: {best.message}")
     return best.x, float(best.fun)
 
 
 def free_slope(objective: Callable[..., Any], theta: Array, bounds: Array) -> float:
-    """Largest slope in size at a point, without those that lead out of the bounds."""
+    """Largest absolute slope at a point, without those that lead out of the bounds."""
     slope = np.asarray(objective(theta)[1], dtype=float)
     edge = 1e-8 * (bounds[:, 1] - bounds[:, 0])
     held = ((theta <= bounds[:, 0] + edge) & (slope > 0)) | (
@@ -64,7 +64,7 @@ def free_slope(objective: Callable[..., Any], theta: Array, bounds: Array) -> fl
 
 
 def left_out_inflation(process: GaussianProcessRegressor) -> float:
-    """Factor of a fitted process's standard error: what cases that are left out show of it.
+    """Factor on a fitted process's standard error, from its errors at cases that are left out.
 
     With the hyperparameters kept, the error at a left-out case in standard errors is
     (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms, at least 1.

@@ -2,7 +2,7 @@
 
 A module that imports this one is imported where it is first needed, not with the package: numba
 takes half a second to import. Compiled functions that call each other stay in one file: numba
-renews its copies on disk by the date of the file in which a function is written.
+renews its copies on disk by the date of the file in which a function is defined.
 """
 
 from __future__ import annotations
@@ -20,7 +20,7 @@ OPTIONS: dict[str, Any] = {"error_model": "numpy", "fastmath": {"contract"}}
 def compiled(function: Function) -> Function:
     """Compile a function for the types that it is called with.
 
-    The machine code is kept next to the source, or in numba's folder of the user; where neither can
+    The machine code is kept next to the source, or in the user's folder of numba; if neither can
     be written to, each process compiles for itself.
     """
     try:

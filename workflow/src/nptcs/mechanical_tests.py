@@ -43,7 +43,7 @@ class TestType(StrEnum):
 
     @property
     def load_sign(self) -> int:
-        """1 where force and axial strain of the tidy curve grow with the load, else -1."""
+        """1 if force and axial strain of the tidy curve grow with the load, otherwise -1."""
         match self:
             case TestType.COMPRESSION | TestType.RUBBER_COMPRESSION:
                 return -1
@@ -61,7 +61,7 @@ class TestType(StrEnum):
 
     @property
     def is_bending(self) -> bool:
-        """True where stress and strain are those of the outer face of a bent bar."""
+        """True if stress and strain are those of the outer face of a bent bar."""
         match self:
             case TestType.FLEXURE:
                 return True
@@ -80,7 +80,7 @@ class TestType(StrEnum):
 
     @property
     def strains_alike(self) -> bool:
-        """True where axial and transverse strain differ in sign, but hardly in size.
+        """True if axial and transverse strain differ in sign, but hardly in size.
 
         The Poisson's ratio of a ±45° laminate is near 1.
         """
@@ -102,7 +102,7 @@ class TestType(StrEnum):
 
     @property
     def has_strength_without_strain(self) -> bool:
-        """True where the strength is the largest force over the area, at whatever strain."""
+        """True if the strength is the largest force over the area, at whatever strain."""
         match self:
             case TestType.TENSION | TestType.COMPRESSION:
                 return True
@@ -120,7 +120,7 @@ class TestType(StrEnum):
 
 
 HYPERELASTIC_FIT = "hyperelastic_fit"
-"""What a rubber test gives to the material card; not a row of the property table."""
+"""What a rubber test contributes to the material card; not a row of the property table."""
 TEST_CONDITIONS = ("strain_rate", "time_to_failure")
 _STRESS_AT = "stress_at_N_percent"
 

@@ -1,7 +1,7 @@
 """The code that a result depends on, as a hash: Snakemake sees scripts, but not the package.
 
 The hash covers a script or module and all modules of this package that it imports, directly or
-not, also inside functions. It is taken of the compiled code without docstrings and line numbers,
+not, also inside functions. It is taken from the compiled code without docstrings and line numbers,
 so that a changed comment, docstring or line break reruns nothing. Words that only a reader sees
 (messages of errors, descriptions of settings, the version of the package) do not count either,
 except for pages that print them.
@@ -27,7 +27,7 @@ WORDS_OF_CALL: Mapping[str, frozenset[str]] = {
     "Solver": frozenset({"about"}),
     "SolverResult": frozenset({"message"}),
 }
-"""Keyword arguments that hold words for a reader, by the name of what is called."""
+"""Keyword arguments that contain words for a reader, by the name of what is called."""
 
 
 def code_hash(*modules: str, words: bool = False) -> str:
@@ -175,7 +175,7 @@ def _without_docstring(node: _Documented) -> _Documented:
 
 
 class _Silent(ast.NodeTransformer):
-    """Replace every text by an empty one."""
+    """Replace every text with an empty one."""
 
     def visit_Constant(self, node: ast.Constant) -> ast.AST:
         return ast.Constant("") if isinstance(node.value, str) else node

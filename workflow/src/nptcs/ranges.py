@@ -1,7 +1,7 @@
 """The values that a quantity of a design can have, whatever is done with it later.
 
 They are wide: they catch slips of units and signs (an angle of 300 degrees, a load in kN), not
-unusual designs. What one solver can answer is narrower and is said by that solver.
+unusual designs. What one solver can answer is narrower; that solver says so.
 """
 
 from __future__ import annotations
@@ -50,7 +50,7 @@ class Range:
         return f"{words} {self.unit}".rstrip()
 
     def fault(self, value: float) -> str:
-        """Say what is wrong with a value; empty where it is in the range."""
+        """Say what is wrong with a value; empty if it is in the range."""
         above = value > self.low or (value == self.low and not self.open_low)
         below = value < self.high or (value == self.high and not self.open_high)
         return "" if isfinite(value) and above and below else f"must be {self}, got {value:g}"

@@ -70,7 +70,7 @@ def sealed_object(content: Mapping[str, Any], kind: str) -> str:
 
 
 def open_object(text: str, kind: str, by_hand: bool = False) -> dict[str, Any]:
-    """Read what `sealed_object` has written, without its seal.
+    """Read what `sealed_object` wrote, without its seal.
 
     Line breaks and blanks between the values do not count.
 
@@ -100,7 +100,7 @@ def open_object(text: str, kind: str, by_hand: bool = False) -> dict[str, Any]:
 
 
 def sealed_lines(rows: Sequence[str], kind: str) -> str:
-    """Join JSON texts, one per line, followed by a line that holds the seal.
+    """Join JSON texts, one per line, followed by a line with the seal.
 
     Parameters
     ----------
@@ -112,7 +112,7 @@ def sealed_lines(rows: Sequence[str], kind: str) -> str:
     Returns
     -------
     str
-        The rows and the seal, each on a line of its own.
+        The rows and the seal, each on its own line.
     """
     above = "".join(f"{row}\n" for row in rows)
     seal = {"format": kind, "version": FORMATS[kind], "rows": len(rows), "sha256": _sha256(above)}
@@ -120,14 +120,14 @@ def sealed_lines(rows: Sequence[str], kind: str) -> str:
 
 
 def open_lines(text: str, kind: str) -> list[str]:
-    """Read what `sealed_lines` has written: the rows without the seal.
+    """Read what `sealed_lines` wrote: the rows without the seal.
 
     Raises
     ------
     BrokenSealError
         If a row was lost, doubled, edited or moved, or the last line is not the seal.
     """
-    *rows, last = text.removesuffix("\n").split("\n")  # a row may hold other marks of line ends
+    *rows, last = text.removesuffix("\n").split("\n")  # a row may contain other line separators
     _check(_object(last).get(SEAL), kind, "".join(f"{row}\n" for row in rows))
     return rows
 
@@ -139,14 +139,14 @@ def _object(text: str) -> dict[str, Any]:
     except RecursionError:
         raise BrokenSealError("it is nested too deeply") from None
     except json.JSONDecodeError as error:
-        raise BrokenSealError(f"it is not whole: {error}") from None
+        raise BrokenSealError(f"it is incomplete or not JSON: {error}") from None
     if not isinstance(content, dict):
         raise BrokenSealError("it is not a JSON object")
     return content
 
 
 def _refuse(name: str) -> None:
-    raise BrokenSealError(f"it holds {name} where a number is expected")
+    raise BrokenSealError(f"it contains {name} where a number is expected")
 
 
 def _check(seal: object, kind: str, content: str) -> None:

@@ -2,8 +2,8 @@
 
 A spoke's energy divided by its rubber's C10 depends on the number of its plates and on their
 stiffness divided by C10. For the laminate [+A/-A] that stiffness is T E(A) in stretch and T³ E(A)
-in bending; the process takes both as logarithms, next to the four design variables. The number of
-plates and the thickness enter as powers, and so as logarithms, too.
+in bending; the process takes both as logarithms, in addition to the four design variables. The
+number of plates and the thickness enter as powers, and so are taken as logarithms, too.
 """
 
 from __future__ import annotations

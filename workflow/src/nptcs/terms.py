@@ -91,8 +91,8 @@ def parse(terms: Sequence[str], factors: Sequence[str], through_origin: bool = F
     factors : sequence of str
         Names of the study's factors.
     through_origin : bool
-        The surface has no intercept. Its origin is then meant, so that no other term needs its
-        relatives either.
+        The surface has no intercept. Its origin is then intended, so no other term needs its
+        lower-order relatives either.
 
     Returns
     -------
@@ -182,7 +182,7 @@ def _exponents(term: str, factors: Sequence[str]) -> tuple[int, ...]:
 
 
 def _missing_lower_terms(polynomial: Polynomial) -> tuple[str, ...]:
-    """Name the terms that the expansion of the given ones contains and that are not there."""
+    """Name the terms that the expansion of the given ones contains and that are not given."""
     given = set(polynomial.exponents)
     lower = {
         below

@@ -10,7 +10,7 @@ from tabulate import tabulate
 def text_table(
     headings: Sequence[str], rows: Iterable[Sequence[str]], numeric: Sequence[bool]
 ) -> str:
-    r"""Write a table of finished texts, numbers to the right.
+    r"""Write a table of finished texts, with numbers aligned right.
 
     Parameters
     ----------
@@ -19,7 +19,7 @@ def text_table(
     rows : iterable of sequence of str
         Texts, one per heading.
     numeric : sequence of bool
-        Which columns hold numbers.
+        Which columns contain numbers.
 
     Examples
     --------

@@ -18,6 +18,6 @@ VARIABLES = (
 
 
 def one_thread_per_process() -> None:
-    """Limit this process and those that it starts to one thread; a limit that is set stays."""
+    """Limit this process and those that it starts to one thread; a limit already set stays."""
     for name in VARIABLES:
         os.environ.setdefault(name, "1")

@@ -19,7 +19,7 @@ def read_yaml(path: str | Path) -> object:
     Raises
     ------
     InputError
-        If the file is missing, too large, not UTF-8, not YAML, or holds nested aliases.
+        If the file is missing, too large, not UTF-8, not YAML, or contains nested aliases.
     """
     path = Path(path)
     try:

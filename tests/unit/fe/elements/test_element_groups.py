@@ -11,7 +11,7 @@ BULK = 2.0e6 * C10
 
 
 def grid(orders, wobble, seed=3):
-    """Two elements in a row along x, their shared nodes moved about."""
+    """Two elements in a row along x, with all nodes moved about at random."""
     counts = (2 * orders[0] + 1, orders[1] + 1, orders[2] + 1)
     axes = [np.linspace(0.0, length, n) for length, n in zip((2.0, 1.0, 1.0), counts, strict=True)]
     positions = np.stack(np.meshgrid(*axes, indexing="ij"), axis=-1).reshape(-1, 3)
@@ -205,7 +205,7 @@ def test_half_a_step_takes_half_of_the_stress():
 
 
 def solved(block, displacement, free, tries=20):
-    """Newton's method for the free dofs of a group; how many steps it takes."""
+    """Return how many steps Newton's method takes for the free dofs of a group."""
     dofs = (block.nodes[:, :, None] * 3 + np.arange(3)).reshape(len(block.nodes), -1)
     for count in range(tries):
         response = block.respond(displacement)
@@ -224,7 +224,7 @@ def solved(block, displacement, free, tries=20):
 
 
 def test_a_stretched_guess_of_a_turned_plate_settles_at_once():
-    """Stresses of their own: with those of the stretched guess the first tangents mislead."""
+    """Stresses are unknowns too: those of the stretched guess would mislead the first tangents."""
     positions, block = linear(1e5 * np.diag([1.0, 1.0, 1.0, 0.3, 0.3, 0.3]), wobble=0.0)
     turned = positions @ (turn(0.9) - np.eye(3)).T
     free = np.repeat(positions[:, 0] > 0.0, 3).nonzero()[0]

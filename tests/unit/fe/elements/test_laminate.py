@@ -18,7 +18,7 @@ def test_a_quarter_turn_swaps_the_axes(ply):
     assert transverse_shear(ply, 90.0) == pytest.approx(np.diag([2300.0, 3147.0]))
 
 
-def test_an_isotropic_ply_does_not_know_its_angle(ply):
+def test_the_angle_of_an_isotropic_ply_does_not_matter(ply):
     ply.update(e1_mpa=2600.0, e2_mpa=2600.0, nu12=0.3, g12_mpa=1000.0)
     assert rotated_stiffness(ply, 33.0) == pytest.approx(reduced_stiffness(ply))
 
@@ -51,4 +51,5 @@ def test_many_plates_at_once_are_the_plates_one_by_one(ply):
     angles, thicknesses = np.array([0.0, 17.0, 45.0, 90.0]), np.array([1.2, 1.8, 2.4, 0.7])
     together = abd(ply, angles, thicknesses)
     for number, (angle, thickness) in enumerate(zip(angles, thicknesses, strict=True)):
-        np.testing.assert_allclose(together[number], abd(ply, angle, thickness), rtol=1e-13)
+        alone = abd(ply, angle, thickness)
+        np.testing.assert_allclose(together[number], alone, atol=1e-9 * np.abs(alone).max())

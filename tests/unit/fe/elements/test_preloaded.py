@@ -1,4 +1,4 @@
-"""What the process of all cases has compiled is all that a case needs."""
+"""The kernels that the parent process of all cases compiles are all that a case needs."""
 
 import subprocess
 import sys

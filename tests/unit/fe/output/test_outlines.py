@@ -28,7 +28,7 @@ def test_the_outline_of_a_grid_has_its_length_and_area(columns, rows):
     assert area(points) == pytest.approx(columns * rows)
 
 
-def test_a_hole_and_a_part_of_its_own_have_lines_of_their_own():
+def test_a_hole_and_a_separate_part_have_their_own_lines():
     cells = grid(3, 3)
     ring = np.delete(cells, 4, axis=0)
     apart = cells[:1] + [10.0, 0.0]
@@ -39,7 +39,7 @@ def test_a_hole_and_a_part_of_its_own_have_lines_of_their_own():
     assert areas == [1.0, 1.0, 9.0]
 
 
-def test_the_places_serve_the_moved_cells():
+def test_the_indices_of_an_outline_also_serve_the_moved_cells():
     cells = grid(2, 1)
     (line,) = outlines(cells)
     moved = cells * [2.0, 1.0] + [0.3 * 1.0, 0.0]

@@ -35,7 +35,7 @@ def test_cells_cover_the_section(spoke):
     heights, thickness = geometry.section()
     slope = np.cos(np.radians(geometry.leg_angle_deg))
     assert area.sum() == pytest.approx(2.0 * np.trapezoid(thickness, heights) / slope)
-    # the plates stand where the section says, seen from the rim
+    # the plates are where the section says, measured from the rim
     assert section.plate[..., 1].min() == pytest.approx(geometry.plate_foot_gap_mm)
     assert np.ptp(section.height_mm) < geometry.height_mm - 2.0 * geometry.plate_foot_gap_mm
     assert np.all(np.diff(section.height_mm) > 0.0)
@@ -47,7 +47,7 @@ def test_a_uniform_stretch_is_a_uniform_stress(spoke):
     factors = np.array([1.1**-0.5, 1.1**-0.5, 1.1])
     stretched = replace(rest, displacement=spoke.mesh.positions * (factors - 1.0))
     section = section_stress(spoke, stretched)
-    # the period's last strip reaches back to its first nodes: only x and z are free of that
+    # the period's last strip reaches back to its first nodes: that leaves only x and z usable
     assert section.mises_mpa == pytest.approx(2.0 * (1.1**2 - 1.0 / 1.1), rel=1e-6)
     assert section.rubber[..., 1].max() == pytest.approx(1.1 * spoke.design.geometry.height_mm)
 
@@ -90,7 +90,7 @@ def tyre_of(dimensions):
 
 
 def test_outlines_of_a_band_that_is_shifted(spoke):
-    """The feet of all spokes go with the band, their heads stay at the rim."""
+    """The feet of all spokes move with the band, their heads stay at the rim."""
     tyre = tyre_of(TyreGeometry(spoke_count=6))
     shift = np.array([0.2, -0.4])
     moved = np.zeros_like(tyre.mesh.positions) + shift

@@ -68,7 +68,7 @@ def pressed(spoke):
 
 @pytest.fixture(scope="module")
 def tyre():
-    """A tyre on springs: what its file must hold does not depend on the table."""
+    """A tyre on springs: what its file must contain does not depend on the table."""
     unit = np.array([12.0, 0.2, 0.2])
     exponents = np.array([(0, 0, 0), (2, 0, 0), (0, 2, 0), (0, 0, 2)])
     # k x²/2 = k h²/4 (T2(x/h) + 1)

@@ -212,7 +212,7 @@ def test_a_level_of_the_unloaded_spoke_is_one_state():
 
 
 def test_a_half_turn_leaves_the_spoke_as_it_is():
-    """States at β and -β: rim and band change places, with coupled plies as with any."""
+    """States at β and -β: rim and band change places, with coupled plies too."""
     model = SpokeModel(spoke_design(angle_deg=30.0))
     coordinates = np.array([[-4.0, 0.05, -0.03], [-4.0, -0.05, -0.03]])
     motions = motion_of(coordinates, HEIGHT)[0]

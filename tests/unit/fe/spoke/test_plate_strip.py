@@ -1,4 +1,4 @@
-"""A strip of plate alone, bent by its end, against classical lamination theory."""
+"""A strip of plate alone, bent at its end, against classical lamination theory."""
 
 import numpy as np
 import pytest

@@ -42,7 +42,7 @@ def differences(states, others):
 
 
 def test_the_order_of_the_spokes_does_not_change_a_bit(tmp_path):
-    """A table knows no other spoke: neither those of this process nor those of the folder."""
+    """A table depends on no other spoke: neither those of this process nor those of the folder."""
     tables = {}
     for name, angles in {"up": ANGLES, "down": ANGLES[::-1]}.items():
         for angle in angles:

@@ -78,7 +78,7 @@ def test_more_and_thicker_plates_along_the_leg_stiffen(ply, model):
 
 
 def test_plates_that_may_bow_are_softer_where_the_fibres_are_oblique(ply):
-    """Along and across the plate lamination theory has next to no difference."""
+    """For fibres along or across the plate, lamination theory has next to no difference."""
     added = {}
     for angle in (0.0, 45.0, 90.0):
         held, free = (

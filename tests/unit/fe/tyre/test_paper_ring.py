@@ -1,4 +1,4 @@
-"""The ring as table 4 of the paper counts it."""
+"""The ring with the elements of table 4 of the paper."""
 
 import numpy as np
 import pytest
@@ -38,7 +38,7 @@ def test_elements_are_those_of_table_4(tyre):
 
 
 def test_wires_are_membranes_at_their_diameters(tyre):
-    """A uniform growth strains them alone, as rings of their own radius."""
+    """A uniform growth strains each layer as a ring of its own radius."""
     section = np.pi / 4 / 2.0 * TYRE.tread_width_mm * 2
     growth = 1e-3
     moved = growth * tyre.mesh.positions
@@ -49,7 +49,7 @@ def test_wires_are_membranes_at_their_diameters(tyre):
         assert group.respond(moved).energy == pytest.approx(energy, rel=1e-4)
 
 
-def test_membranes_bend_for_nothing(tyre):
+def test_membranes_bend_almost_freely(tyre):
     """Inextensional mode w = a cos 2θ of the outer layer: a beam would take π/2 E I (3a)²/R³."""
     amplitude, middle = 1e-2, 313.25
     x, y = tyre.mesh.positions.T
@@ -81,7 +81,7 @@ def test_a_wrinkle_is_a_wave_from_node_to_node(tyre):
 
 
 def test_feet_are_averaged_over_their_true_width(springs):
-    """Feet begin and end inside elements: a foot's mean of θ² tells its width."""
+    """Feet begin and end inside elements: a foot's mean of θ² shows its width."""
     turned = PaperMesh(first_spoke_deg=1.7)
     model = TyreModel(TYRE, springs(), FOOT_MM, 5.0, 10.0, turned, GroundContact())
     mesh = model.mesh
@@ -100,7 +100,7 @@ def test_feet_are_averaged_over_their_true_width(springs):
     assert half**2 / 3.0 > 2.0 * sag
 
 
-def test_the_ground_is_felt_at_nodes(tyre):
+def test_the_ground_acts_at_nodes(tyre):
     state = tyre.load([1000.0])
     ground = tyre.ground.respond(state.displacement, state.rise_mm)
     lowest = (tyre.mesh.positions + state.displacement)[4::5, 1]
@@ -135,7 +135,7 @@ def test_a_section_of_the_other_ring_is_refused(change):
         FeModel(ring="paper_mesh", geometry=other)
 
 
-def test_a_changed_section_is_no_calibrated_one_and_keeps_the_rest():
+def test_a_changed_section_is_not_calibrated_and_keeps_the_rest():
     found = FeModel(ring="paper_mesh", geometry={"leg_thickness_mm": 3.0}).geometry
     assert found.calibrated_with is None
     known = SECTIONS["paper_mesh"].model_copy(

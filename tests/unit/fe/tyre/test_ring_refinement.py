@@ -1,4 +1,4 @@
-"""No length of the ring's mesh, and no softness of its ground, acts as one of the tyre."""
+"""No length of the ring's mesh, and no softness of its ground, acts as if it were the tyre's."""
 
 import pytest
 
@@ -45,7 +45,7 @@ def test_half_of_every_length_leaves_the_stiffness(stiffness, coarse, finer):
 
 
 def test_deep_rows_around_the_wires_would_be_a_length_of_the_tyre(stiffness, coarse):
-    """Rows of 1.4 mm take their depth from the rubber between the wires: the test above is red."""
+    """Rows of 1.4 mm take their depth from the rubber between the wires: the test above fails."""
     deep, half = (stiffness(TyreMesh.model_construct(wire_row_mm=row)) for row in (1.4, 0.7))
     assert deep > 1.01 * coarse
     assert half != pytest.approx(deep, rel=0.003)
@@ -61,7 +61,7 @@ def test_the_ground_does_not_count_as_displacement(stiffness, mesh):
 
 @pytest.mark.parametrize("shift_deg", [0.0, 3.0], ids=["on a spoke", "between two spokes"])
 def test_the_contact_does_not_jump_with_the_mesh(springs, shift_deg):
-    """Length and mean pressure of the contact at 5000 N, where a step of it was 10 mm once."""
+    """Length and mean pressure of the contact at 5000 N, where it once jumped by 10 mm."""
     found = []
     for finer in ({}, ALONG):
         mesh = TyreMesh(first_spoke_deg=shift_deg, **finer)

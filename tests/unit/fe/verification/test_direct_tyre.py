@@ -76,7 +76,7 @@ def test_condensed_forces_and_tangents_are_derivatives_of_the_energy(foot):
 
 
 def test_away_from_equilibrium_the_condensed_force_leads_to_it(foot):
-    """The linearised force foretells, to second order, what the settled inner nodes give."""
+    """The linearised force predicts, to second order, the force of the settled inner nodes."""
     spoke, feet = foot
     q = np.full(feet.operators.shape[1], 1e-3)
     away = spoke.follow_foot(spoke.at_rest(feet), q, feet)

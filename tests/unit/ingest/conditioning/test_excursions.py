@@ -1,4 +1,4 @@
-"""Readings of a channel that are away for a while."""
+"""Readings of a channel that leap away for a while."""
 
 import numpy as np
 import pytest

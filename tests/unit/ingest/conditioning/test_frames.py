@@ -41,7 +41,7 @@ def test_frames_by_the_edges_of_a_trigger(lab, tmp_path):
     check(lab, lab.ingest(tmp_path, "m.csv", strain_file="c.csv"))
 
 
-def test_a_trigger_of_another_number_of_edges_is_refused(lab, tmp_path):
+def test_a_trigger_with_another_number_of_edges_is_refused(lab, tmp_path):
     machine(lab, tmp_path, **{"Trigger [V]": np.where(np.arange(ROWS) % 7 < 3, 5.0, 0.1)})
     camera(lab, tmp_path)
     with pytest.raises(InputError, match="cannot be paired"):

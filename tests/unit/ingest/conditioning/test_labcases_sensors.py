@@ -57,7 +57,7 @@ def test_a_break_within_a_slow_machine_record_and_a_fast_camera(lab, tmp_path):
 def test_a_camera_force_without_a_clock_is_cut_at_its_break(lab, tmp_path):
     force = np.concatenate([np.linspace(0, 1000, 50), [3.0, 2.0, 1.0]])
     strain = np.concatenate([np.linspace(0, 0.01, 50), [0.02, 0.0, 0.0]])
-    lab.write(tmp_path / "m.csv", {"Load [N]": [0, 500, 1010], "Way [mm]": [0, 1, 2]})
+
     lab.write(
         tmp_path / "m.csv",
         {"Load [N]": np.linspace(0, 1010, 400), "Displacement [mm]": np.linspace(0, 1, 400)},
@@ -153,7 +153,7 @@ def test_a_short_strain_record_with_another_clock_and_unit(lab, tmp_path, unit, 
 
 
 def test_a_short_strain_record_of_another_specimen_is_refused(lab, tmp_path):
-    """Same kind of record, but the force grows at another rate: not one specimen."""
+    """The same kind of record, but the force grows at another rate: not the same specimen."""
     lab.write(tmp_path / "m.csv", {"Time [s]": TIME, "Load [N]": FORCE})
     frames = np.arange(0, 45.0, 0.5)
     lab.write(
@@ -303,7 +303,7 @@ def test_a_file_that_calls_itself_another_test_is_refused(lab, tmp_path, head, o
     ("name", "own"), [("Compressive strain [%]", "compression"), ("Flexure strain [%]", "flexure")]
 )
 def test_a_column_that_names_another_loading_stops_the_specimen(lab, tmp_path, name, own):
-    """Also one that is not used."""
+    """Even a column that is not used."""
     columns = {"Time [s]": TIME, "Load [N]": FORCE, "Displacement [mm]": TIME / 10, name: STRAIN}
     lab.write(tmp_path / "a.csv", columns)
     with pytest.raises(InputError, match=f"calls itself {own}"):

@@ -15,7 +15,7 @@ MODULUS_N = 1e6
 
 
 def strain_at(time):
-    """Standing for 5 s, then a ramp to 1 %, then broken."""
+    """At rest for 5 s, then a ramp to 1 %, then broken."""
     return np.where(time < DURATION, 0.0001 * np.clip(time - 5, 0, None), 0.0)
 
 

@@ -69,5 +69,5 @@ YIELDED = np.linspace(0, 0.05, 600)
     ],
     ids=["broken", "noise", "held", "coarse plateau", "coarse maximum", "steps"],
 )
-def test_what_is_no_saturation(load, strain):
+def test_other_records_are_not_taken_for_saturation(load, strain):
     assert saturated_from(load, strain) is None

@@ -43,7 +43,7 @@ def resolve(specimen, source="unspecified", compliance=None, **channels):
 
 
 @pytest.mark.parametrize("axial", ["strain_xx", "strain_yy"])
-def test_axial_strain_is_found_whichever_way_the_camera_stands(coupon, axial):
+def test_axial_strain_is_found_whatever_the_camera_s_orientation(coupon, axial):
     other = {"strain_xx": "strain_yy", "strain_yy": "strain_xx"}[axial]
     signals, source = resolve(coupon(), **{axial: 1e-5 * FORCE, other: -3e-6 * FORCE})
     assert signals.values["strain_axial"] == pytest.approx(1e-5 * FORCE)
@@ -78,7 +78,7 @@ def test_strain_that_is_travel_over_a_length_is_called_crosshead(coupon):
     assert any("crosshead strain" in flag for flag in signals.flags)
 
 
-def test_strain_of_its_own_is_not_called_crosshead(coupon):
+def test_an_independent_strain_is_not_called_crosshead(coupon):
     travel = 1e-3 * FORCE**1.1
     _, source = resolve(coupon(), source="extensometer", strain=1e-5 * FORCE, displacement=travel)
     assert source == "extensometer"
@@ -151,7 +151,7 @@ def test_dead_values_and_dead_channels_go():
 
 
 @pytest.mark.parametrize("wild", [51234.0, -400.0])
-def test_a_wild_reading_is_emptied_and_said(wild):
+def test_a_wild_reading_is_emptied_and_reported(wild):
     force = FORCE.copy()
     force[40] = wild
     signals = Signals({"force": force, "strain": 1e-5 * FORCE.copy()})
@@ -161,7 +161,7 @@ def test_a_wild_reading_is_emptied_and_said(wild):
     assert any("wild" in flag for flag in signals.flags)
 
 
-def test_failure_and_noise_are_no_spikes():
+def test_failure_and_noise_are_not_spikes():
     noise = np.random.default_rng(1).standard_normal(101)
     force = np.concatenate([FORCE + noise, [5.0, 4.0, 6.0]])
     signals = Signals({"force": force})
@@ -223,14 +223,14 @@ def test_slip_is_found():
 
 
 @pytest.mark.parametrize("seed", range(10))
-def test_noise_is_no_removal(seed):
+def test_noise_is_not_a_removal(seed):
     noise = 3e-5 * np.random.default_rng(seed).standard_normal(101)
     signals = conditioned(1e-5 * FORCE + noise)
     empty_after_removal(signals, ExtensometerRemoval(), rubber=False, source="")
     assert not np.isnan(signals.values["strain_axial"]).any()
 
 
-def test_a_drop_of_the_force_with_the_strain_is_no_removal():
+def test_a_drop_of_the_force_with_the_strain_is_not_a_removal():
     strain, force = 1e-5 * FORCE.copy(), FORCE.copy()
     strain[60:] -= 0.002
     force[60:] -= 200
@@ -239,7 +239,7 @@ def test_a_drop_of_the_force_with_the_strain_is_no_removal():
     assert not np.isnan(signals.values["strain_axial"]).any()
 
 
-def test_a_leap_with_a_loss_of_force_is_damage_and_no_removal():
+def test_a_leap_with_a_loss_of_force_is_damage_and_not_a_removal():
     force = np.linspace(0, 1000, 21)
     strain = 1e-5 * force
     strain[12:] += 0.011
@@ -259,7 +259,7 @@ def test_untared_load_cell():
 E_MPA = 70_000.0
 
 
-def test_preload_gives_back_the_strain_that_was_set_to_zero():
+def test_the_strain_of_a_preload_is_restored():
     stress = np.linspace(20, 700, 200)
     strain = stress / E_MPA - 20 / E_MPA
     signals = conditioned(strain, 10 * stress, -0.3 * strain)

@@ -132,7 +132,7 @@ def test_what_ncorr_saves_is_the_mean_over_its_region(lab, tmp_path, version):
     assert done.curve["strain_transverse"].dropna().iloc[-1] == pytest.approx(-0.3 * STRAIN[9])
 
 
-def test_a_matrix_takes_the_names_that_lie_next_to_it(read):
+def test_a_matrix_takes_the_names_stored_next_to_it(read):
     buffer = BytesIO()
     time = np.arange(20.0)
     names = np.array(["Time [s]", "Force [N]", "Strain [%]"], dtype=object)

@@ -20,7 +20,7 @@ TEXTS = {
 
 
 @pytest.mark.parametrize("encoding", TEXTS)
-def test_eight_bit_encodings_are_told_by_known_words(read, encoding):
+def test_eight_bit_encodings_are_recognised_by_known_words(read, encoding):
     table = read(f"{TEXTS[encoding]}\r\n{ROWS}".encode(encoding))
     assert table.encoding == encoding
     assert table.values["force"][0] == pytest.approx(1.5)

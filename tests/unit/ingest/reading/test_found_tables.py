@@ -54,7 +54,8 @@ def test_unit_of_another_quantity_is_refused(read):
 
 
 def test_millinewton_is_not_meganewton(read):
-    assert read("\n".join(["time_s,force [mN],strain_%", *BODY])).values["force"][0] == 0.0015
+    table = read("\n".join(["time_s,force [mN],strain_%", *BODY]))
+    assert table.values["force"][0] == pytest.approx(0.0015)
     with pytest.raises(InputError, match="not a unit of force"):
         read("\n".join(["time_s,force [Mn],strain_%", *BODY]))
 
@@ -108,7 +109,7 @@ def test_column_of_numbers_without_a_name_is_refused(read, profiles):
     assert read(text, declared=own).values["force"][0] == pytest.approx(1.5)
 
 
-def test_last_line_cut_off_is_dropped_and_said(read):
+def test_last_line_cut_off_is_dropped_and_reported(read):
     table = read("\n".join([NAMES, *BODY, "0.9,9."]))
     assert table.rows == 8
     assert any("cut off" in note for note in table.notes)
@@ -156,7 +157,7 @@ def test_unclosed_quote_does_not_swallow_rows(read):
         read("\n".join([NAMES, *rows]))
 
 
-def test_text_column_beside_the_numbers(read):
+def test_text_column_next_to_the_numbers(read):
     lines = [f"{NAMES},name", f"{BODY[0]},A-1", *(f"{row}," for row in BODY[1:])]
     assert read("\n".join(lines)).rows == 8
 
@@ -181,14 +182,14 @@ def test_empty_and_binary_files(read, content):
         read(content)
 
 
-def test_table_that_goes_on_under_junk_is_refused(read):
+def test_table_that_continues_below_junk_is_refused(read):
     rows = [*BODY, "Error,Sensor,overload", *BODY]
     with pytest.raises(InputError, match="seems to go on in line 11"):
         read("\n".join([NAMES, *rows]))
     assert read("\n".join([NAMES, *rows]), part="1").rows == 8
 
 
-def test_unit_of_the_profile_is_said(read, profiles):
+def test_unit_of_the_profile_is_reported(read, profiles):
     own = profiles["plain"].model_copy(update={"units": {"force": "kN"}})
     table = read("\n".join(["time_s,force,strain_%", *BODY]), declared=own)
     assert table.values["force"][0] == pytest.approx(1500)

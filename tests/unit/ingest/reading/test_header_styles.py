@@ -101,7 +101,7 @@ def test_thousands_marks_of_many_countries(lab, tmp_path, form, swap):
     assert lab.modulus(lab.ingest(tmp_path, "a.csv")) == pytest.approx(E_MPA, rel=1e-3)
 
 
-def test_a_minus_sign_that_is_no_hyphen(lab, tmp_path):
+def test_a_minus_sign_that_is_not_a_hyphen(lab, tmp_path):
     lines = [row.replace("0,0,0", "\u22120.5,\u22121,\u22120.0001") for row in rows(1, 0.01)]
     (tmp_path / "a.csv").write_text("\n".join(["Time [s],Load [N],Strain [%]", *lines]))
     done = lab.ingest(tmp_path, "a.csv")
@@ -147,7 +147,7 @@ def test_a_time_with_its_zone(lab, tmp_path):
     assert np.diff(done.curve["time_s"]) == pytest.approx(0.5)
 
 
-def test_travel_over_a_length_is_crosshead_strain_also_where_it_is_the_only_one(lab, tmp_path):
+def test_travel_over_a_length_is_crosshead_strain_even_where_it_is_the_only_one(lab, tmp_path):
     text = "\n".join(["Time [s],Load [N],Tensile strain (Extension) [%]", *rows(1, 0.01)])
     (tmp_path / "a.csv").write_text(text)
     done = lab.ingest(tmp_path, "a.csv")
@@ -164,7 +164,7 @@ def test_another_quantity_is_not_taken_for_the_strain(lab, tmp_path, name):
 
 @pytest.mark.parametrize(("last", "rubber"), [(0.35, False), (8.0, True)])
 def test_a_strain_without_unit_that_may_be_percent_is_refused(lab, tmp_path, last, rubber):
-    """Percent without a unit; both readings make a material, 100 times apart in modulus."""
+    """Percent without a unit; both readings are plausible moduli, 100 times apart."""
     strain = np.linspace(0, last, 60)
     force = (0.02 if rubber else 1250.0) * 10 * strain
     lab.write(tmp_path / "a.csv", {"Time [s]": strain, "Load [N]": force, "Strain": strain})

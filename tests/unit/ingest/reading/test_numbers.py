@@ -92,7 +92,7 @@ def test_decimal_comma_in_comma_separated_quotes(read):
     delimiter=st.sampled_from([";", "\t", "|"]),
     decimal=st.sampled_from([".", ","]),
 )
-def test_any_table_is_read_right_or_refused(numbers, delimiter, decimal):
+def test_any_table_is_read_correctly_or_refused(numbers, delimiter, decimal):
     cells = [[repr(number).replace(".", decimal) for number in row] for row in numbers]
     try:
         dialect = find(cells, delimiter)
@@ -111,7 +111,7 @@ def test_any_table_is_read_right_or_refused(numbers, delimiter, decimal):
 @pytest.mark.parametrize(
     "cell", ["1_000", "0x1A", "1.2.3", "1e", "--5", "1,5,2", "１２", "+-3", "1d5", "true"]
 )
-def test_a_cell_that_is_no_number_is_named(read, cell):
+def test_a_cell_that_is_not_a_number_is_named(read, cell):
     lines = ["time_s;force_N;strain_%", *(f"0.{n};{n}.5;0.0{n}" for n in range(1, 8))]
     lines[4] = f"0.4;{cell};0.04"
     with pytest.raises(InputError) as caught:
@@ -122,7 +122,7 @@ def test_a_cell_that_is_no_number_is_named(read, cell):
 
 
 @pytest.mark.parametrize("cell", ["1e400", "-1e999"])
-def test_a_number_beyond_all_measure_is_named(read, cell):
+def test_a_number_that_is_too_large_is_named(read, cell):
     lines = ["time_s;force_N;strain_%", *(f"0.{n};{n}.5;0.0{n}" for n in range(1, 8))]
     lines[4] = f"0.4;{cell};0.04"
     with pytest.raises(InputError, match="too large") as caught:
@@ -131,7 +131,7 @@ def test_a_number_beyond_all_measure_is_named(read, cell):
 
 
 @pytest.mark.parametrize("grouped", ["61 000.1", "61,000.1"])
-def test_a_number_beyond_all_measure_is_named_next_to_grouped_digits(read, grouped):
+def test_a_number_that_is_too_large_is_named_next_to_grouped_digits(read, grouped):
     lines = ["time_s;force_N;strain_%", *(f"0.{n};{n}.5;0.0{n}" for n in range(1, 8))]
     lines[3] = f"0.3;{grouped};0.03"
     assert 61000.1 in read("\n".join(lines)).values["force"]
@@ -149,7 +149,7 @@ def test_missing_values(read, word):
     assert [index for index, value in enumerate(strain) if value != value] == [3]
 
 
-def test_a_thousands_mark_that_nothing_proves_is_not_believed(read):
+def test_a_thousands_mark_that_nothing_proves_is_not_accepted(read):
     """A comma mistyped as a point must not multiply by a thousand."""
     lines = ["time_s;force_N;strain_%", *(f"0,{n};{n},234;0,0{n}" for n in range(1, 8))]
     lines[4] = "0,4;4.234;0,04"

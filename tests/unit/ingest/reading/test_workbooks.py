@@ -59,7 +59,7 @@ def test_two_sheets_of_values_need_a_part_or_the_specimens_name(read, tmp_path):
 
 
 @pytest.mark.parametrize("cell", ["1,5", "n. b.", datetime(2024, 5, 29)])  # noqa: DTZ001
-def test_a_cell_that_is_no_number_is_named(read, tmp_path, cell):
+def test_a_cell_that_is_not_a_number_is_named(read, tmp_path, cell):
     rows = [list(row) for row in ROWS]
     rows[4][1] = cell
     with pytest.raises(InputError, match="not a number") as caught:
@@ -110,7 +110,7 @@ def test_a_workbook_that_cannot_be_unpacked_is_refused(read, tmp_path, offset, v
 
 
 def without_default_style(content):
-    """Leave the named styles out, as some programs do; openpyxl warns of it."""
+    """Leave the named styles out, as some programs do; openpyxl warns about it."""
     out = io.BytesIO()
     with zipfile.ZipFile(io.BytesIO(content)) as old, zipfile.ZipFile(out, "w") as new:
         for name in old.namelist():

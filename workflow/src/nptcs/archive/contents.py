@@ -1,4 +1,4 @@
-"""Which files of a project folder belong in the archive of a study, and as what."""
+"""Which files of a project folder belong in the archive of a study, and their roles."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from nptcs.tables.catalogue import result_files
 
 
 class ArchivedAs(StrEnum):
-    """What a file is to the study."""
+    """Role of a file in the study."""
 
     INPUT = "input"
     RESULT = "result"
@@ -24,7 +24,7 @@ class ArchivedAs(StrEnum):
 
 RESULTS = ("report.html", "workbook.xlsx", "material_card.json", "configuration.yaml",
            "identity.json")  # fmt: skip
-"""Results besides the tables; without any of them the study is not finished."""
+"""Results apart from the tables; if one of them is missing, the study is not finished."""
 VERDICT = "verdict.txt"
 """Written only by a run in which every specimen and case gave a result."""
 PACKAGES = ("nptcs", "snakemake_logger_plugin_nptcs")
@@ -87,7 +87,7 @@ def study_inputs(root: Path, config: Config) -> list[Path]:
 
 
 def _of_solver(name: str, options: Mapping[str, object]) -> Iterator[str]:
-    """Yield the tables of a solver, and its module where that is a user's file."""
+    """Yield the tables of a solver, and its module if that is a user's file."""
     module = module_of(name, options)
     yield from read_options(load_solver(module), options).tables().values()
     if module.endswith(".py"):
@@ -103,7 +103,7 @@ def _results(root: Path, config: Config) -> Iterator[Path]:
         if not (folder / name).is_file():
             raise InputError(
                 "this result does not exist, so the study is not finished",
-                "run snakemake to its end, then archive",
+                "run snakemake to completion, then archive",
                 folder / name,
             )
         yield folder / name
@@ -120,5 +120,5 @@ def _inside(path: Path, root: Path) -> str:
     except ValueError:
         remedy = "copy it into the project folder, and name the copy in the configuration"
         raise InputError(
-            "is outside the project folder, and an archive holds only that folder", remedy, path
+            "is outside the project folder, and an archive contains only that folder", remedy, path
         ) from None

@@ -21,7 +21,7 @@ from nptcs.files import atomic_path, sha256_of_file
 
 METADATA = "ro-crate-metadata.json"
 MANIFEST = "manifest-sha256.txt"
-"""One line per file: its SHA-256, two blanks, its name; the form of ``sha256sum`` and BagIt."""
+"""One line per file: its SHA-256, two blanks, its name; the format of ``sha256sum`` and BagIt."""
 ENVIRONMENT = "environment.json"
 CONFIGURATION = "config/config.yaml"
 WORKFLOW = "workflow/Snakefile"
@@ -35,13 +35,13 @@ def write_crate(
     Parameters
     ----------
     target : Path
-        The zip file; it is written whole or not at all.
+        The zip file; it is written completely or not at all.
     files : mapping
         `nptcs.archive.contents.contents_of`.
     config : Config
         Configuration of the results; it becomes ``config/config.yaml`` of the archive.
     commit : str
-        Commit of the code, or a word that says why it is not known.
+        Commit of the code, or why it is not known.
 
     Returns
     -------

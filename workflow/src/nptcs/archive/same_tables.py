@@ -14,7 +14,7 @@ from nptcs.tables.run_columns import OF_THE_RUN
 
 @dataclass(frozen=True)
 class TableDifference:
-    """What differs between two tables: `fault` where they cannot be compared."""
+    """What differs between two tables: `fault` if they cannot be compared."""
 
     file: str
     rows: int = 0
@@ -102,7 +102,7 @@ def compare_folders(
         one, two = (table.drop(columns=list(ignored), errors="ignore") for table in tables)
         if list(one) != list(two) or len(one) != len(two):
             stray = sorted(map(str, set(one) ^ set(two)))
-            found.append(TableDifference(name, fault=f"other columns or rows: {stray}"))
+            found.append(TableDifference(name, fault=f"different columns or rows: {stray}"))
             continue
         found.append(TableDifference(name, len(one), *table_difference(one, two)))
     found += [TableDifference(name, fault=f"is missing in {before}") for name in sorted(second)]

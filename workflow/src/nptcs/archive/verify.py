@@ -1,4 +1,4 @@
-"""Check an archive: every file as packed, nothing missing or added, tables and cards sound."""
+"""Check an archive: every file as packed, nothing missing or added, tables and card valid."""
 
 from __future__ import annotations
 
@@ -38,21 +38,21 @@ def unpack(archive: Path, folder: Path) -> None:
             packed.extractall(folder)
     except (zipfile.BadZipFile, EOFError) as error:
         remedy = "copy it again from where it was written"
-        raise InputError(f"is not a whole zip file: {error}", remedy, archive) from None
+        raise InputError(f"is not a complete zip file: {error}", remedy, archive) from None
 
 
 def faults_of(folder: Path) -> list[str]:
-    """Return the faults of an unpacked archive, one line each; empty where it is sound."""
+    """Return the faults of an unpacked archive, one line each; empty if there are none."""
     return packed_faults(folder) or list(_unsound_results(folder))
 
 
 def packed_faults(folder: Path) -> list[str]:
-    """Return what is not as it was packed, whichever version of the package has packed it."""
+    """Return what is not as it was packed, whichever version of the package packed it."""
     return list(_broken_files(folder)) or list(_metadata_faults(folder))
 
 
 def run_identity(folder: Path) -> RunIdentity | None:
-    """Return the identity of an archived run; none if its version did not write one."""
+    """Return the identity of an archived run; None if its version did not write one."""
     path = folder / "results" / "identity.json"
     return read_model(path, RunIdentity) if path.is_file() else None
 
@@ -100,7 +100,7 @@ def _metadata_faults(folder: Path) -> Iterator[str]:
         yield f"{name}: is in only one of {METADATA} and {MANIFEST}"
     for name in sorted(set(described) & set(listed)):
         if described[name] != listed[name]:
-            yield f"{name}: has another checksum in {METADATA} than in {MANIFEST}"
+            yield f"{name}: has different checksums in {METADATA} and {MANIFEST}"
 
 
 def _unsound_results(folder: Path) -> Iterator[str]:

@@ -103,7 +103,7 @@ def check_tables(asked: Asked) -> Iterator[InputError]:
 
 
 def check_rounding(asked: Asked) -> Iterator[InputError]:
-    """Find levels that a solver cannot tell apart, since it rounds both to the same value."""
+    """Find levels that a solver cannot tell apart because it rounds both to the same value."""
     study, design = asked.study, asked.design
     for solver, _ in asked.solvers():
         realised = realised_values(solver, asked)
@@ -138,7 +138,7 @@ def realised_values(solver: Solver, asked: Asked) -> pd.DataFrame:
 
 
 def _merged(given: pd.Series, realised: pd.Series, study: Study) -> dict[float, list[float]]:
-    """Return by realised value the given values that it stands for, where these must differ."""
+    """Return, by realised value, the given values that it replaces and that must differ."""
     groups = {
         float(value): sorted(set(given[realised == value])) for value in sorted(set(realised))
     }
@@ -177,7 +177,7 @@ def _aliased(study: Study, design: pd.DataFrame, solver: str = "") -> Iterator[I
 
 
 def check_calibration_cases(asked: Asked) -> Iterator[InputError]:
-    """Find calibration cases of which the archive has no published result."""
+    """Find calibration cases for which the archive has no published result."""
     study = asked.study
     if PUBLISHED not in study.solvers or study.rubbers():
         return
@@ -198,14 +198,14 @@ def check_calibration_cases(asked: Asked) -> Iterator[InputError]:
                 yield InputError(
                     f"calibration case {number} of solver '{name}' has no published result: "
                     f"{result.message}",
-                    "name cases that the archive holds",
+                    "name cases that are in the archive",
                     column=f"studies.{study.name}.calibration_cases.{name}",
                     value=number,
                 )
 
 
 def rounding_notes(asked: Asked) -> dict[str, str]:
-    """Say by solver which values it uses instead of given ones: ``spacing_mm 15 → 14.62``."""
+    """Say, by solver, which values it uses instead of given ones: ``spacing_mm 15 → 14.62``."""
     design = asked.design
     notes: dict[str, str] = {}
     for solver, _ in asked.solvers():

@@ -1,8 +1,9 @@
 """Cheap cases in bulk: a table of cases solved in parts, its results kept as columns.
 
 A solver with a table function (`nptcs.solvers.contract.Solver.solve_table`) solves the cases of a
-large study in parts, each in a process of its own: a part whose process dies or runs out of time
-is halved until the cases at fault are found. There are no curves and no record per case.
+large study in parts, each in a separate process: a part whose process dies or runs out of time
+is halved until the cases at fault are found. There is no record per case; of the curves, the
+points are kept as columns.
 """
 
 from __future__ import annotations
@@ -82,7 +83,7 @@ class _Running:
 
 @dataclass(frozen=True)
 class _Table:
-    """Cases of a study with all that one solver may look at."""
+    """Cases of a study with everything that one solver may look at."""
 
     solver: Solver
     module: str
@@ -108,7 +109,7 @@ class _Table:
         return cls(solver, module, TableInputs(values, study.load_n, tyre, checked, given, tables))
 
     def folder(self, store: str | Path) -> Path:
-        """Return where the solved cases are kept that share all but their values with these."""
+        """Return the folder of the solved cases that differ from these in their values only."""
         inputs, options = self.inputs, self.inputs.options
         content = {
             "solver": self.solver.name,
@@ -165,8 +166,8 @@ def solve_bulk(
     job, design, ply, cores, tokens, log
         As in `nptcs.campaign.batch.solve_batch`.
     store : str or Path
-        Folder of solved cases. Those that are there are not solved again; new ones are kept part
-        by part, so that an interrupted run goes on where it stopped.
+        Folder of solved cases. Those found there are not solved again; new ones are kept part
+        by part, so that an interrupted run continues where it stopped.
 
     Returns
     -------
@@ -272,7 +273,7 @@ def _start(task: _Task, rows: np.ndarray) -> _Running:
 
 
 def _ended(running: list[_Running], timeout_s: float) -> list[_Running]:
-    """Wait until a part has sent its results, died or run out of time; name all that have."""
+    """Wait until a part has sent its results, died or run out of time; return all that have."""
     left = min(part.started for part in running) + timeout_s - time.monotonic()
     ready = wait([part.channel for part in running], timeout=max(0.0, left))
     now = time.monotonic()
@@ -280,7 +281,7 @@ def _ended(running: list[_Running], timeout_s: float) -> list[_Running]:
 
 
 def _collect(part: _Running, timeout_s: float) -> tuple[pd.DataFrame | None, list[np.ndarray]]:
-    """Take the results of a part that has ended; without any, its halves are to be solved."""
+    """Take the results of a part that has ended; if there are none, return its halves to solve."""
     seconds, died = time.monotonic() - part.started, False
     try:
         if part.channel.poll():

@@ -44,7 +44,7 @@ def write_bulk(path: str | Path, table: pd.DataFrame) -> None:
 
 
 def read_bulk(path: str | Path) -> pd.DataFrame:
-    """Read what `write_bulk` has written.
+    """Read what `write_bulk` wrote.
 
     Raises
     ------
@@ -58,7 +58,7 @@ def read_bulk(path: str | Path) -> pd.DataFrame:
         return _opened(path)
     except (BrokenSealError, zipfile.BadZipFile, ValueError, KeyError, EOFError, OSError) as error:
         reason = " ".join(str(error).splitlines()[:3])
-        raise InputError(f"these results are not sound: {reason}", REWRITE, path) from None
+        raise InputError(f"these results cannot be used: {reason}", REWRITE, path) from None
 
 
 def _opened(path: str | Path) -> pd.DataFrame:

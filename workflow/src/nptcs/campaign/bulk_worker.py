@@ -27,8 +27,8 @@ def run(
 ) -> None:
     """Solve a part and send ``(results, wall time in s)`` back through the pipe.
 
-    The options come as plain values: a solver's own file, where their class may be, is not known
-    to a new process before it is loaded.
+    The options come as plain values: their class may be defined in a solver's own file, which a
+    new process does not know before it loads it.
     """
     begin_in(folder)
     start = time.perf_counter()
@@ -50,9 +50,9 @@ def solve_part(solver: Solver, inputs: TableInputs) -> pd.DataFrame:
     Returns
     -------
     DataFrame
-        One row per case: ``status``, ``message``, `TYRE_RESPONSES` and what else the solver
+        One row per case: ``status``, ``message``, `TYRE_RESPONSES` and whatever else the solver
         reports; a case that raises has the status ``error`` and no numbers. `DIED` is 1 for a case
-        that ran out of memory.
+        that failed for want of memory, disk space or open files.
     """
     number = len(inputs.cases)
     assert solver.solve_table is not None
@@ -100,7 +100,7 @@ def _checked(solver: Solver, inputs: TableInputs, results: pd.DataFrame) -> pd.D
 
 
 def _add_realised(solver: Solver, inputs: TableInputs, table: pd.DataFrame) -> None:
-    """Add the values that the solver really used, of the cases that are solved."""
+    """Add the values that the solver really used for the solved cases."""
     assert solver.realise is not None
     values = inputs.cases.drop(columns="case_id").astype(float).to_dict("records")
     for row in np.flatnonzero(has_result(table["status"])):

@@ -65,7 +65,7 @@ def cases_table(records: Sequence[CaseRecord]) -> pd.DataFrame:
 
 
 def read_cases(paths: Sequence[str]) -> pd.DataFrame:
-    """Read batch files, of records and of tables, as the table `Cases`.
+    """Read batch files, whether of records or of tables, as the table `Cases`.
 
     Cases of a study are in the order of its design, whatever the number of batches
     (`nptcs.campaign.record.read_records`).
@@ -86,7 +86,7 @@ def read_cases(paths: Sequence[str]) -> pd.DataFrame:
 
 
 def _in_turn(tables: Sequence[pd.DataFrame]) -> pd.DataFrame:
-    """Join the tables of batches, a row of each in turn."""
+    """Join the tables of batches, taking one row from each in turn."""
     places = [number + len(tables) * np.arange(len(table)) for number, table in enumerate(tables)]
     order = np.argsort(np.concatenate(places))
     return pd.concat(tables, ignore_index=True).iloc[order].reset_index(drop=True)
@@ -97,7 +97,7 @@ def _without_curves(table: pd.DataFrame) -> pd.DataFrame:
 
 
 def read_tyres(paths: Sequence[str]) -> list[CaseRecord]:
-    """Read the solved tyres with a load–displacement curve, of records and of tables.
+    """Read the solved tyres with a load–displacement curve, from records and from tables.
 
     Parameters
     ----------
@@ -107,7 +107,7 @@ def read_tyres(paths: Sequence[str]) -> list[CaseRecord]:
     Returns
     -------
     list of CaseRecord
-        All records, and of tables the solved rows that have a curve. A table keeps neither
+        All records, and the solved rows of tables that have a curve. A table keeps neither
         neutral lines nor the stress of plates.
 
     Raises

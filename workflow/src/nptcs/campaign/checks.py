@@ -32,7 +32,7 @@ def study_faults(config: Config) -> list[InputError]:
     list of InputError
         Each with the key at fault and a remedy: faults of `check_study`, more cases than
         ``campaign.most_cases``, more batches than cases, terms that the levels cannot tell apart,
-        and what `nptcs.campaign.answers` finds of each solver.
+        and what `nptcs.campaign.answers` finds for each solver.
     """
     return [fault for study in config.studies for fault in _faults(study, config)]
 
@@ -61,8 +61,8 @@ def _faults(study: Study, config: Config) -> Iterator[InputError]:
     cases = study.number_of_cases()
     if cases > config.campaign.most_cases:
         yield InputError(
-            f"study {study.name} has {cases:,} cases by {len(study.solvers)} solvers; a run solves "
-            f"at most {config.campaign.most_cases:,} of a study unless told otherwise",
+            f"study {study.name} has {cases:,} cases (solvers: {', '.join(study.solvers)}); a run "
+            f"solves at most {config.campaign.most_cases:,} cases of a study unless told otherwise",
             "use fewer levels, start the run with 'nptcs run --yes', or raise the key "
             "campaign.most_cases",
             column=f"studies.{study.name}.factors",
@@ -112,7 +112,7 @@ KEPT_STUDIES = frozenset({"records", "bulk", "models", "sobol"})
 KEPT_BY_WINDOWS = frozenset({"con", "prn", "aux", "nul"}) | {
     f"{port}{number}" for port in ("com", "lpt") for number in range(1, 10)
 }
-"""Names that no file can have on Windows, whatever follows a dot in them."""
+"""Names that no file can have on Windows, whatever follows them after a dot."""
 
 
 def _kept(kind: str, name: str) -> InputError:
@@ -120,7 +120,7 @@ def _kept(kind: str, name: str) -> InputError:
 
 
 def _capitals(kind: str, names: Sequence[str]) -> list[InputError]:
-    """Find names that differ only in capital letters; specimens so named are refused row by row."""
+    """Find names that differ only in capital letters; for specimens the sheet's check does so."""
     folded = [name.casefold() for name in names]
     same = [name for name in names if folded.count(name.casefold()) > 1]
     if not same:
@@ -146,7 +146,7 @@ def _unfit(kind: str, name: str) -> InputError:
 
 
 LONGEST_NAME = 100
-"""Characters of a name; file systems allow 255 in a file name, which holds more than this name."""
+"""Characters of a name; file systems allow 255 for a whole file name, of which it is a part."""
 
 MOST_REPEATS = 15
 """Times that a piece of a name may be repeated in a row; Snakemake refuses 20 as endless."""

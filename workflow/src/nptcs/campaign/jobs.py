@@ -29,7 +29,7 @@ def make_jobs(
     study : Study
         Its name and load.
     solver_name : str
-        Solver by which the cases are solved.
+        Solver of the cases.
     options : mapping
         Options of that solver.
     tyre : TyreGeometry

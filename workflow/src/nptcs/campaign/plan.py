@@ -28,7 +28,7 @@ SAMPLE = 300
 
 
 RECORD_MB = 0.03
-"""Size of a record where none is stored: a tyre's curve and its neutral line."""
+"""Size of a record if none is stored: a tyre's curve and its neutral line."""
 
 BULK_RECORD_MB = 2.5e-4
 """Size of a case among results in bulk: in the store, and in the file of its batch."""
@@ -36,7 +36,7 @@ BULK_RECORD_MB = 2.5e-4
 
 @dataclass(frozen=True)
 class Costs:
-    """Mean time and median sizes of the stored cases of one solver, or what it states of itself.
+    """Mean time and median sizes of the stored cases of one solver, or what the solver states.
 
     Cases that share a part with an earlier one (`Solver.shares`) take `shared_seconds`.
     """
@@ -80,7 +80,7 @@ def _costs(records: list[tuple[CaseRecord, float]]) -> Costs:
 def known_cases(
     study: Study, config: Config, card: MaterialCard | None, store: RecordStore
 ) -> dict[str, int | None]:
-    """Count by solver the cases that are stored; None where the materials are not known yet."""
+    """Count the stored cases of each solver; None if the materials are not known yet."""
     options = config.solver_options(study)
     rubbers = card.rubbers if card is not None else {}
     c10 = {name: rubber.constants["c10_mpa"].value for name, rubber in rubbers.items()}
@@ -138,7 +138,7 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
             )
             lines.append(f"  {solver.name}: {words}")
             if solver.name in rounded:
-                lines.append(f"    it rounds: {rounded[solver.name]}")
+                lines.append(f"    rounded: {rounded[solver.name]}")
             disk_mb += needed_mb
     free = shutil.disk_usage(Path(results) if Path(results).is_dir() else Path()).free / 1e6
     lines.append(f"disk: about {disk_mb:.3g} MB for new records, {free:,.0f} MB are free")
@@ -146,7 +146,7 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
 
 
 def _stated(solver: Solver, checked: SolverOptions, bulk: bool) -> Costs:
-    """Return what a solver states of the cost of its cases."""
+    """Return what a solver states about the cost of its cases."""
     return Costs(
         (solver.table_case_s if bulk else None) or checked.case_s,
         checked.case_memory_mb,
@@ -157,7 +157,7 @@ def _stated(solver: Solver, checked: SolverOptions, bulk: bool) -> Costs:
 
 
 def different_parts(study: Study, solver: Solver, tyre: TyreGeometry) -> int:
-    """Count the different parts that the cases of a study share: of a joint study its spokes.
+    """Count the different parts that the cases of a study share: for a joint study, its spokes.
 
     Rubbers of the card do not vary within a study: their values make no difference here.
     """
@@ -171,7 +171,7 @@ def different_parts(study: Study, solver: Solver, tyre: TyreGeometry) -> int:
 def _words(
     cases: int, known: int | None, parts: int, cost: Costs, at_a_time: int
 ) -> tuple[str, float]:
-    """Describe what one solver has to do; also the space of its records in MB."""
+    """Describe what one solver has to do; also return the space of its records in MB."""
     if known is None:
         new, how_many = cases, "known cases are counted once the materials are calibrated"
     else:
@@ -181,6 +181,6 @@ def _words(
     seconds = cost.total_s(new, math.ceil(parts * new / cases)) / at_a_time
     time = f"{seconds:.2g} s" if seconds < 100 else f"{seconds / 60:,.0f} min"
     memory = "" if cost.memory_mb is None else f", {cost.memory_mb * at_a_time:,.0f} MB of memory"
-    source = "" if cost.measured else " (as the solver states; no case of it is stored)"
+    source = "" if cost.measured else " (stated by the solver; none of its cases is stored)"
     words = f"{how_many}; about {time} with {at_a_time} at a time{memory}{source}"
     return words, new * cost.record_mb

@@ -17,11 +17,11 @@ if TYPE_CHECKING:
 
 PAUSE_S = 0.5
 RECENT = 200
-"""Cases whose measured seconds say how long the others will take."""
+"""Cases from whose measured times the time of the others is estimated."""
 
 
 class Progress(TypedDict):
-    """What the file says of the cases of one study by one solver, or of a part of them."""
+    """What the file says about the cases of one study by one solver, or about a part of them."""
 
     study: str
     solver: str

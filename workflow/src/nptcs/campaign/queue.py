@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from math import ceil
 from typing import Protocol
 
@@ -9,9 +10,12 @@ from nptcs.campaign.schedule import Needs
 from nptcs.config.root import Campaign
 
 JOB_MEMORY_MB = 800.0
-"""Memory of a job besides its cases: Snakemake, the script and the server that starts the cases."""
+"""Memory of a job on top of its cases: Snakemake, the script and the server that starts cases."""
 JOB_MINUTES = 2.0
-"""Time of a job besides its cases: Snakemake and the imports start again on the node."""
+"""Time of a job on top of its cases: Snakemake and the imports start again on the node."""
+ANSWER_MINUTES = 10.0
+"""Time for the uncertainty and the decisions of a run without their confirming cases, which takes
+less than two minutes for the default study."""
 MARGIN = 2.0
 """Factor on the usual time of cases: a node may be slower, and half of the cases take longer."""
 
@@ -33,19 +37,19 @@ class JobNeeds(Needs, Protocol):
 
 
 def cases_at_a_time(cores: int, options: JobNeeds) -> int:
-    """Return the cases that run side by side on these cores."""
+    """Return how many cases run side by side on these cores."""
     return max(1, cores // options.cores_per_case())
 
 
 def batch_count(cases: int, campaign: Campaign, options: JobNeeds) -> int:
-    """Return the jobs into which the cases of a study are divided for one solver.
+    """Return the number of jobs into which the cases of a study are divided for one solver.
 
     Parameters
     ----------
     cases : int
         Cases of the study.
     campaign : Campaign
-        `minutes_per_batch` decides where it is given, otherwise `batches`.
+        `minutes_per_batch` decides if it is given, otherwise `batches`.
     options : JobNeeds
         Of the solver.
 
@@ -97,8 +101,39 @@ def batch_minutes(cases: int, batches: int, cores: int, options: JobNeeds, attem
     return ceil(JOB_MINUTES + seconds / 60.0)
 
 
+def confirmation_memory_mb(solvers: Iterable[JobNeeds], attempt: int = 1) -> int:
+    """Return the memory that a job requests which solves one case at a time, in MB.
+
+    Examples
+    --------
+    >>> from nptcs.solvers.contract import SolverOptions
+    >>> confirmation_memory_mb([SolverOptions(case_memory_mb=300.0)]), confirmation_memory_mb([])
+    (1100, 800)
+    """
+    return max((batch_memory_mb(1, one, attempt) for one in solvers), default=ceil(JOB_MEMORY_MB))
+
+
+def confirmation_minutes(solvers: Iterable[tuple[JobNeeds, int]], attempt: int = 1) -> int:
+    """Return the wall time that the answers to all decisions request, in minutes.
+
+    Parameters
+    ----------
+    solvers : iterable of (JobNeeds, int)
+        The solver of each decision that is confirmed, and the most cases that it may solve.
+    attempt : int
+
+    Examples
+    --------
+    >>> from nptcs.solvers.contract import SolverOptions
+    >>> confirmation_minutes([(SolverOptions(case_s=20.0, timeout_s=600.0), 3)])
+    24
+    """
+    confirmed = sum(batch_minutes(most, 1, 1, one, attempt) for one, most in solvers)
+    return ceil(ANSWER_MINUTES * attempt) + confirmed
+
+
 def licence_request(tokens: int, queue_licence: str) -> str:
-    """Return the option by which Slurm holds licence tokens for a job; empty without any.
+    """Return the option by which Slurm reserves licence tokens for a job; empty without any.
 
     Examples
     --------

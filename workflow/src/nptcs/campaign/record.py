@@ -1,4 +1,4 @@
-"""The record of one solver case, kept under a name made of all that decides its content."""
+"""The record of one solver case, kept under a hash of everything that decides its content."""
 
 from __future__ import annotations
 
@@ -21,8 +21,8 @@ from nptcs.solvers.contract import SolverResult, missing_responses
 class CaseJob(BaseModel):
     """One case as it is handed to a solver's process.
 
-    It holds everything that decides the result, and besides that only the case's name and its time
-    limit. `key` is made from it.
+    It contains everything that decides the result, and apart from that only the case's name and
+    its time limit. `key` is made from it.
     """
 
     model_config = ConfigDict(extra="forbid", frozen=True)
@@ -110,10 +110,10 @@ class RecordStore:
         return self.folder / key[:2] / f"{key}.json"
 
     def read(self, job: CaseJob) -> CaseRecord | None:
-        """Return the record of a case that was solved before; None if there is no sound one.
+        """Return the record of a case that was solved before; None if there is no intact one.
 
-        A file that is unreadable, damaged or edited is a miss. The case's name is the job's: two
-        studies share a record.
+        A file that is unreadable, damaged or edited is a miss. The case's name is the job's,
+        because two studies may share a record.
         """
         try:
             record = read_model(self.path(job.key), CaseRecord)
@@ -135,12 +135,12 @@ def read_records(paths: Sequence[str]) -> list[CaseRecord]:
     Parameters
     ----------
     paths : sequence of str
-        All batches of a study by a solver are in one folder and follow each other by number.
+        All batches of a study by a solver are in one folder, in the order of their numbers.
 
     Returns
     -------
     list of CaseRecord
-        In the order of the designs, whatever the number of batches: batch k of n holds every n-th
+        In the order of the designs, whatever the number of batches: batch k of n has every n-th
         case from the k-th on.
 
     Raises
@@ -163,7 +163,7 @@ def _read_batch(path: str) -> list[CaseRecord]:
         return [CaseRecord.model_validate_json(line) for line in lines]
     except (BrokenSealError, ValidationError) as error:
         reason = " ".join(str(error).splitlines()[:3])
-        raise InputError(f"these case records are not sound: {reason}", REWRITE, path) from None
+        raise InputError(f"these case records cannot be used: {reason}", REWRITE, path) from None
 
 
 def write_records(path: str | Path, records: Sequence[CaseRecord]) -> None:
@@ -195,8 +195,8 @@ def _read_rows(name: str, path: str) -> list[dict[str, Any]]:
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:
         raise InputError(
             f"this table of a solver is not a CSV table: {str(error).strip()}",
-            "save it as CSV (UTF-8), a header and as many values in each row, or correct the path "
-            "in the solver's options",
+            "save it as CSV (UTF-8) with a header and as many values in every row, or correct the "
+            "path in the solver's options",
             file=path,
             column=name,
         ) from error

@@ -55,7 +55,7 @@ def run_cases(
     """Solve cases, or take their records from the store.
 
     A case that raises, hangs, crashes or kills its process becomes one record with a status and
-    a message; the others go on.
+    a message; the others continue.
 
     Parameters
     ----------
@@ -167,7 +167,7 @@ def _collect(case: _Running) -> CaseOutcome:
 
 
 def cause_of_death(exit_code: int | None) -> str:
-    """Describe how a process ended that sent no result."""
+    """Describe how a process that sent no result ended."""
     if exit_code is not None and exit_code < 0:
         return f"the solver's process was killed by signal {signal.Signals(-exit_code).name}"
     return f"the solver's process ended without a result (exit code {exit_code})"
@@ -179,7 +179,7 @@ def case_folder() -> Path:
 
 
 def stop(process: BaseProcess, folder: Path) -> None:
-    """End a process, politely first, and whatever it has left; remove its folder."""
+    """End a process, politely first, and whatever it left running; remove its folder."""
     process.join(0.1)
     if process.is_alive():
         process.terminate()

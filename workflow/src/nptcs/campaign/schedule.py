@@ -28,14 +28,14 @@ def batch_tokens(cores: int, options: Needs) -> int:
 
 
 def cases_side_by_side(cores: int, tokens: int, options: Needs) -> int:
-    """Return the cases that a batch may run at a time.
+    """Return how many cases a batch may run at a time.
 
     Parameters
     ----------
     cores : int
-        Cores that the batch was given; fewer than it asked for where ``-j`` is small.
+        Cores that the batch was given; fewer than it requested if ``-j`` is small.
     tokens : int
-        Licence tokens that it was given; Snakemake cuts what a job asks for to the limit of
+        Licence tokens that it was given; Snakemake reduces what a job requests to the limit of
         ``--resources licence_tokens=N``.
     options : Needs
 
@@ -53,7 +53,7 @@ def cases_side_by_side(cores: int, tokens: int, options: Needs) -> int:
     for name, needed in per_case.items():
         if given[name] < needed:
             raise InputError(
-                f"one case takes {needed} {name}, this run has {given[name]}", remedies[name]
+                f"one case takes {needed} {name}, but this run has {given[name]}", remedies[name]
             )
     by_tokens = tokens // per_case["licence tokens"] if per_case["licence tokens"] else cores
     return min(cores // per_case["cores"], by_tokens)

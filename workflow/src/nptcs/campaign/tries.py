@@ -1,7 +1,7 @@
-"""Which failed cases a plain run tries again: a number next to each batch file says so.
+"""Which failed cases the next run tries again: a number next to each batch file decides.
 
 Snakemake solves a batch again when its parameters change. One of them is the number in the file
-next to the batch: it grows when cases ended for a reason outside them, and by ``nptcs retry``.
+next to the batch: it grows when cases ended for a reason outside them, and with ``nptcs retry``.
 """
 
 from __future__ import annotations
@@ -43,6 +43,6 @@ def try_again(batch: str | Path) -> None:
 
 
 def note_ends(batch: str | Path, records: Sequence[CaseRecord]) -> None:
-    """Let the next run try the cases of a batch again that ended for a reason outside them."""
+    """Let the next run try again if cases of a batch ended for a reason outside them."""
     if any(map(ended_from_outside, records)):
         try_again(batch)

@@ -77,10 +77,10 @@ def run(job: CaseJob, channel: Connection, folder: str) -> None:
 
 
 def begin_in(folder: str) -> None:
-    """Let this process end in order on SIGTERM, and when the campaign that started it is gone.
+    """Let this process end cleanly on SIGTERM, and when the campaign that started it is gone.
 
-    Temporary files of a solver go to `folder`, and its commands carry the mark of it; the campaign
-    removes both when the process has ended.
+    A solver's temporary files go to `folder`, and its commands carry this folder's mark; the
+    campaign removes both when the process has ended.
     """
     tempfile.tempdir = os.environ["TMPDIR"] = os.environ[MARK] = folder
     signal.signal(signal.SIGTERM, leave_in_order)

@@ -1,4 +1,4 @@
-"""``nptcs archive``: pack a finished study, with all that is needed to run it again."""
+"""``nptcs archive``: pack a finished study, with everything needed to run it again."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ def run(arguments: argparse.Namespace) -> int:
     made_with = root / "results" / "configuration.yaml"
     if not made_with.is_file():
         raise InputError(
-            "there are no results to archive", "run snakemake to its end first", made_with
+            "there are no results to archive", "run snakemake to completion first", made_with
         )
     values = read_yaml(made_with)
     config = read_config(values if isinstance(values, dict) else {}, str(made_with))
@@ -61,7 +61,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def refuse_unfinished(root: Path) -> None:
-    """Ask Snakemake what a run would do now, and refuse anything but a last verdict.
+    """Ask Snakemake what a run would do now, and refuse if it is more than the verdict.
 
     Raises
     ------
@@ -88,8 +88,8 @@ def refuse_unfinished(root: Path) -> None:
     pending = set(re.findall(r"^(?:local)?rule (\w+):$", said, re.MULTILINE)) - {"all", "verdict"}
     if pending:
         raise InputError(
-            "the results are not those of the present inputs, configuration and code",
-            "run snakemake to its end, then archive",
+            "the results are not those of the current inputs, configuration and code",
+            "run snakemake to completion, then archive",
             root / "results",
             value=f"rules still to run: {', '.join(sorted(pending))}",
         )

@@ -22,7 +22,7 @@ def register(subparsers: Any) -> None:
     )
     parser.add_argument("study", help="name of the study")
     parser.add_argument("--solver", required=True, help="solver whose surface is used")
-    parser.add_argument("--surface", default="polynomial", help="its name; default: %(default)s")
+    parser.add_argument("--surface", default="polynomial", help="surface; default: %(default)s")
     parser.add_argument(
         "--cases", type=whole_number_type(1, 100), default=5, help="how many; default: %(default)s"
     )
@@ -30,7 +30,7 @@ def register(subparsers: Any) -> None:
         "--config",
         type=existing_file,
         default="config/config.yaml",
-        help="with the tyre, for --whole-plates; default: %(default)s",
+        help="configuration with the tyre, for --whole-plates; default: %(default)s",
     )
     parser.add_argument(
         "--models",
@@ -63,7 +63,7 @@ def run(arguments: argparse.Namespace) -> int:
     models = read_models(file)
     if arguments.solver not in models:
         raise InputError(
-            "the study has no surface of this solver",
+            "the study has no surface for this solver",
             f"name one of: {', '.join(models) or 'none was fitted'}",
             file,
             column="--solver",

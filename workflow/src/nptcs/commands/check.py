@@ -14,7 +14,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = add_command(
         subparsers,
         "check",
-        "find faults of configuration and specimen sheet, and print the plan of a run",
+        "find faults in configuration and specimen sheet, and print the plan of a run",
         "Reads configuration, specimen sheet and raw files, names every fault with its remedy, and "
         "prints how many cases each solver has to solve, how many are known, and about how long "
         "that takes. Nothing is run. Exit code 1: faults in the sheet; 2: faults in the studies.",

@@ -62,7 +62,7 @@ SHOWN = {
     "configuration": ("key", "a", "b", "result"),
     "software": ("software", "a", "b", "result"),
 }
-"""Columns that the terminal shows; the cases and the tables have lines of their own."""
+"""Columns that the terminal shows; cases and tables are printed differently."""
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -78,7 +78,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "nptcs compare march.zip april.zip",
         "nptcs compare march.zip . --page changes.html --workbook changes.xlsx",
     )
-    what = "project folder, folder of results, or archive of 'nptcs archive'"
+    what = "project folder, folder of results, or archive made by 'nptcs archive'"
     parser.add_argument("a", metavar="A", help=f"the first run: {what}")
     parser.add_argument("b", metavar="B", help="the second run, likewise")
     parser.add_argument(
@@ -133,7 +133,7 @@ def refuse_missing(given: str) -> None:
 
     if not Path(given).exists():
         raise InputError(
-            "this run does not exist", "name a folder or an archive of 'nptcs archive'", given
+            "this run does not exist", "name a folder or an archive made by 'nptcs archive'", given
         )
 
 
@@ -143,7 +143,7 @@ def open_run(given: Path, stack: ExitStack) -> FinishedRun:
     Raises
     ------
     InputError
-        For something else, an archive that was damaged or edited, and as
+        If it is neither, if an archive was damaged or edited, and as
         `nptcs.runs.finished.read_run`.
     """
     from nptcs.archive.verify import packed_faults, packed_software, unpack
@@ -165,7 +165,7 @@ def open_run(given: Path, stack: ExitStack) -> FinishedRun:
 
 
 def write_outputs(done: ComparedRuns, arguments: argparse.Namespace) -> None:
-    """Write the page and the workbook, where asked for."""
+    """Write the page and the workbook if they are requested."""
     import sys
 
     from nptcs.files import atomic_path, write_text
@@ -236,7 +236,7 @@ def _is_number(value: object) -> bool:
 
 
 def _cell(value: object) -> str:
-    """Write one value to five digits; nothing for no value."""
+    """Write one value to five digits; an empty text for a missing value."""
     if value is None or value != value:
         return ""
     text = f"{value:.5g}" if isinstance(value, float) else str(value)

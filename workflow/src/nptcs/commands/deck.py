@@ -24,7 +24,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "write the Abaqus or CalculiX deck of a case",
         "Write a complete, commented input deck of a case of a design table. Abaqus: "
         "the paper's whole tyre, loaded on a rigid plane. CalculiX: one axial period of a spoke "
-        "with meshed plies, pulled by 4 mm and then pressed by 20 mm. docs/methods/decks.md "
+        "with meshed plies, pulled by 4 mm and then compressed by 20 mm. docs/methods/decks.md "
         "describes both.",
         "nptcs deck results/4_design/plate.csv plate_032 -o spoke.inp --spoke-c10 1",
         "nptcs deck results/4_design/rubber.csv rubber_001 -o tyre.inp --solver abaqus "
@@ -69,7 +69,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         parser.add_argument(
             f"--{name}",
             type=factor_type(column),
-            help=f"{what}, where the table has no such column",
+            help=f"{what}, if the table has no such column",
         )
     parser.set_defaults(run=run)
 
@@ -162,7 +162,7 @@ def _values(arguments: argparse.Namespace) -> dict[str, float]:
     if len(found) != 1:
         raise InputError(
             f"{len(found)} rows have this case_id",
-            "choose a case_id that the table has once",
+            "choose a case_id that the table contains once",
             file=arguments.design,
             column="case_id",
             value=arguments.case,

@@ -35,8 +35,8 @@ GOALS = {
     "target": "response and half width that must hold, such as K=300±5@5000",
     "at-least": "bound that must hold, such as K=250@3000",
     "at-most": "bound that must hold, such as plate_largest_mises=120",
-    "minimise": "response that is to be small, such as plate_mass",
-    "maximise": "response that is to be large",
+    "minimise": "response to make as small as possible, such as plate_mass",
+    "maximise": "response to make as large as possible",
 }
 TABLES = {
     "cases": "cases.csv",
@@ -67,20 +67,20 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "--with-probability",
         type=number_type(Range(0, 1, open_low=True, open_high=True)),
         metavar="P",
-        help="with which all targets and bounds must hold together; default: 0.9",
+        help="probability with which all targets and bounds must hold together; default: 0.9",
     )
     parser.add_argument("--study", help="default: the only study whose cases vary the plates")
     parser.add_argument("--solver", help="default: the only one of the study that solves designs")
     parser.add_argument("--surface", help="default: that of `uncertainty`, or the best")
     parser.add_argument(
-        "--hold", action="append", default=[], metavar="FACTOR=VALUE", help="a factor's value"
+        "--hold", action="append", default=[], metavar="FACTOR=VALUE", help="fix a factor's value"
     )
     parser.add_argument(
         "--step",
         action="append",
         default=[],
         metavar="FACTOR=STEP",
-        help="step of the values that can be made",
+        help="step between the values that can be made",
     )
     parser.add_argument("--top", type=whole_number_type(1, 50), help="designs to list; default: 5")
     parser.add_argument("--confirm", action="store_true", help="solve the chosen design")
@@ -132,7 +132,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def decision_of(arguments: argparse.Namespace, config: Config) -> Decision:
-    """Return the decision of the configuration, or that of the options; options change the first.
+    """Return the decision of the configuration as changed by the options, or that of the options.
 
     Raises
     ------
@@ -209,7 +209,7 @@ def as_text(done: DecisionAnswer) -> str:
 
 
 def _surfaces_line(outcome: Outcome) -> str:
-    """Say through which surface each response is predicted."""
+    """Say by which surface each response is predicted."""
     by_surface: dict[str, list[str]] = {}
     for response, fitted in outcome.problem.fitted.items():
         by_surface.setdefault(fitted.surface, []).append(str(response))
@@ -300,7 +300,7 @@ def _append(path: Path, decision: Decision, designs: list[dict[str, float]]) -> 
 
 
 def _complete(values: dict[str, Any], config: Config) -> None:
-    """Fill in study and solver where there is only one."""
+    """Fill in study and solver if there is only one."""
     from nptcs.errors import InputError
 
     with_plates = [

@@ -38,9 +38,10 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         subparsers,
         "fe-calibrate",
         "fit the finite element spoke's section to published stiffness",
-        "Fit the dimensions of the spoke that the paper only draws to table 10 (C10 1 "
-        "and 5) and to at most five named cases of table 5. Prints what each round gives against "
-        "its targets, and ring and section as JSON for the options of fe_tyre and fe_spoke.",
+        "Fit the dimensions of the spoke, which the paper shows only in a drawing, to table 10 "
+        "(C10 1 and 5) and to at most five named cases of table 5. Prints the stiffnesses of each "
+        "round with their targets, then ring and section as JSON for the options of fe_tyre and "
+        "fe_spoke.",
         "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
         "raw_data/published/table5_plate_doe.csv",
     )
@@ -202,7 +203,7 @@ def _read(path: str, columns: tuple[str, ...]) -> pandas.DataFrame:
 
 
 def _report(problem: CalibrationProblem, state: CalibrationRound) -> None:
-    """Print one round: dimensions, then computed against wanted."""
+    """Print one round: dimensions, then computed stiffnesses with their targets."""
     import numpy as np
 
     from nptcs.fe.calibration import FREE
@@ -212,14 +213,14 @@ def _report(problem: CalibrationProblem, state: CalibrationRound) -> None:
     for target, (tension, compression) in zip(problem.spokes, state.spoke_stiffness, strict=True):
         print(
             f"  spoke C10 {target.values['spoke_c10_mpa']:g}: k_t {tension:.2f} "
-            f"(wanted {target.tension_n_per_mm:g}), k_c {compression:.2f} "
-            f"(wanted {target.compression_n_per_mm:g}) N/mm"
+            f"(target {target.tension_n_per_mm:g}), k_c {compression:.2f} "
+            f"(target {target.compression_n_per_mm:g}) N/mm"
         )
     for case, stiffness in zip(problem.tyres, state.tyre_stiffness, strict=True):
         wanted, values = case.stiffness_n_per_mm, case.values
         print(
             f"  tyre S {values['spacing_mm']:g} T {values['thickness_mm']:g} "
-            f"A {values['angle_deg']:g}: K {stiffness:.2f} (wanted {wanted:g}) N/mm, "
+            f"A {values['angle_deg']:g}: K {stiffness:.2f} (target {wanted:g}) N/mm, "
             f"{100.0 * (stiffness / wanted - 1.0):+.2f} %",
             flush=True,
         )

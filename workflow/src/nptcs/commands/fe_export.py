@@ -17,9 +17,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         subparsers,
         "fe-export",
         "write a finite element tyre and its spoke for ParaView",
-        "Solve one tyre with fe_tyre, and its spoke pressed by 20 mm and pulled by 4 mm. Writes "
-        "tyre.vtu, spoke_0000.vtu and so on, and spoke.pvd, whose time is the band's radial "
-        "displacement in mm, and design.json, which names design and materials. Needs the "
+        "Solve one tyre with fe_tyre, and its spoke compressed by 20 mm and pulled by 4 mm. Writes "
+        "tyre.vtu; spoke_0000.vtu and so on; spoke.pvd, whose time is the band's radial "
+        "displacement in mm; and design.json, which names design and materials. Needs the "
         "extra nptcs[paraview]. The defaults are the published fiducial design; the ply is "
         "that of your card.",
         "nptcs fe-export paraview --thickness 2.4 --angle 30",

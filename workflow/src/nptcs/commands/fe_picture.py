@@ -26,7 +26,7 @@ OPTIONS = {
     "shear_band_c10_mpa": "--band-c10",
     "load_n": "--load",
 }
-"""Options of a design, by the columns that they stand for."""
+"""Options of a design, by the columns that they set."""
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -36,8 +36,8 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "fe-picture",
         "draw a finite element tyre under load, or its spoke",
         "Solve one tyre with fe_tyre, and draw it with all its spokes; or its single spoke, pulled "
-        "by 4 mm and pressed by 20 mm, with the stress in rubber and fibres. The defaults are the "
-        "published fiducial design; the ply is that of your card. A tyre takes about a minute.",
+        "by 4 mm and compressed by 20 mm, with the stress in rubber and fibres. The defaults are "
+        "the published fiducial design; the ply is that of your card. A tyre takes about a minute.",
         "nptcs fe-picture tyre.png --thickness 2.4 --angle 30",
         "nptcs fe-picture spoke.svg --spoke --spoke-c10 rubber_75A",
     )
@@ -100,7 +100,7 @@ class SolvedTyre:
 
 
 def materials_of(arguments: argparse.Namespace) -> ChosenMaterials:
-    """Read the card, put in the C10 of rubbers that are named, and say which card it is."""
+    """Read the card, fill in the C10 of rubbers given by name, and say which card it is."""
     from nptcs.tables.laboratory.card_choice import choose_materials
 
     materials = choose_materials(arguments.card, arguments.ply)
@@ -152,7 +152,7 @@ def design_words(arguments: argparse.Namespace) -> str:
 
 @contextmanager
 def solvable() -> Iterator[None]:
-    """Report in one line that a spoke or a tyre found no equilibrium, and how far it got.
+    """Report in one line that a spoke or a tyre has no equilibrium, and how far it got.
 
     Raises
     ------

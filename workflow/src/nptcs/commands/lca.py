@@ -16,7 +16,7 @@ if TYPE_CHECKING:
     from nptcs.config.solvers.tyre import TyreGeometry
 
 SHOWN = ("displacement_mm", "stiffness_n_per_mm", "theta_c_deg", "mean_pressure_mpa")
-"""Results that are printed; the file has all."""
+"""Results that are printed; the file has all of them."""
 
 DIGITS = 5
 MOST_ROWS, MOST_GIVEN = 50, 6
@@ -143,7 +143,7 @@ def as_text(result: pandas.DataFrame, given: Sequence[str]) -> str:
 
 
 def _text(cell: object) -> str:
-    """Write a cell of a column that is not all numbers; an empty one is not a number."""
+    """Write a cell of a column that is not all numbers; an empty cell, which is NaN, as no text."""
     return "" if isinstance(cell, float) and cell != cell else str(cell)
 
 

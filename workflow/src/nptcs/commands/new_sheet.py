@@ -15,9 +15,9 @@ def register(subparsers: Any) -> None:
         subparsers,
         "new-sheet",
         "propose a specimen sheet for a folder of exports",
-        "Writes specimens.csv into a folder of raw files, one row per specimen, with what file "
-        "names and headers say; says which cells are left to fill in. --fill fills the cells of "
-        "a whole series at once.",
+        "Writes specimens.csv into a folder of raw files, one row per specimen, with what can be "
+        "read from file names and headers; prints which cells are left to fill in. --fill fills "
+        "the cells of a whole series at once.",
         "nptcs new-sheet raw_data/mine",
         "nptcs new-sheet raw_data/mine --fill 'C0: width_mm=15 thickness_mm=1.8'",
     )
@@ -28,8 +28,8 @@ def register(subparsers: Any) -> None:
         action="append",
         default=[],
         metavar="'SERIES: COLUMN=VALUE …'",
-        help="fill all cells of a series that are empty or proposed by words; also in a sheet that "
-        "exists already",
+        help="fill all cells of a series that are empty or only proposed from words in file names; "
+        "also in a sheet that exists already",
     )
     parser.set_defaults(run=run)
 

@@ -29,7 +29,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Mark the batches that hold failed cases, and print how many such cases there are."""
+    """Mark the batches with failed cases, and print how many such cases there are."""
     from nptcs.campaign.cases import read_cases
     from nptcs.campaign.tries import try_again
     from nptcs.errors import InputError

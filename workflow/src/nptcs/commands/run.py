@@ -10,7 +10,7 @@ from pathlib import Path
 from nptcs.arguments import add_command, add_project, existing_file, whole_number_type
 
 CONFIG = "config/config.yaml"
-"""The configuration that the Snakefile names itself; further files go on top of it."""
+"""The configuration that the Snakefile itself names; further files override it."""
 
 
 def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) -> None:
@@ -22,7 +22,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         "Runs what is missing or out of date, and nothing else; after any stop the same command "
         "continues. It is 'snakemake -jN' with the settings of this project: whatever Snakemake "
         "can do, 'snakemake' in this folder does too. The plan is printed first, then one line "
-        "that shows how far the run is, each failure, and where report and workbook are.",
+        "that shows how far the run has got, each failure, and where report and workbook are.",
         "nptcs run",
         "nptcs run --cores 4 --configfile config/joint.yaml",
         "nptcs run --dry-run",
@@ -48,7 +48,7 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
         nargs="+",
         default=[],
         metavar="FILE",
-        help=f"configuration files on top of {CONFIG}, the later on top of the earlier",
+        help=f"configuration files on top of {CONFIG}; later files override earlier ones",
     )
     parser.add_argument(
         "-y",
@@ -114,7 +114,7 @@ def snakemake_command(arguments: argparse.Namespace) -> list[str]:
 
 
 def _largest_study(files: list[str]) -> int | None:
-    """Return the number of cases of the largest study, if it is more than a run solves unasked."""
+    """Return the number of cases of the largest study, if it is above ``campaign.most_cases``."""
     from nptcs.config.files import read_config_files
 
     config = read_config_files([CONFIG, *files])

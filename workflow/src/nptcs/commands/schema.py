@@ -24,9 +24,9 @@ def register(subparsers: Commands) -> None:
         subparsers,
         "schema",
         "rewrite the configuration schema and the reference pages in docs/",
-        "Writes the JSON schema with which editors complete and check the configuration, and the "
-        "reference pages of configuration and result tables and commands, from the code. For "
-        "those who change these models.",
+        "Writes the JSON schema that editors use to complete and check the configuration, and the "
+        "reference pages of configuration, result tables and commands, from the code. For "
+        "developers who change these.",
         "nptcs schema",
     )
     parser.add_argument(
@@ -39,7 +39,7 @@ def register(subparsers: Commands) -> None:
 
 
 def run(subparsers: Commands, arguments: argparse.Namespace) -> int:
-    """Write all four files; `subparsers` holds the commands that there are."""
+    """Write all four files; `subparsers` contains the commands."""
     from nptcs.files import write_text
 
     root = Path(arguments.root)
@@ -52,7 +52,7 @@ def run(subparsers: Commands, arguments: argparse.Namespace) -> int:
 
 
 def schema_text() -> str:
-    """Return the JSON schema of the configuration; editors complete and check with it."""
+    """Return the JSON schema of the configuration, for completion and checks in editors."""
     from nptcs.config.root import Config
 
     schema = {
@@ -70,7 +70,7 @@ def reference_text() -> str:
     lines = [
         "# Configuration reference",
         "",
-        "Written by `nptcs schema` from the models in `workflow/src/nptcs/config` and of the "
+        "Written by `nptcs schema` from the models in `workflow/src/nptcs/config` and in the "
         "solvers; do not edit.",
         "",
     ]
@@ -88,7 +88,7 @@ KINDS = {
     "bool": "True or False",
     "boolean": "True or False",
 }
-"""What a column holds, in words, by pandera's name of its type."""
+"""What a column contains, in words, by pandera's name of its type."""
 
 
 def tables_text() -> str:
@@ -190,7 +190,7 @@ def _argument(action: argparse.Action) -> str:
 
 
 def _section(title: str, schema: dict[str, Any]) -> list[str]:
-    """Describe a model and those that it holds."""
+    """Describe a model and those that it contains."""
     lines: list[str] = []
     for name, part in [("", schema), *schema.get("$defs", {}).items()]:
         if not part.get("properties"):
@@ -208,10 +208,10 @@ def _section(title: str, schema: dict[str, Any]) -> list[str]:
 
 
 def _default(value: dict[str, Any]) -> str:
-    """Write a default, or point to the section that holds it."""
+    """Write a default, or point to the section that has it."""
     default = value.get("default")
     if isinstance(default, dict) and default:
-        return "see there"
+        return "see its section"
     return f"`{json.dumps(default, ensure_ascii=False)}`".replace("|", "\\|")
 
 

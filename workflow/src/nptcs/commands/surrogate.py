@@ -42,20 +42,20 @@ def register(subparsers: Any) -> None:
         "that were left out, and names the spoke whose table would help most.",
         "nptcs surrogate fit joint",
     )
-    fit.add_argument("study", help="study that the solver ring runs, e.g. joint")
+    fit.add_argument("study", help="study of the solver ring, e.g. joint")
     fit.add_argument(
         "--config",
         nargs="+",
         type=existing_file,
         default=["config/config.yaml", "config/joint.yaml"],
         metavar="FILE",
-        help="configuration files, the later on top; default: %(default)s",
+        help="configuration files; later files override earlier ones; default: %(default)s",
     )
     fit.add_argument(
         "--results",
         type=existing_folder,
         default=Path("results"),
-        help="of the run; default: %(default)s",
+        help="folder of the run's results; default: %(default)s",
     )
     fit.add_argument(
         "-o", "--output", type=output_file(".json"), default=FILE, help="default: %(default)s"
@@ -65,9 +65,9 @@ def register(subparsers: Any) -> None:
         actions,
         "solve",
         "solve a table of designs on predicted spokes",
-        "A row has plate_count, thickness_mm, angle_deg, spoke_c10_mpa, "
-        "shear_band_c10_mpa and load_n; tread_c10_mpa, friction and dimensions of the tyre may "
-        "follow. A row outside the box of the spokes is refused in its status and message.",
+        "A row has plate_count, thickness_mm, angle_deg, spoke_c10_mpa, shear_band_c10_mpa and "
+        "load_n; tread_c10_mpa, friction and dimensions of the tyre are optional. A row outside "
+        "the box of the fitted spokes is not solved; its status and message say so.",
         "nptcs surrogate solve designs.csv -o solved.csv -j 2",
     )
     solve.add_argument(
@@ -79,7 +79,7 @@ def register(subparsers: Any) -> None:
         type=output_file(".csv"),
         metavar="OUT.csv",
         required=True,
-        help="with the results",
+        help="file to write: the same rows with the results",
     )
     solve.add_argument("--surrogate", default=FILE, help="default: %(default)s")
     solve.add_argument(
@@ -109,7 +109,7 @@ def run_fit(arguments: argparse.Namespace) -> int:
     print(f"{len(surrogate.tables)} spokes, s from {surrogate.tables[0].low[0]:.3g} mm")
     for spoke in surrogate.unfitted:
         named = dict(zip(DESIGN, spoke.tolist(), strict=True))
-        print(f"not fitted, it loses its stability early: {_words(named)}")
+        print(f"not fitted, because it loses its stability early: {_words(named)}")
     print("displacement on spokes left out, a tenth at a time, 1500 to 5000 N:")
     print(f"  all      rms {found.rms():.3f} %, largest {found.largest():.3f} %")
     if inner.any():
@@ -124,7 +124,7 @@ def run_fit(arguments: argparse.Namespace) -> int:
         f"its prediction, {'on' if found.edge[worst] else 'not on'} a face of the others' box"
     )
     design, gain = surrogate.next_design()
-    print(f"the next spoke that would help most: {_words(design)} ({100 * gain:.0f} % of variance)")
+    print(f"spoke that would help most next: {_words(design)} ({100 * gain:.0f} % of variance)")
     print(f"written: {arguments.output}")
     return 0
 

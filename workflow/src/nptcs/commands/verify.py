@@ -18,9 +18,9 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
     parser = add_command(
         subparsers,
         "verify",
-        "check an archive of 'nptcs archive', and run it again on request",
+        "check an archive made by 'nptcs archive', and run it again on request",
         "Every file must be as it was packed, none missing and none added; the "
-        "configuration, the card and all tables must be sound. The checksums find damage and "
+        "configuration, the card and all tables must be valid. The checksums find damage and "
         "careless edits; against forgery compare the SHA-256 that 'nptcs archive' printed.",
         "nptcs verify study.zip",
         "nptcs verify study.zip --rerun study_again",
@@ -53,7 +53,8 @@ def run(arguments: argparse.Namespace) -> int:
 
     given = Path(arguments.archive)
     if not given.exists():
-        raise InputError("this archive does not exist", "name a file of 'nptcs archive'", given)
+        remedy = "name a file made by 'nptcs archive'"
+        raise InputError("this archive does not exist", remedy, given)
     if arguments.rerun and (given.is_dir() or Path(arguments.rerun).exists()):
         remedy = "give the zip file, and a folder that does not exist yet"
         raise InputError("a second run needs a new folder", remedy, arguments.rerun)
@@ -68,7 +69,7 @@ def run(arguments: argparse.Namespace) -> int:
             print(f"nptcs: {fault}", file=sys.stderr)
         if faults:
             return 1
-        print(f"{given}: {count_files(folder)} files, all as packed; tables and card are sound")
+        print(f"{given}: {count_files(folder)} files, all as packed; tables and card are valid")
         if (identity := run_identity(folder)) is not None:
             print(f"run {identity.identity}, {identity.made_text}")
     if arguments.rerun:

@@ -1,7 +1,8 @@
 """The conditions under which the paper made its tables; other results are not compared with them.
 
-A coefficient that holds at 5000 N says nothing of a study at 4000 N, nor does one that was fitted
-over another range. Where a study differs the published values are left out and the reason is said.
+A coefficient that holds at 5000 N says nothing about a study at 4000 N, nor does one that was
+fitted over another range. Where a study differs, the published values are left out and the reason
+is given.
 """
 
 from __future__ import annotations
@@ -22,11 +23,11 @@ PAPER_RANGES: Mapping[str, tuple[float, float]] = {
 }
 """Lowest and highest level of tables 5 and 7."""
 PAPER_PLATES: Mapping[str, float] = {"spacing_mm": 15.0, "thickness_mm": 1.8, "angle_deg": 45.0}
-"""Fiducial plates, which tables 7, 8, 10 and 11 hold fixed."""
+"""Fiducial plates, which are the same throughout tables 7, 8, 10 and 11."""
 
 
 def load_fault(study: Study) -> str:
-    """Say how the load differs from that of the published tables; empty where it does not."""
+    """Say how the load differs from that of the published tables; empty if it does not."""
     options = study.solver_options.get(PUBLISHED, {})
     load_n = float(options.get("archive_load_n", PAPER_LOAD_N))
     if math.isclose(study.load_n, load_n):
@@ -37,7 +38,7 @@ def load_fault(study: Study) -> str:
 
 
 def range_faults(study: Study) -> list[str]:
-    """Say which factors of a study span other levels than in the published tables."""
+    """Say which factors of a study have another range than in the published tables."""
     faults = []
     for factor in study.factors:
         if factor.name not in PAPER_RANGES:

@@ -1,4 +1,4 @@
-"""Exponents by which the stiffness follows each modulus, computed and published."""
+"""Exponents of each modulus in the stiffness, computed and published."""
 
 from __future__ import annotations
 
@@ -22,8 +22,8 @@ MODULUS = "_mpa"
 def stiffness_exponents(table: pd.DataFrame, studies: Mapping[str, Comparison]) -> pd.DataFrame:
     """Find d ln K / d ln C10 of `StiffnessAgainstPublished`, as `StiffnessExponents`.
 
-    Over all levels of a modulus it is the slope of the line of least squares through the
-    logarithms. Factors that are not moduli have no exponent.
+    Over all levels of a modulus it is the slope of the least-squares line through the logarithms.
+    Factors that are not moduli have no exponent.
 
     Parameters
     ----------
@@ -44,7 +44,7 @@ def stiffness_exponents(table: pd.DataFrame, studies: Mapping[str, Comparison]) 
 
 
 def _groups(cases: pd.DataFrame, others: list[str]) -> Iterator[tuple[str, pd.DataFrame]]:
-    """Give the cases at each combination of the other factors, with its words."""
+    """Yield the cases at each combination of the other factors, with its description."""
     if not others:
         yield "", cases
         return

@@ -32,10 +32,10 @@ def study_tables(study: Study, done: StudySurfaces, published: pd.DataFrame) -> 
     ----------
     study : Study
     done : StudySurfaces
-        What `nptcs.surface.study.fit_study` has fitted.
+        Result of `nptcs.surface.study.fit_study`.
     published : DataFrame
         `nptcs.tables.published.inputs.PublishedCoefficients`; may be empty. They are left out
-        where the study is not under their conditions (`nptcs.compare.conditions`).
+        if the study is not under their conditions (`nptcs.compare.conditions`).
 
     Returns
     -------

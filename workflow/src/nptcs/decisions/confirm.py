@@ -1,4 +1,4 @@
-"""The chosen design, solved: inside or outside the prediction, and what follows from it."""
+"""Solve the chosen design: inside or outside its prediction, and what follows from it."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from nptcs.uncertainty.source import Source
 from nptcs.uncertainty.study_results import StudyResults
 
 ROUNDING = 1e-12
-"""Part of a value below which a difference of two results of the same formula is rounding."""
+"""Share of a value below which a difference between two results of one formula is rounding."""
 
 
 @dataclass(frozen=True)
@@ -48,7 +48,7 @@ class Compared:
 
     @property
     def difference(self) -> float:
-        """Predicted less solved; 0 where it is of the size of rounding, as for a mass."""
+        """Predicted minus solved; 0 where the difference is only rounding, as for a mass."""
         found = self.predicted - self.solved
         return 0.0 if abs(found) < ROUNDING * abs(self.solved) else found
 
@@ -74,7 +74,7 @@ class ConfirmationRound:
 
     @property
     def result(self) -> str:
-        """Say how the design came out: the worst of its responses."""
+        """Return the worst result of its responses."""
         found = {one.result for one in self.compared.values()}
         return next(word for word in ("not solved", "outside", "inside") if word in found)
 
@@ -103,7 +103,7 @@ class SolverRun:
     strengths: PlyStrengths
 
     def solve(self, source: Source, designs: pd.DataFrame) -> tuple[list[CaseRecord], StudyResults]:
-        """Solve designs with a ``case_id`` and the study's factors; give records and results."""
+        """Solve designs with a ``case_id`` and the study's factors; return records and results."""
         results = source.results
         solved = results.solved
         fixed = {name: float(solved[name].iloc[0]) for name in results.study.fixed}
@@ -127,7 +127,7 @@ def confirmed(
     Parameters
     ----------
     decision : Decision
-        With the largest number of rounds.
+        Its goals, and the largest number of rounds.
     source : Source
     run : SolverRun
 
@@ -136,9 +136,9 @@ def confirmed(
     outcome : Outcome
         The last choice.
     rounds : list of ConfirmationRound
-        One per solved design; none where no design was acceptable.
+        One per solved design; empty where no design was acceptable.
     source : Source
-        With the cases that were added.
+        The source with the cases that were added.
     """
     rounds: list[ConfirmationRound] = []
     outcome = decide(decision, source)
@@ -178,7 +178,7 @@ def compare(outcome: Outcome, results: StudyResults) -> dict[ResponseName, Compa
 
 
 def say(record: CaseRecord, reused: bool, done: int, total: int) -> None:
-    """Write a line per solved design to the screen or the log."""
+    """Write one line per solved design to the screen or the log."""
     how = "known" if reused else f"{record.wall_time_s:.1f} s"
     line = f"{record.solver} {done}/{total} {record.case_id} {record.result.status.value} ({how})"
     print(line, file=sys.stderr, flush=True)

@@ -15,9 +15,9 @@ def conflict_words(problem: DesignProblem, found: SearchResult, probability: flo
     ----------
     problem : DesignProblem
     found : SearchResult
-        Without an acceptable design.
+        Of a search that found no acceptable design.
     probability : float
-        That was asked for.
+        The required probability.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""One decision from its goals to the designs, with what is known of each."""
+"""One decision from its goals to the designs, with what is known about each."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ from nptcs.uncertainty.source import Source
 from nptcs.uncertainty.study_results import StudyResults
 
 SAMPLING_ERROR = 0.01
-"""Difference up to which a sampled probability counts as the one of the search."""
+"""Difference up to which a sampled probability counts as equal to that of the search."""
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """A decision that was taken, or why none could be.
+    """A decision that was made, or why none could be.
 
     Parameters
     ----------
@@ -38,9 +38,9 @@ class Outcome:
     sampled : ndarray
         Probability of each design from these samples.
     why : str
-        Why there is no choice, or what must be known of it.
+        Why there is no choice, or what a reader must know about it.
     confidence : float
-        Of the intervals.
+        Confidence of the intervals.
     """
 
     decision: Decision
@@ -55,7 +55,7 @@ class Outcome:
 
     @property
     def choice(self) -> int:
-        """Place of the chosen design: the best one whose sampled probability holds."""
+        """Index of the chosen design: the best one whose sampled probability is high enough."""
         holds = np.flatnonzero(self.sampled >= self.decision.with_probability - SAMPLING_ERROR)
         return int(holds[0]) if self.found.feasible and len(holds) else 0
 

@@ -15,25 +15,25 @@ from nptcs.uncertainty.inputs import UncertainInput
 from nptcs.uncertainty.propagate import assessed, distribution, moments
 
 SMALLEST_SD = 1e-9
-"""Share of a response below which its standard deviation counts as none."""
+"""Share of a response below which its standard deviation counts as zero."""
 
 NEGLIGIBLE = 2e-3
-"""Share of the variance below which the search leaves an input out; samples have all."""
+"""Share of the variance below which the search leaves an input out; the samples use all inputs."""
 
 LEAST_DESIRABILITY = 1e-6
-"""Desirability of the worst candidate: its logarithm must exist."""
+"""Desirability of the worst candidate; above zero, because its logarithm must exist."""
 
 
 @dataclass(frozen=True)
 class Evaluation:
-    """What the models say of m designs.
+    """Predictions of the models at m designs.
 
     Parameters
     ----------
     x : ndarray of shape (m, n)
     mean, sd : mapping of ResponseName to ndarray of shape (m,)
     probabilities : ndarray of shape (m, goals)
-        Of each target and bound, in the order of the goals that must hold.
+        Probability of each target and bound, in the order of the goals that must hold.
     """
 
     x: Array
@@ -136,9 +136,9 @@ def at_least_all(probabilities: Array) -> Array:
 
 
 def nearness(goals: Sequence[Goal], found: Evaluation) -> Array:
-    """Order designs of which none is acceptable, the nearest highest, shape (m,).
+    """Rank designs when none is acceptable: the nearest has the largest value, shape (m,).
 
-    The probability less the largest relative distance of a mean response outside its limits.
+    The probability minus the largest relative distance of a mean response outside its limits.
     """
     distances = [np.zeros(len(found.x))]
     for goal in goals:
@@ -164,7 +164,7 @@ class Desirability:
     goals : tuple of Goal
         Those with a weight.
     best, worst : mapping of str to float
-        By the text of each objective.
+        Best and worst value of each objective, by its text.
     """
 
     goals: tuple[Goal, ...]

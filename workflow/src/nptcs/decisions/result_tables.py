@@ -24,7 +24,7 @@ Tables = dict[str, tuple[pd.DataFrame, type[pa.DataFrameModel]]]
 
 
 def result_tables(run: SolvedStudies, store: Path, cores: int) -> Tables:
-    """Answer the decisions of a run and write everything that is known of them.
+    """Answer the decisions of a run and return everything that is known about them as tables.
 
     Parameters
     ----------

@@ -159,7 +159,7 @@ def source_of(
     )
     if results.solved.empty:
         raise InputError(
-            f"no case of study {study.name} by {solver} is solved",
+            f"no case of study {study.name} has been solved by {solver}",
             column="decisions.study",
             value=study.name,
             remedy="see cases.csv for what failed",
@@ -231,7 +231,7 @@ def answer_all(run: SolvedStudies, store: Path, cores: int) -> Answered:
     """Answer all decisions of the configuration and gather the designs to be assessed.
 
     A decision that cannot be answered, an infeasible one, and one whose design was not confirmed
-    are problems; the others go on.
+    are listed as problems; the other decisions are still answered.
     """
     answers, designs, problems = [], [], []
     for study in run.config.studies:
@@ -256,7 +256,7 @@ def answer_all(run: SolvedStudies, store: Path, cores: int) -> Answered:
 
 
 def _faults(one: DecisionAnswer) -> Iterator[tuple[str, str]]:
-    """Give status and message of what a reader must see."""
+    """Yield status and message of what a reader must see."""
     if one.outcome is not None and not one.outcome.found.feasible:
         yield "infeasible", one.outcome.why
     if one.rounds and one.rounds[-1].result != "inside":
@@ -273,7 +273,7 @@ def _references(
 ) -> tuple[list[NamedDesign], list[tuple[str, str, str, str, str]]]:
     """Gather a study's reference design by each solver that has the surface, and the refusals.
 
-    Responses that a solver does not give are left out; the stiffness it must give.
+    A solver must give the stiffness; other responses that it does not give are left out.
     """
     found, refused = [], []
     for solver in study.solvers:

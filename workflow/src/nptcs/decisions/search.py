@@ -14,22 +14,24 @@ from nptcs.decisions.space import DesignSpace
 from nptcs.doe.whole_plates import SPACING
 
 STARTS = 1
-"""Candidates of a cell from which the search goes on."""
+"""Candidates per cell from which the search continues."""
 
 NEAREST = 2
-"""Candidates from which the nearest design is looked for where none is acceptable."""
+"""Candidates from which the nearest design is searched for where none is acceptable."""
 
 SCREENED = 8
-"""Candidates of a cell at which the inputs are screened."""
+"""Candidates per cell at which the inputs are screened."""
 
 FURTHER = 2
-"""Cells beyond those that are listed, and cells without an acceptable candidate."""
+"""Cells searched beyond the number of designs to return, and cells searched although they have no
+acceptable candidate."""
 
 APART = 0.1
-"""Share of a factor's range by which two designs with equal plates must differ to be two."""
+"""Share of a factor's range by which two designs with equally many plates must differ to be listed
+as two."""
 
 STEP = 1e-4
-"""Step of the search's differences, in ranges of the factors."""
+"""Step of the search's finite differences, as a share of a factor's range."""
 
 
 @dataclass(frozen=True)
@@ -39,8 +41,8 @@ class SearchResult:
     Parameters
     ----------
     designs : Evaluation
-        Designs that meet all targets and bounds with the probability, the best first, all
-        different; without any, the nearest one alone.
+        Designs that meet all targets and bounds with the required probability, the best first, all
+        different; if there are none, the nearest one alone.
     desirability : ndarray
         D of these designs.
     feasible : bool
@@ -48,11 +50,11 @@ class SearchResult:
     candidates : Evaluation
         All candidates, acceptable or not.
     acceptable : ndarray of bool
-        Which candidates are.
+        Which candidates are acceptable.
     front : Evaluation
-        Acceptable candidates and designs that no other one betters in every objective.
+        Acceptable candidates and designs that no other one dominates (`pareto`).
     note : str
-        What a reader must know of the designs; empty if nothing.
+        What a reader must know about the designs; empty if nothing.
     """
 
     designs: Evaluation
@@ -75,18 +77,18 @@ def search(
     """Find the designs that meet the goals best.
 
     Candidates are spread over every cell of the space (each whole number of plates). From the best
-    of each cell, sequential quadratic programming (SLSQP) improves the desirability while all
-    targets and bounds hold with the probability. The result is moved to values that can be made,
-    of those around it the best that still holds.
+    of each promising cell, sequential quadratic programming (SLSQP) improves the desirability while
+    all targets and bounds hold with the required probability. The result is moved to values that
+    can be made: to the best of those around it that are still acceptable.
 
     Parameters
     ----------
     problem : DesignProblem
     space : DesignSpace
     probability : float
-        With which all targets and bounds must hold together.
+        Probability with which all targets and bounds must hold together.
     top : int
-        Designs to return.
+        Largest number of designs to return.
 
     Returns
     -------
@@ -132,7 +134,7 @@ def nearest_design(
 ) -> Evaluation:
     """Return the design that can be made and comes nearest to the goals.
 
-    By `nearness`, improved from the best candidates (Nelder–Mead).
+    It has the largest `nearness`, searched from the best candidates (Nelder–Mead).
     """
     order = np.argsort(-nearness(problem.must_hold, candidates), kind="stable")[:NEAREST]
     free = space.free
@@ -162,7 +164,11 @@ def rank(problem: DesignProblem, scale: Desirability, found: Evaluation) -> Arra
 
 
 def pareto(problem: DesignProblem, found: Evaluation) -> Mask:
-    """Tell which designs no other one betters in all objectives; all of one are its best."""
+    """Tell which designs are on the Pareto front.
+
+    No other design is at least as good in all objectives and better in one. With one objective
+    these are the designs with its best value; without objectives there are none.
+    """
     if not problem.objectives:
         return np.zeros(len(found.x), dtype=bool)
     cost = np.column_stack(
@@ -206,9 +212,9 @@ def _promising(
     probability: float,
     top: int,
 ) -> list[Evaluation]:
-    """Choose the cells in which the search goes on.
+    """Choose the cells in which the search continues.
 
-    Those with the best acceptable candidates, and those without any that come nearest.
+    Those with the best acceptable candidates, and of those without any the most probable ones.
     """
     acceptable = [part.probability >= probability for part in parts]
     merit = [
@@ -233,7 +239,7 @@ def _best_of_cell(
 ) -> Evaluation | None:
     """Return the best design of a cell that can be made; None if none is acceptable."""
     value = np.where(part.probability >= probability, rank(problem, scale, part), -np.inf)
-    # a cell without an acceptable candidate may still have one between them
+    # a cell without an acceptable candidate may have an acceptable design between its candidates
     order = np.lexsort((-part.probability, -value))[:STARTS]
     starts = part.x[order]
     improved = [_improved(problem, space, start, scale, probability) for start in starts]
@@ -253,7 +259,7 @@ def _improved(
     scale: Desirability,
     probability: float,
 ) -> Array:
-    """Improve a design within its cell; what comes out may be no better."""
+    """Improve a design within its cell; the result may be no better."""
     free = space.free
     if not free:
         return start

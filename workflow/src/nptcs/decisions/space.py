@@ -1,4 +1,4 @@
-"""The designs among which one is chosen: a box, whole numbers of plates, steps of manufacture."""
+"""The designs to choose from: a box, whole numbers of plates, steps of manufacture."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ ROUNDING = 1e-9
 
 @dataclass(frozen=True)
 class DesignSpace:
-    """Where designs are looked for.
+    """Where designs are searched for.
 
     Parameters
     ----------
@@ -38,8 +38,8 @@ class DesignSpace:
     steps : mapping of str to float
         Step of the values of each free factor.
     plates : tuple of int
-        Numbers of plates of a leg that are possible; empty where the spacing is not a factor or
-        the solver does not use whole numbers.
+        Possible numbers of plates of a leg; empty where the spacing is not a factor or the solver
+        does not use whole numbers.
     tread_width_mm : float
     """
 

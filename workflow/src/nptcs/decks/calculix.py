@@ -27,7 +27,7 @@ BRICK = np.array(
 )
 
 
-# the errors with which CalculiX 2.20 ends when Newton's method gets no further
+# the errors that CalculiX 2.20 prints when Newton's method does not converge
 NO_CONVERGENCE = (
     "increment size smaller than minimum",
     "too many cutbacks",
@@ -38,7 +38,7 @@ NO_CONVERGENCE = (
 
 
 def true_thickness(design: SpokeDesign) -> SpokeDesign:
-    """Return the design with a plate layer as thick as the plate, as meshed plies need it."""
+    """Return the design with a plate layer as thick as the plate, which meshed plies need."""
     section = design.geometry.model_dump() | {"plate_layer_mm": design.thickness_mm}
     return replace(design, geometry=type(design.geometry)(**section))
 
@@ -164,7 +164,7 @@ def deck(design: SpokeDesign, mesh: BrickMesh, element: str, u_r_mm: Sequence[fl
 
 
 def _plate_coupling(design: SpokeDesign, mesh: BrickMesh) -> list[str]:
-    """Equations that hold the plates' mid-surface straight, where the design couples it so."""
+    """Equations that hold the plates' mid-surface straight if the design couples it that way."""
     match design.plate_coupling:
         case "conforming":
             return []
@@ -228,8 +228,7 @@ def complaints(output: str) -> str:
     """Return the warnings and errors about the model in what CalculiX printed, or an empty text.
 
     CalculiX ignores keywords that it does not know with a warning and exit code 0, so a warning
-    means that another model was solved. A failure to converge is not about
-    the model.
+    means that a different model was solved. A failure to converge is not about the model.
     """
     lines = [line.strip() for line in output.splitlines()]
     starts = [

@@ -1,7 +1,7 @@
-"""Calibration of the spoke's section, which the paper only draws.
+"""Calibration of the spoke's section, which the paper shows only in a drawing.
 
 Targets: the spoke's stiffness of table 10 and a few named cases of table 5, on the campaign's mesh
-and table, by damped Gauss–Newton steps with finite differences of spokes and tyres.
+and table, by damped Gauss–Newton steps whose slopes are finite differences of spokes and tyres.
 """
 
 from __future__ import annotations
@@ -25,7 +25,7 @@ from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
 from nptcs.fe.spoke.pull import spoke_stiffness
 from nptcs.fe.tyre.equilibrium import TyreError
 
-# dimensions that are fitted and how far they may go (mm, degrees): plates end inside the block
+# dimensions that are fitted and their limits (mm, degrees), within which plates end in the block
 LIMITS = {
     "leg_angle_deg": (15.0, 35.0),
     "leg_thickness_mm": (2.5, 6.0),
@@ -38,7 +38,7 @@ LIMITS = {
     "plate_mid_gap_mm": (1.5, 5.5),
 }
 FREE = tuple(LIMITS)
-# where the calibration of the defaults began, with both rings
+# where the calibration of the default section began, with either ring
 START = SpokeGeometry(
     leg_angle_deg=29.5,
     leg_thickness_mm=2.5,
@@ -50,7 +50,7 @@ START = SpokeGeometry(
     plate_foot_gap_mm=5.0,
     plate_mid_gap_mm=5.5,
 )
-# step of the finite differences and largest step of a round, in the logarithms
+# step of the finite differences; it and the largest step of a round are differences of logarithms
 STEP = 0.03
 # K_tyre ∝ k_t^0.20 k_c^0.34 of its spoke: least squares over six dimensions of the fiducial design,
 # each 3 % larger; over the published tables the exponents' sum is 0.53
@@ -89,12 +89,12 @@ class CalibrationProblem:
     spoke_cache: Path | None = None
     prior: float = 0.03
     damping: float = 0.05
-    # K_tyre ∝ k_spoke^0.53 over the published tables: a spoke's misfit counts half of a tyre's
+    # K_tyre ∝ k_spoke^0.53 over the published tables: a spoke's misfit counts half as much
     spoke_weight: float = 1.0
     tyre_weight: float = 2.0
 
     def with_section(self, free: Array) -> FeModel:
-        """Return the model with other logarithms of the free dimensions."""
+        """Return the model whose free dimensions have these logarithms."""
         change = dict(zip(FREE, np.exp(free).tolist(), strict=True))
         old = self.model.geometry.model_dump()
         made_with = {"calibrated_with": self.model.ring, "calibrated_axial": self.model.axial}
@@ -104,7 +104,7 @@ class CalibrationProblem:
 
 @dataclass(frozen=True)
 class CalibrationRound:
-    """One round: the section, what it gives and the targets."""
+    """One round: logarithms of the section's free dimensions, and its stiffnesses, N/mm."""
 
     free: Array
     spoke_stiffness: Array
@@ -167,8 +167,8 @@ def calibrate(
 ) -> FeModel:
     """Find the section by rounds of damped Gauss–Newton steps.
 
-    The slopes are found at the first section; what every round has shown corrects them. A round
-    that makes the misfit worse is taken back.
+    The slopes are computed at the first section and corrected after every round. A round that
+    makes the misfit worse is undone.
 
     Parameters
     ----------
@@ -223,10 +223,10 @@ def _reach(
 def _slopes(problem: CalibrationProblem, free: Array, mapper: Mapper) -> Array:
     """∂ ln (stiffness) / ∂ ln (dimension): array (stiffnesses, dimensions).
 
-    The first tyre is solved for each dimension. The others follow from their spokes by
-    `TYRE_EXPONENTS`, plus what this law has missed in the first: a dimension may change how a
-    spoke resists a shear or a turn of the band, which its two stiffnesses do not tell. Differences
-    go away from a limit that is near, so that no section is out of order.
+    The first tyre is solved again for each dimension. The slopes of the others follow from their
+    spokes by `TYRE_EXPONENTS`, plus the error of this law for the first tyre: a dimension may
+    change how a spoke resists shear or rotation of the band, which its two stiffnesses do not
+    show. Near a limit the difference is taken away from it, so that every section is valid.
     """
     _, high = _limits()
     steps = np.where(free + STEP > high, -STEP, STEP)
@@ -246,7 +246,7 @@ def _slopes(problem: CalibrationProblem, free: Array, mapper: Mapper) -> Array:
 
 
 def _corrected(slopes: Array, step: Array, change: Array) -> Array:
-    """Slopes that give the change that a step has made (Broyden's update)."""
+    """Correct the slopes so that they give the change over the last step (Broyden's update)."""
     corrected: Array = slopes + np.outer(change - slopes @ step, step) / (step @ step)
     return corrected
 
@@ -275,7 +275,7 @@ def _misfit(problem: CalibrationProblem, computed: Array, moved: Array) -> Array
 def _step(
     problem: CalibrationProblem, slopes: Array, misfit: Array, free: Array, damping: float
 ) -> Array:
-    """Least squares within the limits."""
+    """Find the next step by least squares within the limits."""
     jacobian = [
         _weights(problem)[:, None] * slopes,
         problem.prior * np.eye(len(FREE)),

@@ -1,4 +1,4 @@
-"""One case of the study: its spoke's table and its loaded tyre."""
+"""One case of the study: its spoke's energy table and its loaded tyre."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def spoke_design(
     """
     plates = tyre.plates_across(values["spacing_mm"])
     return SpokeDesign(
-        # the ring of the calibration changes no spoke: both rings share the tables of equal spokes
+        # which ring a section was calibrated with changes no spoke: both rings share the tables
         geometry=model.geometry.as_drawn(),
         mesh=model.spoke_mesh,
         pitch_mm=tyre.tread_width_mm / plates,
@@ -76,7 +76,7 @@ def loaded_tyre(assembled: TyreModel, model: FeModel, load_n: float) -> TyreStat
 def path_to_displacement(
     assembled: TyreModel, model: FeModel, load_n: float, path: LoadPath, displacement_mm: float
 ) -> tuple[LoadPath, str]:
-    """Load a tyre beyond its load, in the same steps, until it has moved so far.
+    """Load a tyre beyond the load of its case, in the same steps, to a given displacement.
 
     Parameters
     ----------
@@ -85,15 +85,15 @@ def path_to_displacement(
     load_n : float
         Load of the case.
     path : LoadPath
-        Of the tyre at that load.
+        Path of the tyre to that load.
     displacement_mm : float
 
     Returns
     -------
     path : LoadPath
-        To the displacement or a little further, or as far as the tyre was found.
+        To the displacement or a little further, or as far as the tyre could be loaded.
     reason : str
-        Why the path ends before the displacement; empty where it does not.
+        Why the path ends before the displacement; empty if it does not.
     """
     step = load_n / model.load_steps
     while path.rise_mm[-1] < displacement_mm:

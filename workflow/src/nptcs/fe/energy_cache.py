@@ -37,17 +37,17 @@ def table_key(design: SpokeDesign, options: EnergyTableOptions) -> str:
 
 @threadpool_limits.wrap(limits=1)
 def shared_table(model: FeModel, design: SpokeDesign, folder: Path | None) -> SpokeEnergyTable:
-    """Read a spoke's table from the folder, or compute it and leave it there.
+    """Read a spoke's table from the folder, or compute it and store it there.
 
-    Files are written whole under a name made from the key of what they depend on: of two workers
-    that compute the same spoke at the same time the later one replaces the file by an equal one.
+    Files are written atomically under the key of everything they depend on: if two workers compute
+    the same spoke at the same time, the later one replaces the file with an equal one.
 
     Parameters
     ----------
     model : FeModel
     design : SpokeDesign
     folder : Path or None
-        None computes without keeping.
+        None computes the table without storing it.
     """
     if folder is None:
         return computed_table(design, model.table)

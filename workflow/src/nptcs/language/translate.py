@@ -1,4 +1,4 @@
-"""Look a text up in the language of the run, and put its values in."""
+"""Look up a text in the language of the run, and insert its values."""
 
 from __future__ import annotations
 
@@ -47,7 +47,7 @@ def language(code: Language) -> Iterator[None]:
 
 
 def current_language() -> Language:
-    """Return the language in which `tr` writes at present."""
+    """Return the language in which `tr` currently writes."""
     return _CURRENT.get()
 
 
@@ -58,7 +58,7 @@ def tr(text: str, /, **values: object) -> str:
     ----------
     text : str
         One whole sentence or term in English, with a named placeholder for each value. A text
-        that the catalogue does not hold, such as a title of the user's own, stays as it is.
+        that is not in the catalogue, such as a user's own title, stays as it is.
     **values
         What the placeholders stand for, formatted as by `str.format`. Without any, braces in the
         text are ordinary characters.
@@ -91,7 +91,7 @@ def tr_count(one: str, many: str, count: int, /, **values: object) -> str:
 
 
 def translatable(text: str) -> str:
-    """Return a text as it is: marks a constant that `tr` is given later for the catalogues."""
+    """Return a text unchanged: marks a constant that is passed to `tr` later for the catalogues."""
     return text
 
 

@@ -30,7 +30,7 @@ DESIGN_COLUMNS = (
     "compression_n_per_mm",
     "spoke_count",
 )
-"""What a design needs: the fields of `RingSection` and of `LinearSpokes`."""
+"""What a design needs: the fields of `ShearBandSection` and of `LinearSpokes`."""
 RESULT_COLUMNS = (
     "displacement_mm",
     "load_n",
@@ -81,14 +81,14 @@ def solve_batch(
     load_n, displacement_mm, theta_c_deg : array-like
         Exactly one of them: what is given for each design.
     largest_displacement_mm : array-like, optional
-        Displacement at which the band meets the rim; without it the radius R.
+        Displacement at which the band meets the rim; by default the radius R.
     workers : int
         Threads among which the table is divided.
 
     Returns
     -------
     Batch
-        Columns `RESULT_COLUMNS`. A row that cannot be solved is marked, the rest go on.
+        Columns `RESULT_COLUMNS`. A row that cannot be solved is marked; the others are solved.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""A table of designs as a laboratory writes it; what it leaves out comes from the tyre."""
+"""A table of designs as a laboratory writes it; what it leaves out is taken from the tyre."""
 
 from __future__ import annotations
 
@@ -56,7 +56,7 @@ def solve_table(
     ----------
     table : DataFrame
         Columns `REQUIRED`; any of `SECTION_COLUMNS` and of the fields of `TyreGeometry` replaces
-        the tyre's own value where a cell is not empty. Other columns are carried along.
+        the tyre's own value if a cell is not empty. Other columns are kept.
     tyre : TyreGeometry
         The tyre that the table's designs vary.
     kind : {"sandwich", "printed"}

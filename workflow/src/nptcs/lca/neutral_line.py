@@ -1,4 +1,4 @@
-"""The deformed neutral line of the band, as figure 14 of the paper draws it."""
+"""The deformed neutral line of the band, as in figure 14 of the paper."""
 
 from __future__ import annotations
 
@@ -9,7 +9,7 @@ from nptcs.lca.state import LcaState
 
 
 def neutral_line(state: LcaState, points: int = 721) -> pd.DataFrame:
-    """Return the deformed middle line of the band, as figure 14 draws it.
+    """Return the deformed middle line of the band, as in figure 14.
 
     Parameters
     ----------

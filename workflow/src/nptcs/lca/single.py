@@ -60,7 +60,7 @@ def solve(
     load_n, displacement_mm, theta_c_deg : float
         Exactly one of them.
     largest_displacement_mm : float, optional
-        Displacement at which the band meets the rim; without it the radius R.
+        Displacement at which the band meets the rim; by default the radius R.
 
     Returns
     -------

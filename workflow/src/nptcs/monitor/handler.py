@@ -14,22 +14,34 @@ from snakemake_interface_logger_plugins.base import LogHandlerBase
 from snakemake_interface_logger_plugins.common import LogEvent
 
 from nptcs.monitor.run import Run
-from nptcs.monitor.words import SAID, closing_lines, error_message, page_lines, status_line
+from nptcs.monitor.words import (
+    SAID,
+    closing_lines,
+    error_message,
+    page_lines,
+    status_line,
+    unrecorded_lines,
+)
+from nptcs.processes.scratch import hold_temporary_files
 
 REFRESH_S = 0.5
 CLEAR = "\r\x1b[K"
-"""Begin of the line, and nothing behind it."""
+"""Return to the start of the line, and clear it."""
 
 
 class RunHandler(LogHandlerBase):
     """Shows a run as one line that refreshes on a terminal, each failure, and the end.
 
-    Where the output is not a terminal there is no such line. With ``--dry-run``, ``--verbose`` or
+    If the output is not a terminal there is no such line. With ``--dry-run``, ``--verbose`` or
     ``--printshellcmds`` Snakemake's own messages are shown instead.
     """
 
     def __post_init__(self) -> None:
-        """Choose between our own lines and Snakemake's."""
+        """Choose between our own lines and Snakemake's.
+
+        Nothing of ours runs earlier in Snakemake's process, and it has no temporary folder yet.
+        """
+        hold_temporary_files()
         settings = self.common_settings
         self.stream: TextIO = sys.stdout if settings.stdout else sys.stderr
         self.run = Run()
@@ -129,7 +141,7 @@ class RunHandler(LogHandlerBase):
             lines = closing_lines(self.run, time.monotonic() - self.began, _newest_log())
             self._say("\n".join(lines))
         elif not already and self.idle:
-            self._say("\n".join(page_lines()))
+            self._say("\n".join([*page_lines(), *unrecorded_lines()]))
         super().close()
 
 

@@ -56,7 +56,7 @@ class Run:
         return job
 
     def look(self) -> None:
-        """Read how far the cases of all jobs are that solve some."""
+        """Read the progress of all jobs that solve cases."""
         for job in self.jobs.values():
             progress = read_progress(job.log) if job.rule in SOLVING and job.log else None
             if progress is not None:
@@ -64,7 +64,7 @@ class Run:
                 self.solved.setdefault(name, {})[job.log] = progress
 
     def campaigns(self) -> list[Progress]:
-        """Add up how far the cases of each study are, solver by solver."""
+        """Add up the progress of each study, solver by solver."""
         return [_sum(list(parts.values())) for parts in self.solved.values()]
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from base64 import b64encode
 from collections.abc import Sequence
 from pathlib import Path
 
@@ -14,6 +15,9 @@ from nptcs.runs.identity import RunIdentity
 
 PAGES = ("results/report.html", "results/workbook.xlsx")
 IDENTITY = "results/identity.json"
+RECORDS = ".snakemake/metadata"
+"""Where Snakemake notes from what it made each file, under the file's name in base64."""
+
 CHATTER = re.compile(
     r"^(RuleException|CalledProcessError|Error in rule|Error in group|Exiting because|"
     r"At least one job did not complete|Trying to restart|WorkflowError:\s*At least one job|"
@@ -94,13 +98,30 @@ def identity_lines(file: str) -> list[str]:
     try:
         found = read_model(file, RunIdentity)
     except InputError:
-        return []  # being written anew, or edited: the next reader of results says so
+        return []  # being written again, or edited: the next reader of results says so
     return [f"run {found.short}: tables complete {found.made_text}"]
 
 
 def page_lines(pages: Sequence[str] = PAGES) -> list[str]:
     """Name the report and the workbook, if they exist."""
     return [f"{Path(page).stem}: {page}" for page in pages if Path(page).is_file()]
+
+
+def unrecorded_lines(pages: Sequence[str] = PAGES, records: str = RECORDS) -> list[str]:
+    """Say that nothing tells how a page was made, whose changes Snakemake then cannot see."""
+    folder = Path(records)
+    unrecorded = [
+        page
+        for page in pages
+        if Path(page).is_file() and not (folder / b64encode(page.encode()).decode()).is_file()
+    ]
+    if not unrecorded:
+        return []
+    return [
+        f"{', '.join(unrecorded)}: {records} has no record of how this was made, for example "
+        "because results were copied here; changes of code and configuration since then were not "
+        "noticed. To make everything but solved cases again: snakemake -j2 --forceall"
+    ]
 
 
 def first_line(log: str) -> str:
@@ -113,6 +134,6 @@ def first_line(log: str) -> str:
 
 
 def error_message(text: str) -> str:
-    """Take from an error of Snakemake what a user needs; empty for what was said already."""
+    """Take from an error of Snakemake what a user needs; empty if it was already said."""
     text = TRACE.sub("", PLACE.sub("", text, count=1))
     return "" if CHATTER.match(text) else text.strip()

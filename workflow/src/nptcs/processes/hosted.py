@@ -1,8 +1,9 @@
 """The scripts of a run's jobs in forks of one process, instead of a new interpreter for each.
 
 Snakemake has no setting for the way in which it starts the interpreter of a script. So
-`host_scripts` takes the place of the one method that does so, for Python scripts of one folder
-that need nothing special. Without Linux, and once the host is gone, Snakemake starts them itself.
+`host_scripts` replaces the one method that does so, for Python scripts of one folder that need
+nothing special. On other systems than Linux, and once the host is gone, Snakemake starts them
+itself.
 """
 
 from __future__ import annotations
@@ -32,7 +33,7 @@ TEMPORARY = ("TMPDIR", "TMP", "TEMPDIR", "TEMP")
 
 
 class HostGoneError(RuntimeError):
-    """The process that runs scripts has ended, so that how a script ended cannot be known."""
+    """The process that runs scripts has ended, so it cannot be known how a script ended."""
 
 
 class ScriptHost:
@@ -93,7 +94,7 @@ class ScriptHost:
         return end.result()
 
     def close(self) -> None:
-        """Let the host end, and what it still runs."""
+        """Let the host end, and the scripts that it still runs."""
         with suppress(OSError), self._lock:
             self._channel.send(None)
         try:
@@ -122,7 +123,7 @@ def host_scripts(script_class: Any, folder: Path, host: ScriptHost) -> None:
     script_class : type
         ``snakemake.script.PythonScript``.
     folder : Path
-        Scripts from elsewhere, and those with an environment of their own, are left to Snakemake.
+        Scripts from elsewhere, and those with their own environment, are left to Snakemake.
     host : ScriptHost
     """
     start_interpreter = script_class.execute_script

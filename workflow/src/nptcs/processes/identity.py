@@ -1,4 +1,4 @@
-"""A process named so that no later one is taken for it, even after a restart of the machine."""
+"""A name for a process that no later process has, even after a restart of the machine."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ RUN = "NPTCS_RUN"
 """Environment variable with the name of the Snakemake process to which a process belongs."""
 
 POLL_S = 0.3
-"""Time between two looks at a process where the system cannot tell of its end."""
+"""Time between two looks at a process if the system cannot report its end."""
 
 
 @dataclass(frozen=True)
@@ -29,12 +29,12 @@ class ProcessName:
     host : str
         Name of the machine.
     boot : str
-        What differs after each start of the machine; empty where the system does not say.
+        What differs after each start of the machine; empty if the system does not say.
     space : str
-        The space in which process numbers count (containers have spaces of their own).
+        The namespace of process numbers (containers have their own).
     pid : int
     started : str
-        When the process began, in a unit that no change of the clock touches where there is one.
+        When the process began, if possible in a unit that changes of the clock do not affect.
     """
 
     host: str
@@ -74,7 +74,7 @@ def process_name(pid: int | None = None) -> ProcessName:
 
 
 def lives(name: ProcessName) -> bool | None:
-    """Tell whether a process is still running; None where this machine cannot know."""
+    """Tell whether a process is still running; None if this machine cannot know."""
     if name.host != socket.gethostname():
         return None
     if name.boot != _boot():

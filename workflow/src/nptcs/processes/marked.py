@@ -1,7 +1,7 @@
-"""Processes that carry a mark in their environment, and their end.
+"""Processes that carry a mark in their environment, and how they are ended.
 
 A command inherits the environment of the case that started it, and so do its own children, whatever
-sessions and groups they move to. So all of them are found, also when the case itself was killed.
+sessions and groups they move to. So all of them are found, even if the case itself was killed.
 """
 
 from __future__ import annotations
@@ -36,7 +36,7 @@ def end_marked(folder: str) -> None:
 
 
 def end_children(wait_s: float) -> None:
-    """End all processes that this one has started, and those that they have; politely first."""
+    """End all processes that this one has started, and their children; politely first."""
     children = psutil.Process().children(recursive=True)
     for process in children:
         _send(process, "terminate")

@@ -1,4 +1,4 @@
-"""Runs of Snakemake in one folder: which of them live, and the locks that dead ones left."""
+"""Runs of Snakemake in one folder: which of them are alive, and the locks that dead ones left."""
 
 from __future__ import annotations
 
@@ -13,6 +13,7 @@ from contextlib import contextmanager, suppress
 from pathlib import Path
 
 from nptcs.processes.identity import RUN, ProcessName, lives, process_name, read_name
+from nptcs.processes.scratch import release_temporary_files
 
 UNLOCK = "snakemake --unlock"
 
@@ -26,13 +27,16 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
         Snakemake's own folder, ``.snakemake``, in which it keeps its locks. Snakemake looks at them
         after it has read the Snakefile.
     temporary : Path, optional
-        Temporary folder of this run of Snakemake, which the next run removes if this one is killed.
+        Temporary folder of this run of Snakemake, which the next run removes if this one is killed:
+        for a run without our logger, which would have put it where it goes by itself
+        (`nptcs.processes.scratch.hold_temporary_files`).
 
     Returns
     -------
     bool
-        Whether an earlier run had died without an end in order.
+        Whether an earlier run had died without ending cleanly.
     """
+    release_temporary_files()
     os.environ[RUN] = process_name().text()
     noted = folder / "runs"
     noted.mkdir(parents=True, exist_ok=True)
@@ -54,6 +58,7 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
 
 def begin_job() -> None:
     """Note the Snakemake process that runs single jobs of a run, for example on another machine."""
+    release_temporary_files()
     os.environ[RUN] = process_name().text()
 
 
@@ -65,7 +70,7 @@ def _read(file: Path) -> ProcessName | None:
 
 
 def _remove_temporary(note: Path) -> None:
-    """Remove the temporary folder that Snakemake had made for a run that is dead."""
+    """Remove the temporary folder that Snakemake had made for a run that has died."""
     with suppress(OSError, UnicodeDecodeError):
         folder = Path(note.read_text(encoding="utf-8").partition("\n")[2].strip())
         if folder.name.startswith("snakemake") and folder.is_dir() and not folder.is_symlink():
@@ -77,7 +82,7 @@ def _settle(
     runs: Mapping[Path, ProcessName | None],
     state: Mapping[Path, bool | None],
 ) -> None:
-    """Lift the locks if every run is dead; name runs of which this machine cannot tell."""
+    """Lift the locks if every run is dead; name the runs that this machine cannot check."""
     if any(state.values()):
         return
     foreign = [runs[file] for file, alive in state.items() if alive is None]

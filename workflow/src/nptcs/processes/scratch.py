@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import atexit
 import os
 import shutil
 import sys
@@ -9,6 +10,7 @@ import tempfile
 import time
 from functools import cache
 from pathlib import Path
+from typing import Any
 
 from nptcs.processes.identity import lives, process_name, read_name
 from nptcs.processes.marked import WARDEN, end_marked
@@ -22,14 +24,14 @@ LONGEST = 70
 """Characters of a folder's name; a socket's whole name may have 107 (macOS: 103)."""
 
 YOUNG_S = 3600.0
-"""A folder without an owner's name may be one that is just being made."""
+"""A younger folder without an owner's name may just be being made."""
 
 
 def scratch_folder() -> Path:
     """Return the temporary folder of this process.
 
-    It is made at the first call. A small process of its own, the warden, removes it once this
-    process has ended in whatever way, and ends what still carries its mark
+    It is made at the first call. A small separate process, the warden, removes it once this
+    process has ended, however it ended, and ends the processes that still carry its mark
     (`nptcs.processes.marked`). Folders whose owner and warden were both killed are removed here.
     """
     return _folder_of(os.getpid(), tempfile.gettempdir())
@@ -42,6 +44,29 @@ def socket_folder() -> Path:
     """
     folder = scratch_folder()
     return folder if len(str(folder)) <= LONGEST else _folder_of(os.getpid(), SHORT)
+
+
+def hold_temporary_files() -> None:
+    """Let the temporary files of this process go to its scratch folder, as long as it says so.
+
+    Snakemake makes its temporary folder before it reads the Snakefile, and a process that is killed
+    removes nothing. The scratch folder is removed whatever happens.
+    """
+    if sys.platform == "win32":
+        return
+    folder = scratch_folder()
+    tempfile.tempdir = str(folder)
+    atexit.register(_remove, folder, os.getpid())
+
+
+def release_temporary_files() -> None:
+    """Let further temporary files, and those of jobs, go where the system says."""
+    tempfile.tempdir = None
+
+
+def _remove(folder: Path, pid: int) -> None:
+    if os.getpid() == pid:
+        shutil.rmtree(folder, ignore_errors=True)
 
 
 @cache
@@ -80,10 +105,15 @@ def _abandoned(folder: Path) -> bool:
 
 
 def _start_warden(folder: Path) -> None:
-    """Start the warden; the pipe to its input stays open as long as this process lives."""
+    """Start the warden; the pipe to its input stays open as long as this process lives.
+
+    It is in a session or group of its own from its first moment, so that no signal to the group of
+    this process ends it as well.
+    """
     for_warden, _ours = os.pipe()
     command = [sys.executable, str(Path(__file__).with_name(WARDEN)), str(folder), str(os.getpid())]
     quiet = [(os.POSIX_SPAWN_OPEN, number, os.devnull, os.O_WRONLY, 0) for number in (1, 2)]
     actions = [(os.POSIX_SPAWN_DUP2, for_warden, 0), *quiet]
-    os.posix_spawn(sys.executable, command, os.environ, file_actions=actions)
+    apart: Any = {"setsid": True} if sys.platform == "linux" else {"setpgroup": 0}
+    os.posix_spawn(sys.executable, command, os.environ, file_actions=actions, **apart)
     os.close(for_warden)

@@ -1,9 +1,9 @@
-"""A Python process in which the scripts of jobs run, each in a fork: what one imported, all have.
+"""A Python process in which the scripts of jobs run, each in a fork, and share what is imported.
 
 Run as a script: ``script_host.py DESCRIPTOR``. Through the connection of that number come
 ``(number, script, environment)``; back go ``(number, exit code)``. With a number of None nothing is
-run: what the script imports is imported when there is nothing else to do. The host ends when it
-gets None or the connection closes (`nptcs.processes.hosted.ScriptHost`), and its jobs with it.
+run: what the script imports is imported when there is nothing else to do. The host ends, and its
+jobs with it, when it gets None or the connection closes (`nptcs.processes.hosted.ScriptHost`).
 
 Starting Python with pandas, pandera and SciPy takes more processor time than most jobs need for
 their work; a fork takes a few milliseconds. The host has one thread and computes nothing, so that a
@@ -32,7 +32,7 @@ from pathlib import Path
 from typing import Any
 
 GRACE_S = 2.0
-"""Time that a job has to leave in order when the host has ended."""
+"""Time that a job has to exit cleanly when the host has ended."""
 
 AT_FIRST_USE: Mapping[str, tuple[str, ...]] = {
     "pandera": (
@@ -49,7 +49,7 @@ write it, and to read what Snakemake gives a script. Otherwise each fork would i
 
 
 def serve(channel: Connection) -> None:
-    """Run scripts until there are to be no more; end those that are running then."""
+    """Run scripts until told to end; then end those that are still running."""
     jobs: dict[int, ForkProcess] = {}
     to_import: deque[str] = deque()
     while True:
@@ -58,7 +58,7 @@ def serve(channel: Connection) -> None:
         for sentinel in ended.keys() & set(ready):
             process = jobs.pop(ended[sentinel])
             process.join()
-            with suppress(OSError):  # nobody asks any more: the next message will say so
+            with suppress(OSError):  # nobody is listening: the next message will say so
                 channel.send((ended[sentinel], process.exitcode))
             process.close()
         if channel in ready:
@@ -77,7 +77,7 @@ def serve(channel: Connection) -> None:
 
 
 def receive(channel: Connection) -> Any:
-    """Return the next message; None also where the other side is gone."""
+    """Return the next message; None also if the other side is gone."""
     try:
         return channel.recv()
     except (EOFError, OSError):
@@ -87,14 +87,14 @@ def receive(channel: Connection) -> Any:
 def start(script: str, environment: Mapping[str, str]) -> ForkProcess:
     """Import what a script imports, so that later jobs have it too, and run it in a fork."""
     import_for(script)
-    gc.freeze()  # the fork's collector leaves alone, and so unwritten, what is shared with the host
+    gc.freeze()  # the fork's collector does not touch, and so copy, memory shared with the host
     process = multiprocessing.get_context("fork").Process(target=run, args=(script, environment))
     process.start()
     return process
 
 
 def import_for(script: str) -> None:
-    """Execute the import statements at the top of a script; what fails there, fails in the job."""
+    """Execute the import statements at the top of a script; those that fail, fail in the job."""
     with suppress(OSError, SyntaxError):
         for statement in ast.parse(Path(script).read_bytes()).body:
             if isinstance(statement, ast.Import | ast.ImportFrom):
@@ -109,7 +109,7 @@ def import_for(script: str) -> None:
 
 
 def run(script: str, environment: Mapping[str, str]) -> None:
-    """Run a script as Python would run it as a new process; here, in a fork of the host."""
+    """Run a script as a new Python process would, but in a fork of the host."""
     signal.signal(signal.SIGINT, signal.default_int_handler)
     threading.Thread(target=_end_with_host, daemon=True).start()
     os.environ.update(environment)

@@ -1,4 +1,4 @@
-"""Stops in order: a script ends with its run, and a run that is stopped takes its jobs along."""
+"""Clean stops: a script ends with its run, and a run that is stopped ends its jobs."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from nptcs.processes.identity import RUN, read_name, wait_for_end
 from nptcs.processes.marked import end_children
 
 GRACE_S = 2.0
-"""Time that a process has to leave in order after it was asked to."""
+"""Time that a process has to exit cleanly after it was asked to."""
 
 
 def leave_in_order(number: int, frame: FrameType | None) -> None:
@@ -34,7 +34,7 @@ def leave_in_order(number: int, frame: FrameType | None) -> None:
 def end_with_run() -> None:
     """Let this process end when the Snakemake process that started it is gone, however that ended.
 
-    Without effect outside a run. SIGTERM is from now on an exit in order.
+    Without effect outside a run. From now on SIGTERM is a clean exit.
     """
     run = read_name(os.environ.get(RUN, ""))
     if run is None or threading.current_thread() is not threading.main_thread():
@@ -51,7 +51,7 @@ def end_with_run() -> None:
 
 
 def stop_jobs_on_signals(arguments: Sequence[str]) -> None:
-    """Let SIGINT and SIGTERM end all jobs of this run at once, and say how to go on.
+    """Let SIGINT and SIGTERM end all jobs of this run at once, and say how to continue.
 
     Snakemake alone would wait for its running jobs, for hours if need be.
 
@@ -72,7 +72,7 @@ Handler = Callable[[int, FrameType | None], Any]
 def _stopping(before: Handler, again: str) -> Handler:
     def stop(number: int, frame: FrameType | None) -> None:
         print(
-            "\nStopping: the running jobs are ended; all cases that were solved are kept.\n"
+            "\nStopping: the running jobs are being ended; all solved cases are kept.\n"
             f"To continue, type the same command again:\n    {again}",
             file=sys.stderr,
             flush=True,

@@ -1,7 +1,7 @@
 """A small process that outlives the one it watches: it ends what is left of it and cleans up.
 
 Run as a script: ``warden.py FOLDER PID``. Its input closes when the process PID ends, however it
-ends. When the run of Snakemake ends first, PID is asked to end, and made to.
+ends. If the run of Snakemake ends first, PID is asked to end, and then killed.
 """
 
 from __future__ import annotations
@@ -49,7 +49,5 @@ def watch(folder: Path, pid: int) -> None:
 if __name__ == "__main__":
     for ignored in (signal.SIGTERM, signal.SIGINT, signal.SIGHUP):
         signal.signal(ignored, signal.SIG_IGN)
-    with suppress(PermissionError):
-        os.setsid()  # so that no signal to the group of the watched process ends it as well
     sys.path[0] = str(Path(__file__).parents[2])
     watch(Path(sys.argv[1]), int(sys.argv[2]))

@@ -1,4 +1,4 @@
-"""What the page template is handed: tables of finished text, figures as SVG, paragraphs."""
+"""What the page template receives: tables of finished text, figures as SVG, paragraphs."""
 
 from __future__ import annotations
 
@@ -42,13 +42,13 @@ class TableView:
         What it is, words above it, its columns and whether they hold numbers, the rows that are
         shown with their CSS classes, and whether it rests on synthetic data.
     all_rows : int
-        Rows of the whole table; a long one is not shown whole.
+        Rows of the whole table; a long one is not shown in full.
     columns : tuple of str
         Names of the columns in the file.
     folded : bool
         Whether it opens on demand.
     notes : tuple of str
-        What holds for all its rows.
+        Remarks that apply to all its rows.
     """
 
     entry: Entry
@@ -70,10 +70,10 @@ class Plot:
     Parameters
     ----------
     written : callable
-        Returns the figure as SVG, with words for those who cannot see it, and the numbers that it
-        shows: CSV, deflated, in base64, empty where it carries none. It waits until it is drawn.
+        Returns the figure as SVG, with its text alternative, and the numbers that it shows: CSV,
+        deflated, in base64, empty where it has none. The call waits until the figure is drawn.
     alt : str
-        These words.
+        The text alternative.
     name : str
         Name of its file, without ending.
     synthetic : bool
@@ -87,7 +87,7 @@ class Plot:
 
     @property
     def svg(self) -> str:
-        """The figure, with its words."""
+        """The figure, with its text alternative."""
         return self.written()[0]
 
     @property
@@ -165,7 +165,7 @@ class Fact:
 
 @dataclass(frozen=True)
 class Facts:
-    """Results in words, set so that a phone shows them whole."""
+    """Results in words, set so that a phone shows them in full."""
 
     title: str
     facts: tuple[Fact, ...]
@@ -190,7 +190,7 @@ class Finding:
     source : str
         Tables that hold the numbers.
     section : ReportSection
-        Where more of it is.
+        Section with the details.
     sketch : Sketch, optional
         A small figure.
     assessed : bool
@@ -230,11 +230,11 @@ class MoreTables:
     Parameters
     ----------
     title : str
-        How many they are.
+        Says how many there are.
     titles : str
-        What they say.
+        Titles of the tables.
     tables : tuple of TableView or Text
-        The tables, or where those are that are too long for a page.
+        The tables; for one that is too long for a page, a text that says where it is.
     """
 
     title: str

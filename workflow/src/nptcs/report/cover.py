@@ -1,4 +1,4 @@
-"""What the head of report and workbook says of a laboratory, its customer and its dates."""
+"""What the head of report and workbook says about a laboratory, its customer and its dates."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ USUAL_ROLES = (
 
 
 def cover_lines(laboratory: Laboratory) -> tuple[tuple[str, str], ...]:
-    """List what is known of a report, name and text, in the language of the run."""
+    """List what is known about a report, name and text, in the language of the run."""
     given = [(tr(name), getattr(laboratory, key)) for key, name in NAMED.items()]
     dates = [(tr(name), day.isoformat()) for name, day in laboratory.dates.items()]
     return tuple((name, text) for name, text in [*given, *dates] if text)

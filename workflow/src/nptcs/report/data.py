@@ -32,7 +32,7 @@ from nptcs.tables.tyres.cases import Cases, DesignTable
 
 @dataclass(frozen=True)
 class SolverDescription:
-    """What the report says of a solver, with the models that its options choose."""
+    """What the report says about a solver, with the models that its options choose."""
 
     about: str
     needs_ply: bool
@@ -43,7 +43,7 @@ class SolverDescription:
 
 @dataclass(frozen=True)
 class LcaRing:
-    """The load-bearing model as the run's first study with it uses it.
+    """The load-bearing model as used by the first study of the run that has it.
 
     Parameters
     ----------
@@ -85,12 +85,12 @@ class Results:
     identity: RunIdentity | None = None
 
     def table(self, contract: type[pa.DataFrameModel], study: str = "") -> pd.DataFrame:
-        """Return the result table that keeps a contract; for a table of one study, the study's."""
+        """Return the result table of a contract; `study` names the one of a table per study."""
         return self.tables[file_of(contract, study)]
 
     @property
     def surface_studies(self) -> list[str]:
-        """Names of the studies that ask for a surface."""
+        """Names of the studies that request a surface."""
         return [study.name for study in self.config.studies if study.terms]
 
     @property
@@ -144,7 +144,7 @@ class Results:
         return with_ply and self.plies_synthetic
 
     def table_is_synthetic(self, table: pd.DataFrame) -> bool:
-        """Tell whether any row of a table with the columns study and solver rests on such data."""
+        """Tell whether any row of a table with study and solver rests on synthetic specimens."""
         return any(
             self.study_is_synthetic(self.config.study(study), solver)
             for study, solver in table[["study", "solver"]].drop_duplicates().to_numpy()
@@ -202,9 +202,10 @@ def read_results(job: Mapping[str, Any], files: Mapping[str, Any]) -> Results:
 
 
 def _lca_ring(config: Config) -> LcaRing | None:
-    """Read the spokes of the load-bearing model; None where no study uses it with two stiffnesses.
+    """Read the spokes of the load-bearing model; None where no study uses it.
 
-    A model with a curve for each spoke is not evaluated on the page.
+    None, too, where its spokes are not two stiffnesses: a model with a curve for each spoke is not
+    evaluated on the page.
     """
     study = next((study for study in config.studies if "lca" in study.solvers), None)
     if study is None:

@@ -1,8 +1,8 @@
-"""Figures drawn as SVG and CSV text, in other processes while this one goes on with the page.
+"""Figures drawn as SVG and CSV text, in other processes while this one continues with the page.
 
-What comes in is a plotting function with its arguments, what goes out is a function that returns
-the texts and waits for them where they are not ready. Which figures are kept from an earlier report
-does not belong here (`nptcs.report.plots`).
+A plotting function with its arguments comes in; a function that returns the texts, and waits for
+them if they are not ready, goes out. Which figures are kept from an earlier report does not belong
+here (`nptcs.report.plots`).
 """
 
 from __future__ import annotations
@@ -32,9 +32,9 @@ class Drawn(NamedTuple):
     Parameters
     ----------
     svg : str
-        For the page, without words for those who cannot see it.
+        For the page, without its text alternative.
     csv : str
-        The numbers that it shows; empty where it carries none.
+        The numbers that it shows; empty where it has none.
     """
 
     svg: str
@@ -54,7 +54,7 @@ def csv_of(data: pd.DataFrame) -> str:
 
 
 class Drawers:
-    """Processes that draw figures: forks of this one, made when the first figure is asked for.
+    """Processes that draw figures: forks of this one, made when the first figure is requested.
 
     Parameters
     ----------
@@ -67,14 +67,14 @@ class Drawers:
         self._pool: ProcessPoolExecutor | None = None
 
     def start(self, draw: Callable[..., Figure], *args: Any, **kwargs: Any) -> Callable[[], Drawn]:
-        """Let a figure be drawn; what is returned waits for it.
+        """Start drawing a figure; the returned function waits for it.
 
         Parameters
         ----------
         draw : callable
             A plotting function of `nptcs.report.figures`.
         *args, **kwargs
-            Its arguments; with several processes, they and it can be pickled.
+            Its arguments; with several processes, they and the function must be picklable.
         """
         if self._processes < 2:
             made = drawn(draw, *args, **kwargs)
@@ -86,7 +86,7 @@ class Drawers:
         return self._pool.submit(_drawn_in, current_language(), draw, args, kwargs).result
 
     def close(self) -> None:
-        """Let the processes end."""
+        """End the processes."""
         if self._pool is not None:
             self._pool.shutdown(cancel_futures=True)
 
@@ -98,7 +98,7 @@ def _drawn_in(words: Language, draw: Callable[..., Figure], args: Any, kwargs: A
 
 
 def _end_with_parent() -> None:
-    """End this process when the one that it draws for is gone, however that ended."""
+    """End this process when the one that it draws for has ended, for whatever reason."""
     threading.Thread(target=_wait_for_parent, daemon=True).start()
 
 

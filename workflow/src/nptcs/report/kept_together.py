@@ -1,4 +1,4 @@
-"""Names and numbers that no line of the page breaks."""
+"""Names and numbers that are not broken across lines of the page."""
 
 from __future__ import annotations
 
@@ -14,7 +14,7 @@ UNIT = re.compile(r"(?<=\d) (?=(?:%|°C|N/mm|MPa|GPa|mm|kN|N|kg)(?!\w))")
 
 
 def kept(text: object) -> Markup:
-    r"""Write a text as HTML whose lines break neither in a short name nor before a unit.
+    r"""Write a text as HTML that is not broken within a short name or before a unit.
 
     Examples
     --------

@@ -25,7 +25,7 @@ def logo_uri(path: str | Path) -> str:
     ------
     InputError
         If it does not exist, is larger than `LARGEST_BYTES`, is damaged, is of another type, or is
-        an SVG that needs other files or holds a script.
+        an SVG that needs other files or contains a script.
     """
     path = Path(path)
     if not path.is_file():
@@ -69,7 +69,9 @@ def _check_svg(content: bytes, path: Path) -> None:
     for element in root.iter():
         if _local(element.tag) in ("script", "foreignObject"):
             raise InputError(
-                f"this SVG holds an element <{_local(element.tag)}>", "export it as plain SVG", path
+                f"this SVG contains an element <{_local(element.tag)}>",
+                "export it as plain SVG",
+                path,
             )
         for name, value in element.attrib.items():
             if _local(name) == "href" and not value.startswith(("#", "data:")):

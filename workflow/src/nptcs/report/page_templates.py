@@ -1,8 +1,8 @@
 """The templates of the page: the package's, or a laboratory's own in their place.
 
-A file of the same name in the folder ``report.templates`` is taken instead of the package's; what
-it does not have is the package's. It may build on the original: ``{% extends
-"nptcs/report.html.j2" %}`` or ``{% include "nptcs/cover.html.j2" %}``.
+A file of the same name in the folder ``report.templates`` is taken instead of the package's;
+templates that the folder does not have are the package's. A file may build on the original:
+``{% extends "nptcs/report.html.j2" %}`` or ``{% include "nptcs/cover.html.j2" %}``.
 """
 
 from __future__ import annotations
@@ -68,7 +68,7 @@ def template_faults(folder: str | None) -> list[InputError]:
     -------
     list of InputError
         For a folder that does not exist, a template that cannot be read (with its line), and one
-        whose name no template of the package has and that no other one includes.
+        that neither has the name of a template of the package nor is included by another.
     """
     if folder is None:
         return []
@@ -95,7 +95,7 @@ def template_faults(folder: str | None) -> list[InputError]:
 
 @contextmanager
 def clear_template_errors(folder: str | None) -> Iterator[None]:
-    """Report what goes wrong in a laboratory's own template with its file and line.
+    """Report errors in a laboratory's own template with its file and line.
 
     Raises
     ------
@@ -124,5 +124,5 @@ def _own(filename: str | None, folder: str | None) -> bool:
 
 
 def _broken(message: str, path: Path, line: int | None) -> InputError:
-    remedy = "correct this template, or remove it: the package's own is taken then"
+    remedy = "correct this template, or remove it: the package's own is then used"
     return InputError(f"this template cannot be used: {message}", remedy, path, line)

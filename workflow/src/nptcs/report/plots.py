@@ -1,7 +1,8 @@
-"""Figures as SVG in the page, with their numbers as CSV; figures drawn before are kept.
+"""Figures as SVG in the page, with their numbers as CSV; drawn figures are kept for reuse.
 
 Drawing takes most of the time of a report. A figure is kept under a name made of everything that
-it is drawn from: the plotting function with its code, its arguments and the version of matplotlib.
+it is drawn from: the plotting function with its code, its arguments, the version of matplotlib and
+the language.
 """
 
 from __future__ import annotations
@@ -35,14 +36,14 @@ P = ParamSpec("P")
 
 
 class KeptFigures:
-    """A folder with one file per figure; those that a report does not use go in the end.
+    """A folder with one file per figure; those that a report does not use are removed at the end.
 
     Parameters
     ----------
     folder : Path
         Is made if it does not exist.
     drawers : Drawers
-        They draw what is not kept.
+        They draw the figures that are not kept.
     """
 
     def __init__(self, folder: Path, drawers: Drawers) -> None:
@@ -54,7 +55,7 @@ class KeptFigures:
     def get(
         self, key: str, draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs
     ) -> Callable[[], Drawn]:
-        """Return a function that gives a figure: as it is kept, or as it is drawn from now on."""
+        """Return a function that gives a figure: the kept one, or one whose drawing starts now."""
         if (kept := self.read(key)) is not None:
             return lambda: kept
         if key not in self.started:
@@ -68,7 +69,7 @@ class KeptFigures:
         self.started.clear()
 
     def read(self, key: str) -> Drawn | None:
-        """Return the figure that is kept under a key; None if there is none that is whole."""
+        """Return the figure that is kept under a key; None if there is none or it is damaged."""
         self.used.add(f"{key}.json")
         try:
             kept = read_sealed(self.folder / f"{key}.json", KIND)
@@ -81,7 +82,7 @@ class KeptFigures:
         write_sealed(self.folder / f"{key}.json", figure._asdict(), KIND)
 
     def drop_unused(self) -> None:
-        """Remove the figures that were not asked for."""
+        """Remove the figures that were not requested."""
         for file in self.folder.glob("*.json"):
             if file.name not in self.used:
                 file.unlink(missing_ok=True)
@@ -92,14 +93,14 @@ _KEPT: ContextVar[KeptFigures | None] = ContextVar("kept figures", default=None)
 
 @contextmanager
 def kept_figures(folder: str | Path, processes: int = 1) -> Iterator[None]:
-    """Take figures from a folder, and keep in it those that are drawn, while the block runs.
+    """While the block runs, take figures from a folder, and keep those that are drawn in it.
 
     Parameters
     ----------
     folder : path
         Is made if it does not exist.
     processes : int
-        That draw at the same time.
+        Number of processes that draw at the same time.
     """
     drawers = Drawers(processes)
     kept = KeptFigures(Path(folder), drawers)
@@ -122,12 +123,12 @@ def finish_figures() -> None:
 def plot(
     alt: str, synthetic: bool, draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs
 ) -> Plot:
-    """Let a figure be drawn, or take it from those that are kept, and write it for the page.
+    """Start drawing a figure, or take it from those that are kept, and write it for the page.
 
     Parameters
     ----------
     alt : str
-        The figure in words, for those who cannot see it; its file is named after it.
+        Text alternative of the figure; its file is named after it.
     synthetic : bool
         Whether it shows synthetic data.
     draw : callable
@@ -156,7 +157,7 @@ def _figure(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> Cal
 
 
 def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> str | None:
-    """Name a figure by everything that it is drawn from; None where that cannot be told."""
+    """Name a figure by everything that it is drawn from; None if an argument cannot be pickled."""
     try:
         content = pickle.dumps((args, sorted(kwargs.items())), protocol=5)
     except (pickle.PicklingError, TypeError, AttributeError):
@@ -182,7 +183,7 @@ def packed(csv: str) -> str:
 
 
 def file_name(alt: str) -> str:
-    """Name the file of a figure after its words.
+    """Name the file of a figure after its text alternative.
 
     Examples
     --------
@@ -193,5 +194,5 @@ def file_name(alt: str) -> str:
 
 
 def labelled(svg: str, words: str) -> str:
-    """Give a figure the words that a screen reader says."""
+    """Give a figure the text that a screen reader speaks."""
     return svg.replace("<svg ", f'<svg role="img" aria-label="{escape(words)}" ', 1)

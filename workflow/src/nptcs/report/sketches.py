@@ -13,7 +13,7 @@ from nptcs.report.text import text_width
 WIDTH = 360.0
 """Width of a sketch, in pixels of a page of usual size."""
 CHARACTER, GAP = 6.9, 9.0
-"""Width of a character, rather too wide than too narrow, and the gap between text and mark."""
+"""Width of a character, on the wide side, and the gap between text and mark."""
 LEAST_SPAN = 60.0
 ROW, BAR = 24.0, 11.0
 LEGEND_COLUMN = 180.0
@@ -83,7 +83,7 @@ class MarkPositions:
 def intervals(
     rows: Sequence[IntervalRow], alt: str, band: tuple[float, float] | None = None
 ) -> Sketch:
-    """Draw values with their intervals on one axis; a band shades what is asked for.
+    """Draw values with their intervals on one axis; a band shades the accepted values.
 
     Parameters
     ----------

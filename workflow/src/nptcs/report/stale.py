@@ -38,7 +38,7 @@ def set_aside(files: Sequence[str | Path], verdict_log: str | Path, started: flo
             stale = stale_name(path)
             path.replace(stale)
             renamed.append(stale)
-            print(f"{path} is of an earlier run; it is now {stale}", file=sys.stderr)
+            print(f"{path} is from an earlier run; it is now {stale}", file=sys.stderr)
     return renamed
 
 
@@ -52,7 +52,9 @@ def refused(fault: object, page: str | Path) -> str:
     if not path.is_file():
         return str(fault)
     made = time.strftime("%Y-%m-%d %H:%M", time.localtime(path.stat().st_mtime))
-    return f"{fault}\nNothing was run: {path} is of {made}, from an earlier configuration or sheet."
+    return (
+        f"{fault}\nNothing was run: {path} is dated {made}, from an earlier configuration or sheet."
+    )
 
 
 def stale_name(path: str | Path) -> Path:

@@ -20,7 +20,7 @@ from nptcs.report.figures.theme import LIGHT
 from nptcs.report.svg_path import Stroke, extent, read_path, short, thinned, write_path
 
 FONTS = "Verdana,'DejaVu Sans',Geneva,sans-serif"
-"""Fonts of the width that the layout was made for, which every system has one of."""
+"""Fonts of the width that the layout was made for; every system has one of them."""
 
 ROOM = 'xmlns="http://www.w3.org/2000/svg"'
 VARIABLES = {colour: name for name, colour in LIGHT.items()}
@@ -47,13 +47,13 @@ class Leaf:
     look : tuple of (str, str)
         Attributes that it shares with others of the same look.
     place : str
-        Attributes of its own, as they are written.
+        Its own attributes, as they are written.
     words : str
-        Of a text.
+        Content of a text.
     axis : str
-        Id of the axis to which it belongs; within an axis the order decides nothing.
+        Id of the axis to which it belongs; within an axis the order does not matter.
     strokes : tuple of Stroke
-        Of a path.
+        Strokes of a path.
     """
 
     tag: str
@@ -70,7 +70,7 @@ def compact(svg: str) -> str:
     Parameters
     ----------
     svg : str
-        As `nptcs.report.figures.style.to_svg` gives it.
+        As `nptcs.report.figures.style.to_svg` returns it.
     """
     root = ElementTree.fromstring(svg)
     for element in root.iter():
@@ -172,7 +172,7 @@ def _unclipped(
     low: Sequence[float],
     high: Sequence[float],
 ) -> dict[str, str]:
-    """Leave out a clip path within which the thing lies; places are hundredths of a point."""
+    """Leave out a clip path that clips nothing off; places are in hundredths of a point."""
     name = look.get("clip-path", "")[5:-1]
     box = ids[name].find("rect") if name in ids else None
     if box is None:
@@ -187,7 +187,7 @@ def _unclipped(
 
 
 def _text(element: ElementTree.Element, look: dict[str, str], axis: str) -> Leaf:
-    """Write a text with its place, and turned if it is."""
+    """Write a text with its place and its rotation, if any."""
     transform = element.get("transform", "")
     moved = MOVE.search(transform)
     at = moved.groups() if moved else (element.get("x", "0"), element.get("y", "0"))
@@ -230,7 +230,7 @@ def _attributes(look: dict[str, str]) -> tuple[tuple[str, str], ...]:
 
 
 def _sorted_axes(leaves: list[Leaf]) -> Iterator[Leaf]:
-    """Bring what looks the same together within each axis."""
+    """Group what looks the same within each axis."""
     for axis, run in groupby(leaves, key=lambda leaf: leaf.axis):
         group = list(run)
         if not axis:

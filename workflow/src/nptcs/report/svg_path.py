@@ -1,4 +1,4 @@
-"""Paths of an SVG: read, thinned to what can be seen, written in as few characters as possible."""
+"""Paths of an SVG: read, thinned to visible points, written in as few characters as possible."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ import numpy as np
 from nptcs.arrays import Array
 
 SEEN_PT = 0.07
-"""A polyline may leave the drawn one by this much (points): a tenth of a pixel."""
+"""A thinned polyline may deviate from the drawn one by this much (points): a tenth of a pixel."""
 
 COMMAND = re.compile(r"([MLCQZz])([^MLCQZz]*)")
 NO_POINTS = np.empty((0, 2))
@@ -87,7 +87,7 @@ def thinned(stroke: Stroke, tolerance: float = SEEN_PT) -> Stroke:
 
 
 def distance(points: Array, start: Array, end: Array) -> Array:
-    """Return the distances of points from the straight piece between two points."""
+    """Return the distances of points from the straight segment between two points."""
     along = end - start
     length = float(along @ along)
     place = np.clip((points - start) @ along / length, 0, 1) if length else np.zeros(len(points))
@@ -119,7 +119,7 @@ def write_path(strokes: list[Stroke]) -> str:
 
 
 def _line(x: int, y: int, before: str) -> tuple[str, str]:
-    """Write a straight step, without its command where the last one goes on."""
+    """Write a straight step, without its command where the last one continues."""
     if y == 0 and x != 0:
         return "h" + short(x), "h"
     if x == 0 and y != 0:

@@ -1,4 +1,4 @@
-"""From a table to what the page shows: digits, headings, row classes; nothing is computed."""
+"""Write a table for the page: digits, headings, row classes; nothing is computed."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ UNCERTAIN_BY = {
     "standard_deviation": ("mean", "median", "ci95_low", "ci95_high", "b_basis"),
     "sd": ("nominal", "mean", "low", "high"),
 }
-"""Uncertainty, and columns that are written to the second significant digit of it."""
+"""Column of an uncertainty, and the columns written to its second significant digit."""
 
 WITH_NAMES = frozenset(
     {
@@ -64,13 +64,13 @@ WITH_NAMES = frozenset(
 
 
 WHOLE_ROWS = 24
-"""Rows of the longest table that the page shows whole; the CSV file has them all."""
+"""Rows of the longest table that the page shows in full; the CSV file has all rows."""
 
 PAGE_ROWS = 12
 """Rows of a longer table that the page shows."""
 
 MOST_MARKED = 3000
-"""Rows of a long table that are looked at for marks."""
+"""Rows of a long table that are searched for marks."""
 
 
 def table_view(
@@ -102,7 +102,7 @@ def table_view(
     synthetic : bool
         Whether it shows synthetic data.
     whole : bool
-        Whether a long table, too, is shown with all its rows.
+        Whether all rows are shown, of a long table too.
     """
     filled = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
     shared = [name for name in filled if _is_one_text(table[name])]
@@ -129,7 +129,7 @@ def table_view(
 
 @dataclass(frozen=True)
 class _Column:
-    """How one column is written; `error` is the column with the uncertainty of its values."""
+    """How one column is written; `error` names the column with the uncertainty of its values."""
 
     name: str
     is_number: bool
@@ -166,8 +166,8 @@ def _written(column: _Column, record: Mapping[str, object], entry: Entry) -> Cel
 def on_page(table: pd.DataFrame, mark: RowClass) -> pd.DataFrame:
     """Select the rows of a table that the page shows: all, or the first ones and those that failed.
 
-    Of a table with more than `WHOLE_ROWS` rows these are the first `PAGE_ROWS`, then those further
-    ones that are marked as bad or flagged, again at most as many.
+    Of a table with more than `WHOLE_ROWS` rows these are the first `PAGE_ROWS`, then at most as
+    many others that are marked as bad or flagged.
     """
     if len(table) <= WHOLE_ROWS:
         return table
@@ -202,7 +202,7 @@ def sheet_view(
 
 
 def _is_numeric(column: pd.Series) -> bool:
-    """Tell whether a column holds numbers, and no truth values."""
+    """Tell whether a column contains numbers, not truth values."""
     types = pd.api.types
     return types.is_numeric_dtype(column) and not types.is_bool_dtype(column)
 
@@ -215,7 +215,7 @@ def _is_empty(column: pd.Series) -> bool:
 
 
 def _is_one_text(column: pd.Series) -> bool:
-    """Tell whether all rows of a column have the same long text, so that it is said once."""
+    """Tell whether all rows of a column have the same long text, which is then written once."""
     if len(column) < 2 or _is_numeric(column) or not isinstance(column.iloc[0], str):
         return False
     return len(column.iloc[0]) > LONG and bool(column.eq(column.iloc[0]).all())

@@ -10,7 +10,7 @@ from collections.abc import Iterable
 from nptcs.language import tr
 
 DIGITS = 5
-"""Significant digits of numbers in the report; the CSV files and the workbook have all."""
+"""Significant digits of numbers in the report; the CSV files and the workbook have all digits."""
 
 
 def number_text(value: float, digits: int = DIGITS) -> str:
@@ -57,14 +57,14 @@ WIDE = 1.75
 
 
 PIECE = re.compile(r"\s*(?:[\u2e80-\u9fff]|[^\s\u2e80-\u9fff]+)")
-"""A blank with what follows it: a Chinese character, or what stands together without one."""
+"""A blank with what follows it: a Chinese character, or a run of others without a blank."""
 
 CLOSING = "，。；：）、"
-"""Signs that begin no line."""
+"""Signs that must not begin a line."""
 
 
 def is_wide(character: str) -> bool:
-    """Tell whether a character is as wide as it is high, as Chinese ones are."""
+    """Tell whether a character is as wide as it is high, like Chinese ones."""
     return unicodedata.east_asian_width(character) in "WF"
 
 
@@ -82,7 +82,7 @@ def text_width(text: str) -> float:
 
 
 def wrapped(text: str, width: int) -> str:
-    r"""Break a text into lines: at blanks, and next to a Chinese character anywhere.
+    r"""Break a text into lines: at blanks, and anywhere next to a Chinese character.
 
     Examples
     --------

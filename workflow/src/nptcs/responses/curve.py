@@ -11,7 +11,7 @@ from nptcs.arrays import Array
 
 LEAST_POINTS = 6
 LEAST_SPAN = 0.3
-"""Points of the curve that a tangent rests on: so many, over this share of the last load."""
+"""Points of the curve that a tangent needs at least, and the share of the last load they span."""
 
 
 @dataclass(frozen=True)
@@ -25,12 +25,12 @@ class CurvePoint:
 
 
 class LoadCurve:
-    """The curve through a tyre's solved points: a cubic spline of the displacement by the load.
+    """The curve through a tyre's solved points: displacement as a cubic spline of the load.
 
     Its tangent is not the spline's. A mesh touches the ground point by point, so that the slope of
-    a solved curve rises and falls by some per cent over a few hundred newtons, and a spline makes
-    more of that at its end. The tangent is that of a smoothed curve: of the parabola, by least
-    squares, of the logarithm of the displacement by that of the load, over the nearest points
+    a solved curve rises and falls by a few per cent over a few hundred newtons, and a spline
+    exaggerates this at its end. The tangent is that of a smoothed curve: the least-squares parabola
+    of the logarithm of the displacement against that of the load, over the nearest points
     (Savitzky and Golay, Analytical Chemistry 36, 1964, 1627).
 
     Parameters
@@ -55,7 +55,7 @@ class LoadCurve:
         self.last_displacement_mm = float(displacement_mm[-1])
 
     def at_load(self, load_n: float) -> CurvePoint | None:
-        """Return the point at a load; None where the curve does not reach it."""
+        """Return the point at a load; None if the curve does not reach it."""
         if not 0.0 < load_n <= self.last_load_n * (1.0 + 1e-9):
             return None
         displacement = float(self._displacement(load_n))
@@ -79,7 +79,7 @@ class LoadCurve:
         return bool(np.ptp(loads_n) >= LEAST_SPAN * self.last_load_n)
 
     def at_displacement(self, displacement_mm: float) -> CurvePoint | None:
-        """Return the point at a displacement; None where the curve does not reach it."""
+        """Return the point at a displacement; None if the curve does not reach it."""
         if not 0.0 < displacement_mm <= self.last_displacement_mm:
             return None
         crossings = self._displacement.solve(displacement_mm, extrapolate=False)

@@ -1,8 +1,9 @@
-"""One solved tyre once more, for the outlines of its spokes: figure 10 a of the paper."""
+"""One solved tyre, solved again for the outlines of its spokes: figure 10 a of the paper."""
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from pathlib import Path
 from typing import Any
 
 import pandas as pd
@@ -10,10 +11,8 @@ import pandas as pd
 from nptcs.campaign.record import CaseRecord
 from nptcs.config.root import Config
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.fe.case import loaded_tyre, spoke_design, tyre_model
-from nptcs.fe.energy_cache import shared_table
-from nptcs.fe.output.outlines import tyre_outlines
-from nptcs.fe.spoke.equilibrium import SpokeError, SpokeModel
+from nptcs.fe.outline_cache import SolvedTyre, shared_outlines
+from nptcs.fe.spoke.equilibrium import SpokeError
 from nptcs.fe.tyre.equilibrium import TyreError
 from nptcs.solvers.contract import SolverOptions
 from nptcs.solvers.fe_tyre import FeTyreOptions
@@ -28,8 +27,9 @@ def outlines_of_study(
     records: Sequence[CaseRecord],
     design: pd.DataFrame,
     ply: Mapping[str, float],
+    store: Path,
 ) -> pd.DataFrame:
-    """Draw the first solved one of the cases whose neutral line a study requests.
+    """Draw the first solved case among those whose neutral line a study requests.
 
     Parameters
     ----------
@@ -42,6 +42,8 @@ def outlines_of_study(
         The study's `nptcs.tables.tyres.cases.DesignTable`.
     ply : mapping
         The nine ply constants.
+    store : Path
+        Folder of outlines that were drawn before.
 
     Returns
     -------
@@ -57,6 +59,7 @@ def outlines_of_study(
         read_options(load_solver(module_of(solver, options)), options),
         config.tyre,
         ply,
+        store,
     )
 
 
@@ -66,10 +69,12 @@ def deformed_tyre(
     options: SolverOptions,
     tyre: TyreGeometry,
     ply: Mapping[str, float],
+    store: Path,
 ) -> pd.DataFrame:
     """Draw the outlines of the first of some cases that was solved, as `DeformedTyre`.
 
-    Records hold no motions of the spokes: the case is solved again, from the same inputs.
+    Records do not contain motions of the spokes: the case is solved again, from the same inputs,
+    unless its outlines are stored.
 
     Parameters
     ----------
@@ -82,11 +87,13 @@ def deformed_tyre(
     tyre : TyreGeometry
     ply : mapping
         The nine ply constants.
+    store : Path
+        Folder of outlines that were drawn before.
 
     Returns
     -------
     DataFrame
-        No rows where none of the cases was solved.
+        No rows if none of the cases was solved, or if solving it again fails.
     """
     columns = list(DeformedTyre.to_schema().columns)
     solved = {r.case_id: r for r in records if r.result.displacement_mm is not None and r.load_n}
@@ -95,11 +102,9 @@ def deformed_tyre(
         return pd.DataFrame(columns=columns)
     record = named[0]
     load_n = float(record.load_n or 0.0)
-    design = spoke_design(options, tyre, ply, record.values)
+    case = SolvedTyre(record.key, record.values, load_n, options, tyre, ply)
     try:
-        table = shared_table(options, design, options.spoke_cache)
-        model = tyre_model(options, tyre, table, record.values["shear_band_c10_mpa"])
-        rows = tyre_outlines(model, loaded_tyre(model, options, load_n), SpokeModel(design))
+        rows = shared_outlines(case, store, options.spoke_cache)
     except (SpokeError, TyreError):
         return pd.DataFrame(columns=columns)
     about: dict[str, Any] = {

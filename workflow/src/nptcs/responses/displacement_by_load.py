@@ -45,7 +45,7 @@ def displacement_by_load(
     Returns
     -------
     DataFrame
-        `DisplacementByLoad`; no rows where no solver computed such a tyre with its plates.
+        `DisplacementByLoad`; no rows if no solver computed such a tyre with its plates.
     """
     model = validation[validation["section"].eq(PHYSICAL_SECTION)]
     tyres = same_tyres(cases, curves, shear_band_c10_mpa)
@@ -77,7 +77,7 @@ def displacement_by_load(
 def same_tyres(
     cases: pd.DataFrame, curves: pd.DataFrame, shear_band_c10_mpa: float
 ) -> pd.DataFrame:
-    """Take the cases with table 11's band and plates by solvers of which there are curves."""
+    """Take the cases with table 11's band and plates that have a curve."""
     wanted = {**FIDUCIAL_PLATES, "shear_band_c10_mpa": shear_band_c10_mpa}
     if not {*wanted, "spoke_c10_mpa"} <= set(cases):
         return cases.iloc[:0].reindex(columns=["solver", "case_id", "spoke_c10_mpa", "load_n"])

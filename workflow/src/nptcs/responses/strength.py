@@ -21,7 +21,7 @@ TESTED = {
 
 @dataclass(frozen=True)
 class PlyStrengths:
-    """Strengths of the ply, positive, MPa; None where none is tested.
+    """Strengths of the ply, positive, MPa; None for one that is not tested.
 
     Parameters
     ----------
@@ -47,8 +47,8 @@ class PlyStrengths:
 def ply_strengths(statistics: pd.DataFrame, material: str | None) -> PlyStrengths:
     """Take the strengths of a ply from the statistics of its tests.
 
-    The reported statistic (mean or median) of each group of specimens; a group whose statistic is
-    empty gives none.
+    Each is the reported statistic (mean or median) of its group of specimens, the lowest if there
+    are several groups; a group whose statistic is empty is left out.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ from nptcs.tables.laboratory.statistics import StatisticsTable
 def study_responses(
     study: Study, records: Sequence[str], statistics: Sequence[str], job: Mapping[str, Any]
 ) -> pd.DataFrame | None:
-    """Gather the responses of a study's solved tyres, at all loads that its surfaces ask for.
+    """Gather the responses of a study's solved tyres, at all loads that its surfaces need.
 
     Parameters
     ----------

@@ -15,7 +15,7 @@ from nptcs.responses.strength import PlyStrengths, maximum_stress_factor, tsai_w
 from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
 OK, NOT_ASSESSED, NOT_REACHED = "ok", "not assessed", "not reached"
-# what a solver reports of the tyre at its load: name, unit, rule
+# what a solver reports about the tyre at its load: name, unit, rule
 AT_LOAD = {
     "contact_length_mm": ("contact_length", "mm", "√(12 Var) of the place, by pressure"),
     "largest_pressure_mpa": ("largest_pressure", "MPa", "of the contact's points"),
@@ -25,7 +25,7 @@ AT_LOAD = {
 }
 # what needs a contact of enough points
 OF_CONTACT = {"contact_length_mm", "largest_pressure_mpa", "mean_pressure_mpa"}
-# what it reports of the most loaded spokes, solved again
+# what it reports about the most loaded spokes, solved again
 PLATE = "at the plates' faces, element centres"
 PLATE_MEAN = "at the plates' faces, element means"
 RUBBER = "at the integration points of the most loaded spokes"
@@ -160,7 +160,7 @@ def _why_not(record: CaseRecord, key: str) -> str:
 
 
 def _why_no_stress(record: CaseRecord) -> str:
-    """Say why the inside of the spokes is not known."""
+    """Say why the stress inside the spokes is not known."""
     return record.result.message or "no spoke was solved again at its motion in the tyre"
 
 

@@ -40,7 +40,7 @@ DIMENSIONS = (
     "wire_poisson_ratio",
 )
 """Fields of `TyreGeometry` that a design may vary. The width is not among them: a spoke's table is
-of a spoke as wide as its tyre."""
+computed for a spoke as wide as its tyre."""
 NUMBERS = (
     "displacement_mm",
     "displacement_standard_error_mm",
@@ -76,7 +76,7 @@ class SpokeSource(Protocol):
 
 
 class NamedTables:
-    """Computed energy tables by name, which a column ``spoke`` gives.
+    """Computed energy tables by name, given in a column ``spoke``.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ class NamedTables:
         """
         name = str(row["spoke"])
         if name not in self._tables:
-            raise ValueError(f"there is no energy table of a spoke {name!r}")
+            raise ValueError(f"there is no energy table for a spoke {name!r}")
         return self._tables[name]
 
     def displacement_error_mm(
@@ -127,16 +127,16 @@ def solve_table(
     ----------
     table : DataFrame
         Columns `REQUIRED` and those of `spokes`; any of `OPTIONAL` and `DIMENSIONS` replaces the
-        common value where the cell is not empty. Other columns are kept.
+        common value if the cell is not empty. Other columns are kept.
     spokes : SpokeSource
         Energy tables by name, or a surrogate.
     tyre : TyreGeometry
         The tyre that the designs of the table vary.
     options : RingOptions
     workers : int
-        Processes; results do not depend on it.
+        Number of processes; results do not depend on it.
     kernel : {"numpy", "numba"}, optional
-        numba where it is installed.
+        numba if it is installed.
 
     Returns
     -------
@@ -147,8 +147,8 @@ def solve_table(
     Raises
     ------
     InputError
-        If a required column is missing, a column has the name of a result, or a dimension of the
-        tyre that a design cannot vary.
+        If a required column is missing, or a column has the name of a result or of a dimension of
+        the tyre that a design cannot vary.
     """
     for column in sorted(set(TyreGeometry.model_fields) - set(DIMENSIONS)):
         if column in table:
@@ -190,7 +190,7 @@ def _solve_rows(
 def _solve_row(
     row: Row, spokes: SpokeSource, tyre: TyreGeometry, options: RingOptions, kernel: Kernel | None
 ) -> dict[str, Any]:
-    """Give the result of one design; what fails is a status and a message."""
+    """Give the result of one design; a failure is a status and a message."""
     try:
         numbers = _numbers(row)
         load_n = numbers["load_n"]

@@ -1,10 +1,11 @@
 """How a displacement changes with the design: the adjoint of the whole load path.
 
-Friction remembers, so a displacement depends on all states before it. Every state is an equilibrium
-R(u, δ, a; p) = 0 under a load P(u, δ; p) = F, with the anchors a that the state before left behind,
-a' = x - τ/ε_t. Their adjoints run the path backwards, one transposed solution for each state; the
-derivatives of R, P and a' by the parameters are central differences of one assembly at frozen
-states, exact but for rounding where the parameter enters linearly, as rubbers and spokes do.
+Friction depends on the history, so a displacement depends on all states before it. Every state is
+an equilibrium R(u, δ, a; p) = 0 under a load P(u, δ; p) = F, with the anchors a that the state
+before it left, a' = x - τ/ε_t. The adjoints run backwards along the path with one transposed
+solution for each state; the derivatives of R, P and a' with respect to the parameters are central
+differences of one assembly at frozen states, exact except for rounding where the parameter enters
+linearly, as those of rubbers and spokes do.
 """
 
 from __future__ import annotations
@@ -33,7 +34,7 @@ class Gradient:
     ----------
     displacement_mm, stiffness_n_per_mm : float
     displacement_slope, stiffness_slope : arrays (parameters,)
-        Derivatives by the parameters, mm and N/mm for each unit of the parameter.
+        Derivatives with respect to the parameters, mm and N/mm per unit of the parameter.
     """
 
     displacement_mm: float
@@ -50,7 +51,7 @@ def stiffness_gradient(
     Parameters
     ----------
     build : callable
-        Parameters (n,) to a tyre; the number of its nodes must not depend on them.
+        Builds a tyre from parameters (n,); the number of its nodes must not depend on them.
     parameters : sequence of float
         For example the band's C10, a factor of the spokes' energy, a thickness.
     loads_n : sequence of float
@@ -105,11 +106,11 @@ def displacement_slopes(
         system = tyre.kernel.assemble(tyre.ring, state.u, state.rise_mm, state.anchor_before)
         contact = _Contact.of(tyre, state)
         more_u, more_rise, anchor_back = contact.anchors_back(tyre, by_anchor)
-        # the first touch is at a given rise, which no parameter moves
+        # the first touch is at a given rise, which no parameter changes
         held = number == 0
         push, weight = _adjoint(tyre, system, by_u + more_u, by_rise + more_rise, held)
         slopes += _explicit(neighbours, state, push, weight, by_anchor)
-        # the residual holds -slide by_x for each millimetre of the anchor
+        # the residual contains -slide by_x for each millimetre of the anchor
         by_anchor = anchor_back + contact.slide * contact.along(tyre, push)
         by_u, by_rise = np.zeros((count, UNKNOWNS)), 0.0
     rest = np.zeros((count, UNKNOWNS))
@@ -124,7 +125,7 @@ def _adjoint(
 ) -> tuple[Array, float]:
     """Multipliers λ (nodes, 5) of the residual and µ of the load."""
     rhs = np.stack([by_u, system.row], axis=2)
-    solved = tyre.kernel.solve(*system.transposed(), rhs)
+    solved = tyre.kernel.solve(*system.transposed(), rhs, system.feet)
     own, follow = solved[:, :, 0], solved[:, :, 1]
     if held:
         return own, 0.0
@@ -159,7 +160,7 @@ def _explicit(
 
 @dataclass(frozen=True)
 class _Contact:
-    """The ground's derivatives of all elements: N/mm, and of the surface by the variables (10)."""
+    """Derivatives of the ground's forces on all elements, and of their surface by 10 variables."""
 
     by_x: Array
     by_y: Array
@@ -205,7 +206,7 @@ class _Contact:
         return np.sum(self.by_x * np.concatenate([mean, difference]), axis=0)
 
     def anchors_back(self, tyre: RingTyre, by_anchor: Array) -> tuple[Array, float, Array]:
-        """Carry adjoints of the anchors left to the unknowns, the rise and the anchors before.
+        """Carry adjoints of the new anchors to the unknowns, the rise and the previous anchors.
 
         a' = x - τ/ε_t where the surface touches, x elsewhere.
         """

@@ -1,18 +1,17 @@
-"""How the ring's layers give way under waves of pressure and shear, and the tread matched to it.
+"""Deflection of the ring's layers under waves of pressure and shear, and the tread matched to it.
 
 Under a pressure cos(qx) on its surface, a flat strip of rubber layers and wires settles by a
-closed form of plane elasticity. A ring that thins under the pressure right below each place
-settles too much where the pressure varies over lengths like the tread's depth: the rubber next to
-a short contact carries part of it, because a tread whose thickness varies along it is sheared.
-To the first order this takes from what a shift s of the surface thickens the tread: 1 - G/2λ
-of it is left (λ of Lamé), less for shorter waves. The coefficient of this thickening is
-therefore chosen so that the ring settles as the layers do, under half waves from six depths down to
-0.7 of one.
+closed form of plane elasticity. A ring that thins only where the pressure acts settles too much
+where the pressure varies over lengths like the tread's depth: the rubber next to a short contact
+carries part of it, because a tread whose thickness varies along it is sheared. To first order this
+reduces the thickening of the tread by a shift s of the surface: 1 - G/2λ of it is left (λ: Lamé's
+constant), less for shorter waves. The coefficient of this thickening is therefore chosen so that
+the ring settles as the layers do, under half waves from six depths down to 0.7 of one.
 
-Under a shear sin(qx) of the ground the tread's surface moves along. The shape f of the ring's
-shear has no strain at the surface, where a shear of the ground asks for one: the ring moves too
-little by surface/4G if the wave is long, by half of that if it is as short as the tread is deep. A
-compliance in series with the ground's gives it back, the mean over the same waves.
+Under a shear sin(qx) of the ground the tread's surface moves along the ring. The shape f of the
+ring's shear has no strain at the surface, although a shear of the ground requires one: the ring
+moves too little, by surface/4G if the wave is long and by half of that if it is as short as the
+tread is deep. A compliance in series with the ground's, the mean over the same waves, corrects it.
 
 A layer's state is (U, V, T, S): displacement along (sin qx) and outwards (cos qx), shear stress
 (sin qx) and stress across (cos qx), MPa. With the moduli of `Rubber`,
@@ -31,9 +30,11 @@ from nptcs.arrays import Array
 from nptcs.ring.rubber import Rubber
 
 STATES = 4
-# half waves by the depth from the inner wires to the surface
+# half waves, as multiples of the depth from the inner wires to the surface
 HALF_WAVES = np.geomspace(0.7, 6.0, 9)
-# of a smooth function of one number
+# of a foot's pull: longest half wave in the same depths, and q w of the shortest
+LONGEST_HALF_WAVE, SHORTEST_WAVE, FOOT_WAVES = 12.0, 60.0, 96
+# Gauss–Newton steps for a smooth function of one variable
 ITERATIONS = 6
 
 
@@ -69,7 +70,7 @@ class RubberLayer:
 class WireSheet:
     """Wires in a row that turns with them: stiffness by width in stretch (N/mm) and bending (N mm).
 
-    The row's depth is half on either side of the wires.
+    Half of the row's depth is on either side of the wires.
     """
 
     stretch_n_per_mm: float
@@ -129,7 +130,7 @@ def _surface(
 
 @dataclass(frozen=True)
 class FlatRing:
-    """The ring's section without curvature, as `RingSection` has it."""
+    """The ring's section without curvature; names as in `RingSection`."""
 
     stiffness: Array
     thickening: Array
@@ -152,7 +153,7 @@ class FlatRing:
         -------
         a, b, c : arrays (waves,)
         """
-        # the surface's place by the amplitudes, and by them times a change of the thickening
+        # derivative of the surface's place by the amplitudes, and by these and the thickening
         lift = np.zeros((len(wave), 5, 2))
         lift[:, 0, 0] = 1.0
         lift[:, [2, 1, 3], 0] = self.thickening * wave[:, None]
@@ -160,10 +161,20 @@ class FlatRing:
         both = self.width_mm * lift.swapaxes(1, 2) @ np.linalg.solve(self._stiffness(wave), lift)
         return both[:, 0, 0] + self.compliance_mm_per_mpa, 2.0 * both[:, 0, 1], both[:, 1, 1]
 
+    def inner_settlement(self, wave: Array) -> Array:
+        """Displacement (waves,) of the ring under a pull cos(qx) on it, mm per MPa.
+
+        The ring's core keeps its thickness: its inner face moves as its middle does.
+        """
+        lift = np.zeros((len(wave), 5, 1))
+        lift[:, 0, 0] = 1.0
+        found: Array = self.width_mm * np.linalg.solve(self._stiffness(wave), lift)[:, 0, 0]
+        return found
+
     def drift(self, wave: Array) -> Array:
         """Displacement (waves,) of the surface along itself under a shear sin(qx), mm per MPa.
 
-        To the first order it is u + s - c θ - surface ψ, u the displacement along the ring.
+        To first order it is u + s - c θ - surface ψ, u the displacement along the ring.
         """
         lift = np.zeros((len(wave), 5, 1))
         lift[:, 1:, 0] = -self.surface_mm, -self.half_distance_mm, 1.0, 1.0
@@ -188,7 +199,7 @@ class FlatRing:
 def missing_drift(
     ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float
 ) -> float:
-    """Mean over `HALF_WAVES` of what the layers' surface drifts more than the ring's, mm per MPa.
+    """Mean over `HALF_WAVES` of the excess of the layers' drift over the ring's, mm per MPa.
 
     Parameters
     ----------
@@ -199,12 +210,48 @@ def missing_drift(
     return float(np.mean(drift(layers, wave) - ring.drift(wave)))
 
 
+def foot_squeeze(
+    ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float, width_mm: float
+) -> Array:
+    """Find what the layers give way under a foot more than the ring does.
+
+    A foot of width w pulls evenly by its force F, and linearly by its moment M; its motion is the
+    mean over w, and the turn ∫ x u dx / ∫ x² dx. Over all waves of the pull, b the axial width,
+
+        u/F = 1/(π b) ∫ (sin X/X)² c dq,  φ/M = 1/(π b) ∫ (3 q (sin X - X cos X)/X³)² c dq,
+
+    X = q w/2, with c(q) the settlement of the layers' inner face less that of the ring. Waves
+    longer than 24 depths, which both carry alike, are left out.
+
+    Parameters
+    ----------
+    ring, layers, depth_mm
+        As in `matched_thickening`.
+    width_mm : float
+        w.
+
+    Returns
+    -------
+    array (2,)
+        u/F in mm/N, φ/M in 1/(N mm).
+    """
+    low, high = np.pi / (LONGEST_HALF_WAVE * depth_mm), SHORTEST_WAVE / width_mm
+    points, weights = np.polynomial.legendre.leggauss(FOOT_WAVES)
+    wave = 0.5 * (low + high) + 0.5 * (high - low) * points
+    missing = settlement(layers[::-1], wave) - ring.inner_settlement(wave)
+    x = 0.5 * wave * width_mm
+    even = np.sin(x) / x
+    linear = 3.0 * wave * (np.sin(x) - x * np.cos(x)) / x**3
+    scale = 0.5 * (high - low) * weights * missing / (np.pi * ring.width_mm)
+    return np.array([scale @ even**2, scale @ linear**2])
+
+
 def matched_thickening(
     ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float
 ) -> float:
     """Find the change of the thickening by s' with which the ring settles as the layers do.
 
-    Least squares of the settlement over `HALF_WAVES`, by Gauss and Newton.
+    Least squares of the settlement over `HALF_WAVES`, by the Gauss–Newton method.
 
     Parameters
     ----------

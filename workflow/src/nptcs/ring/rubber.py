@@ -12,7 +12,7 @@ class Rubber:
     Parameters
     ----------
     c10_mpa : float
-        Neo-Hooke; the shear modulus is 2 C10.
+        Neo-Hookean constant; the shear modulus is 2 C10.
     bulk_to_shear_ratio : float
         κ/2C10; infinite is incompressible.
     """
@@ -33,12 +33,12 @@ class Rubber:
 
     @property
     def contraction(self) -> float:
-        """Thickness lost by a stretch along the ring: (κ - 2G/3)/(κ + 4G/3)."""
+        """Thinning per stretch along the ring: (κ - 2G/3)/(κ + 4G/3)."""
         inverse = 1.0 / self.bulk_to_shear_ratio
         return (1.0 - 2.0 * inverse / 3.0) / (1.0 + 4.0 * inverse / 3.0)
 
     @property
     def through_compliance_per_mpa(self) -> float:
-        """Strain through the thickness by a pressure where nothing moves along: 1/(κ + 4G/3)."""
+        """Strain through the thickness per pressure, held along the ring: 1/(κ + 4G/3)."""
         inverse = 1.0 / self.bulk_to_shear_ratio
         return inverse / (self.shear_mpa * (1.0 + 4.0 * inverse / 3.0))

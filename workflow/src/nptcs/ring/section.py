@@ -25,6 +25,7 @@ from nptcs.ring.pressure_waves import (
     FlatRing,
     RubberLayer,
     WireSheet,
+    foot_squeeze,
     matched_thickening,
     missing_drift,
 )
@@ -55,18 +56,21 @@ class RingSection:
     width_mm : float
         Axial width.
     stiffness : array (7, 7)
-        C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products ask.
+        C for the strains (e, κs, κf, s', q, γ, s): N, N mm, N mm² as their products require.
     hardening : array (4, 4, 4)
         D for the strains (e, κs, κf, s').
     core : array (6,)
-        Pull of the wires on the core's thickness by (e, κs, κf) (N, N mm, N mm), the core's
-        compliance (mm²/N), the wires' stiffness (N) and the curvature 1/R (1/mm).
+        Pull of the wires on the core's thickness per unit of (e, κs, κf) (N, N mm, N mm), the
+        core's compliance (mm²/N), the wires' stiffness (N) and the curvature 1/R (1/mm).
     thickening : array (3,)
-        Growth of the tread's thickness by κs and κf (mm²) and by s' (mm).
+        Growth of the tread's thickness per unit of κs and κf (mm²) and of s' (mm).
     compliance_mm_per_mpa : float
         Thinning of tread and band under the pressure of the ground; 0 for incompressible rubber.
     shear_compliance_mm_per_mpa : float
-        What a shear of the ground moves the tread's surface more than the shape f does.
+        Movement of the tread's surface per shear of the ground, beyond that of the shape f.
+    foot_squeeze : array (2,)
+        Compliance of the band's layers under a spoke's foot beyond that of the ring: displacement
+        per force (mm/N) and turn per moment (1/(N mm)).
     """
 
     radius_mm: float
@@ -80,6 +84,7 @@ class RingSection:
     thickening: Array
     compliance_mm_per_mpa: float
     shear_compliance_mm_per_mpa: float
+    foot_squeeze: Array
 
     @property
     def outer_radius_mm(self) -> float:
@@ -88,7 +93,7 @@ class RingSection:
 
 
 def ring_section(
-    tyre: TyreGeometry, band: Rubber, tread: Rubber, row_depth_mm: float
+    tyre: TyreGeometry, band: Rubber, tread: Rubber, row_depth_mm: float, foot_width_mm: float
 ) -> RingSection:
     """Section of a tyre: two layers of wires in rubber, the tread outside.
 
@@ -100,6 +105,8 @@ def ring_section(
     tread : Rubber
     row_depth_mm : float
         Depth of rubber around each layer of wires that turns with them and does not shear.
+    foot_width_mm : float
+        Of a spoke's foot along the circumference.
 
     Raises
     ------
@@ -149,6 +156,7 @@ def ring_section(
         thickening=thickening,
         compliance_mm_per_mpa=squeezed,
         shear_compliance_mm_per_mpa=missing_drift(flat_ring, strip, 2.0 * half + surface),
+        foot_squeeze=foot_squeeze(flat_ring, strip, 2.0 * half + surface, foot_width_mm),
     )
 
 
@@ -165,7 +173,7 @@ class _Depths:
 def _assembled(
     tyre: TyreGeometry, band: Rubber, tread: Rubber, depths: _Depths, radius: float
 ) -> tuple[Array, Array, Array]:
-    """Give stiffness, hardening and thickening by one shape of the tread's shear.
+    """Give stiffness, hardening and thickening for one shape of the tread's shear.
 
     An infinite radius is a flat section.
     """
@@ -256,9 +264,11 @@ def _tread(half: float, row: float, surface: float, z: Array) -> Array:
 
 
 def _add_wires(stiffness: Array, tyre: TyreGeometry, radius: float, face: float) -> None:
-    """Add a layer of wires: two fibres at a quarter of the diameter from its axis bend as they do.
+    """Add a layer of wires as two fibres at a quarter of the diameter from its axis.
 
-    Their transverse shear stiffness holds the faces square to them.
+    The two fibres have the bending stiffness of the round wires.
+
+    The wires' transverse shear stiffness holds the faces square to them.
     """
     area = _wire_area_mm2(tyre)
     z = np.array([-0.25, 0.25]) * tyre.wire_diameter_mm
@@ -274,7 +284,7 @@ def _core_under_wires(
 ) -> Array:
     """Give the wires' pull on the core by (e, κs, κf), its compliance, their stiffness and 1/R.
 
-    The core is 2 `inside` deep and moves nowhere along the ring as it is squeezed; each face moves
+    The core is 2 `inside` deep and does not move along the ring as it is squeezed; each face moves
     by δ: ½ δ²/a with a = inside/(2 b (κ + 4G/3)).
     """
     area = _wire_area_mm2(tyre)

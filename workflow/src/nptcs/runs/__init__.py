@@ -1,4 +1,4 @@
-"""Finished runs as things that have an identity and can be compared.
+"""Finished runs: their identity, and the comparison of two of them.
 
 The tables, inputs, configuration and code of a run come in; its identity (a hash of their content)
 goes out, or the differences between two runs, table by table. Comparing computed with published

@@ -1,6 +1,6 @@
 """Every table of two runs: columns, rows and values, also of tables that no other part shows.
 
-Rows are matched by the keys of the table's contract where it has some, and otherwise by their
+Rows are matched by the keys of the table's contract if it has any, and otherwise by their
 order. Columns that belong to the run and to the code (`OF_THE_RUN`) are not compared.
 """
 
@@ -165,7 +165,7 @@ def _values(one: pd.DataFrame, two: pd.DataFrame) -> tuple[float, str, list[str]
 
 
 def _texts(column: pd.Series[Any]) -> list[str]:
-    """Return the values of a column as texts, nothing as an empty one."""
+    """Return the values of a column as text; a missing value is an empty text."""
     return ["" if pd.isna(value) else str(value) for value in column]
 
 
@@ -189,7 +189,7 @@ def _is_number(column: pd.Series[Any]) -> bool:
 
 
 def described(part: Part) -> Mapping[str, str]:
-    """Say of each table that differs in which way, by its file."""
+    """Say how each table differs, by its file."""
     found = {}
     for row in part.differences.to_dict("records"):
         if row[RESULT] != Found.DIFFERENT:

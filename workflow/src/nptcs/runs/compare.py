@@ -19,7 +19,7 @@ WITHIN = 1e-9
 """Relative difference up to which numbers are the same."""
 
 NAMED = 6
-"""Input files that a sentence names."""
+"""Most input files that a sentence names."""
 
 
 @dataclass(frozen=True)
@@ -71,7 +71,7 @@ class ComparedRuns:
         return tr("The runs differ in: {parts}.", parts="; ".join(changed))
 
     def sentences(self) -> tuple[str, ...]:
-        """Say the most important differences in words."""
+        """State the most important differences in words."""
         return tuple(filter(None, (self._inputs(), self._constants(), self._stiffness())))
 
     def _inputs(self) -> str:
@@ -88,8 +88,8 @@ class ComparedRuns:
                 shown = tr("{names} and {count} more", names=shown, count=more)
             said.append(
                 tr_count(
-                    "{count} of {total} input files has other content: {names}.",
-                    "{count} of {total} input files have other content: {names}.",
+                    "{count} of {total} input files has different content: {names}.",
+                    "{count} of {total} input files have different content: {names}.",
                     len(changed),
                     total=len(part.table),
                     names=shown,

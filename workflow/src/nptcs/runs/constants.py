@@ -29,15 +29,15 @@ COLUMNS = (
     "constant",
     "unit",
     "a",
-    "standard_error_a",
     "b",
-    "standard_error_b",
-    "difference",
     "difference_percent",
-    "combined_standard_error",
     "difference_over_error",
     "beyond_uncertainty",
     "data",
+    "difference",
+    "combined_standard_error",
+    "standard_error_a",
+    "standard_error_b",
     "note",
 )
 HEADINGS = {
@@ -171,7 +171,7 @@ def _files_of_specimens(run: FinishedRun) -> dict[str, frozenset[str]]:
 
 
 def _notes(one: CardConstant, two: CardConstant) -> Iterator[str]:
-    """Say what else differs of a constant."""
+    """Say what else differs in a constant."""
     if one.origin != two.origin:
         yield tr("{a} in A, {b} in B", a=tr(one.origin), b=tr(two.origin))
     if one.rule != two.rule:

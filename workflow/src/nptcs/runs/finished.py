@@ -1,4 +1,4 @@
-"""A finished run, read as it is on disk: also one that another version of the package has made."""
+"""A finished run, read as it is on disk, even if another version of the package made it."""
 
 from __future__ import annotations
 
@@ -39,7 +39,7 @@ class FinishedRun:
         Plain values, as the run's version knew them.
     card : MaterialCard
     tables : mapping of str to DataFrame
-        Result tables by file name; text is text where a contract says so.
+        Result tables by file name; columns that a contract declares as text are read as text.
     inputs : mapping of str to str
         SHA-256 of each input file.
     software : mapping of str to str
@@ -63,19 +63,19 @@ class FinishedRun:
 
     @property
     def language(self) -> Language:
-        """Language of the run's own report; English where the run names none that is known."""
+        """Language of the run's own report; English if the run names no known language."""
         named = (self.configuration.get("laboratory") or {}).get("language")
         return next((one for one in get_args(Language) if one == named), ENGLISH)
 
     def table(self, file: str) -> pd.DataFrame | None:
-        """Return a table by its file name; None if the run has none of this name."""
+        """Return a table by its file name; None if the run has no table of this name."""
         return self.tables.get(file)
 
     def what(self) -> str:
         """Say in a few words which run this is."""
         if self.identity is None:
             return tr(
-                "{name}: a run without identity, as older versions of nptcs leave it",
+                "{name}: a run without identity, as left by older versions of nptcs",
                 name=self.name,
             )
         return tr(
@@ -96,7 +96,7 @@ def read_run(folder: Path, name: str, software: Mapping[str, str] | None = None)
     name : str
         How the user named it.
     software : mapping of str to str, optional
-        Versions that are known from elsewhere, such as an archive's description of them.
+        Versions that are known from elsewhere, such as an archive's description.
 
     Raises
     ------
@@ -126,8 +126,8 @@ def _refuse_unfinished(results: Path, name: str) -> None:
         if not (results / needed).is_file():
             raise InputError(
                 "there is no finished run here",
-                "name a project folder that was run to its end, its folder of results, or a file "
-                "of 'nptcs archive'",
+                "name a project folder with a finished run, its folder of results, or a file made "
+                "by 'nptcs archive'",
                 results / needed,
                 value=name,
             )
@@ -139,7 +139,7 @@ def _identity(results: Path) -> RunIdentity | None:
 
 
 def _refuse_edited(results: Path, identity: RunIdentity) -> None:
-    """Compare tables and card with what the run has written."""
+    """Compare tables and card with what the run wrote."""
     for file, written in identity.tables.items():
         path = results / file if file == CARD else results / "tables" / file
         if not path.is_file():
@@ -154,7 +154,7 @@ def _refuse_edited(results: Path, identity: RunIdentity) -> None:
             )
 
 
-_RESTORE = "run snakemake to its end, or unpack the archive of the run again"
+_RESTORE = "run snakemake to completion, or unpack the archive of the run again"
 
 
 def _configuration(path: Path) -> dict[str, Any]:

@@ -1,4 +1,4 @@
-"""The identity of a run: one hash of all that decides its numbers, and of the numbers."""
+"""The identity of a run: one hash of everything that decides its numbers, and of the numbers."""
 
 from __future__ import annotations
 
@@ -72,7 +72,7 @@ def identify(
     tables : mapping of str to str
         `hash_of_table` of each result table, and the hash of the material card.
     software : mapping of str to str
-        Versions; they are told, and are not part of the identity.
+        Versions; they are recorded, but are not part of the identity.
     made : datetime
         When the tables were complete; not part of the identity either.
 
@@ -105,7 +105,7 @@ def identify(
 def hash_of_table(path: str | Path) -> str:
     """Hash the content of a CSV table, its columns with times left out.
 
-    A run that is repeated takes another time for each case; its numbers are the same.
+    A repeated run takes a different time for each case; its numbers are the same.
     """
     digest = hashlib.sha256()
     with Path(path).open(encoding="utf-8", newline="") as stream:

@@ -14,7 +14,7 @@ from nptcs.language import tr
 from nptcs.tables.result_table import Heading
 
 RESULT = "result"
-"""Column that says of each row what was found."""
+"""Column that says what was found for each row."""
 
 
 class Found(StrEnum):
@@ -38,7 +38,7 @@ class Part:
     about : str
         How it was compared: the rule, and what the columns mean.
     table : DataFrame
-        One row per thing compared; the column `RESULT` holds a `Found`.
+        One row per thing compared; the column `RESULT` contains a `Found`.
     remarks : tuple of str
         What could not be compared, and why.
     headings : mapping of str to Heading
@@ -97,14 +97,14 @@ def count_in_words(found: Found, count: int) -> str:
 
 
 def presence(in_a: bool, in_b: bool) -> Found | None:
-    """Name the run that alone has an item; None if both have it."""
+    """Name the only run that has an item; None if both have it."""
     if in_a and in_b:
         return None
     return Found.ONLY_A if in_a else Found.ONLY_B
 
 
 def numbers_equal(one: float, two: float, within: float) -> bool:
-    """Tell whether two numbers are the same within a relative difference; no number is a value too.
+    """Tell whether two numbers are the same within a relative difference; two NaN are the same.
 
     Examples
     --------
@@ -137,5 +137,5 @@ def as_number(value: Any) -> float:
 
 
 def part_table(rows: Sequence[dict[str, object]], columns: Sequence[str]) -> pd.DataFrame:
-    """Make the table of a part; a part without rows has its columns."""
+    """Make the table of a part; a part without rows still has its columns."""
     return pd.DataFrame(list(rows), columns=[*columns, RESULT])

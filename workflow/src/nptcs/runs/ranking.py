@@ -1,4 +1,4 @@
-"""What each factor does to each response, and its rank, in two runs."""
+"""Impact and rank of each factor for each response, in two runs."""
 
 from __future__ import annotations
 

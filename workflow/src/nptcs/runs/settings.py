@@ -79,7 +79,7 @@ def flattened(value: Any, path: str = "") -> Iterator[tuple[str, str]]:
 
 
 def _named(value: Any) -> bool:
-    """Tell whether a value is a list of things that each have a name of their own."""
+    """Tell whether a value is a list of things that each have a different name."""
     if not isinstance(value, list) or not value:
         return False
     names = [item.get("name") if isinstance(item, Mapping) else None for item in value]

@@ -1,7 +1,7 @@
 """The vertical stiffness of each case in two runs.
 
-Cases are matched by their id where both runs define the cases of the study alike (then a tested
-rubber may have another C10), and otherwise by the values of their factors.
+Cases are matched by their id if both runs define the cases of the study in the same way (a tested
+rubber may still have another C10), and otherwise by the values of their factors.
 """
 
 from __future__ import annotations
@@ -72,7 +72,7 @@ def compare_stiffness(a: FinishedRun, b: FinishedRun, within: float) -> Part:
         if one and two and not by_id:
             remarks.append(
                 tr(
-                    "study {study} defines its cases in another way in B: they are matched by the "
+                    "study {study} defines its cases differently in B: they are matched by the "
                     "values of {factors}",
                     study=study,
                     factors=", ".join(factors),
@@ -94,7 +94,7 @@ def compare_stiffness(a: FinishedRun, b: FinishedRun, within: float) -> Part:
 
 
 def stiffness_summary(part: Part) -> Part:
-    """Sum up the cases by study and solver.
+    """Summarise the cases by study and solver.
 
     Parameters
     ----------

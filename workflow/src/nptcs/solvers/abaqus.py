@@ -61,7 +61,9 @@ class AbaqusOptions(SolverOptions, AbaqusModel):
         None, ge=0, description="Tokens that one case takes; null: floor(5 cpus^0.422)"
     )
     licence_wait_s: float = Field(
-        600.0, ge=0, description="Time that a case may queue for its tokens; then it is `licence`"
+        600.0,
+        ge=0,
+        description="Time that a case may queue for its tokens; after it the status is `licence`",
     )
     accepted_warnings: tuple[str, ...] = Field(
         (),
@@ -87,7 +89,7 @@ class AbaqusOptions(SolverOptions, AbaqusModel):
         return self.cpus
 
     def tokens_per_case(self) -> int:
-        """Return the licence tokens of a case: floor(5 n^0.422) for n cores, or the given."""
+        """Return the licence tokens of a case: as given, or floor(5 n^0.422) for n cores."""
         if self.licence_tokens is not None:
             return self.licence_tokens
         return floor(5.0 * self.cpus**0.422)
@@ -123,7 +125,7 @@ def solve(inputs: CaseInputs) -> SolverResult:
 def judge(
     folder: Path, ended: Ended, load_n: float, accepted_warnings: Sequence[str] = ()
 ) -> SolverResult:
-    """Make a result of the files that Abaqus has left in a folder."""
+    """Make a result from the files that Abaqus left in a folder."""
     log, dat, msg, sta = (text_of(folder / JOB, kind) for kind in ("log", "dat", "msg", "sta"))
     displacement, force = load_curve(dat)
     messages = read_messages([dat, msg], accepted_warnings)

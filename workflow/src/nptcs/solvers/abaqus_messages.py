@@ -1,4 +1,4 @@
-"""What Abaqus says of a job: licence, warnings, errors, increments.
+"""What Abaqus says about a job: licence, warnings, errors, increments.
 
 The exit code of Abaqus cannot be trusted, so its text files decide. The texts about licences are
 those that Abaqus and FlexNet print while they queue for tokens or refuse them.
@@ -82,7 +82,7 @@ class Messages:
 
 
 def waits_for_licence(printed: str) -> bool:
-    """Tell whether the last that was printed of a licence is that the job queues for it."""
+    """Tell whether the last thing printed about a licence is that the job queues for it."""
     queued = [match.end() for match in QUEUED.finditer(printed)]
     granted = [match.end() for match in GRANTED.finditer(printed)]
     return bool(queued) and (not granted or queued[-1] > granted[-1])
@@ -128,7 +128,7 @@ def reason(warning: str, accepted: Sequence[str] = ()) -> str:
 
 
 def _blocks(text: str) -> list[tuple[str, str]]:
-    """Cut ``***WARNING:`` and ``***ERROR:`` with their lines of continuation out of a text."""
+    """Find ``***WARNING:`` and ``***ERROR:`` with their continuation lines in a text."""
     pattern = r"^ *\*\*\*(WARNING|ERROR): *(.*(?:\n {6,}\S.*)*)"
     return [
         (match[1], " ".join(match[2].split())) for match in re.finditer(pattern, text, re.MULTILINE)

@@ -41,7 +41,7 @@ class CalculixOptions(SolverOptions, FeSpokeModel):
 
 
 def solve(inputs: CaseInputs) -> SolverResult:
-    """Pull and press one spoke with CalculiX; table 10's lines through the origin.
+    """Pull and compress one spoke with CalculiX, and fit table 10's lines through the origin.
 
     Raises
     ------

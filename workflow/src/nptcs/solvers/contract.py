@@ -1,4 +1,4 @@
-"""What a solver is: a function from one case to one result, and what it says of itself.
+"""What a solver is: a function from one case to one result, and what it says about itself.
 
 A solver is a module with a constant ``SOLVER`` of class `Solver`. To add one, write the module
 and name it in `nptcs.solvers.registry` (or name its file in the configuration).
@@ -41,7 +41,7 @@ class SolverOptions(Strict):
         return {}
 
     def load_fault(self, load_n: float) -> str:
-        """Say why no case can be solved at this load; empty where cases can."""
+        """Say why no case can be solved at this load; empty if cases can."""
         return ""
 
     def cores_per_case(self) -> int:
@@ -70,7 +70,7 @@ class CaseInputs:
     tyre : TyreGeometry
         Dimensions of the tyre.
     ply : mapping of str to float or None
-        The nine ply constants (`nptcs.tables.laboratory.material_card.PLY_CONSTANTS`), where the
+        The nine ply constants (`nptcs.tables.laboratory.material_card.PLY_CONSTANTS`), if the
         solver needs them.
     options : SolverOptions
         The solver's own options.
@@ -146,7 +146,7 @@ class SolverResult(BaseModel):
         "`neutral_line_columns` makes it: theta_deg, radial_mm, tangential_mm",
     )
     died: bool = Field(
-        False, description="It ended for a reason outside the case: killed, or out of memory"
+        False, description="The case ended for a reason outside it: killed, or out of memory"
     )
 
     plate_stress: dict[str, list[float]] | None = Field(
@@ -211,7 +211,7 @@ SPOKE_RESPONSES = tuple(
 
 @dataclass(frozen=True)
 class Solver:
-    """A solver and what it says of itself.
+    """A solver and what it says about itself.
 
     Parameters
     ----------
@@ -223,7 +223,7 @@ class Solver:
     solve : callable
         ``CaseInputs → SolverResult``. It may raise: the campaign records the exception.
     factors : frozenset of str
-        The factors that it can see. A study that varies any other is refused.
+        The factors that it uses. A study that varies any other is refused.
     about : str
         What it is, in a few words without a full stop; the report prints them after its name.
     required : frozenset of str
@@ -237,23 +237,23 @@ class Solver:
         it gives `TYRE_RESPONSES`. A solver of single spokes does not; it gives `SPOKE_RESPONSES`.
     realise : callable, optional
         ``(values, tyre) → values`` that the solver really uses for the factors of which it can
-        use some values only; the campaign records them with each solved case.
+        use only some values; the campaign records them with each solved case.
     solve_table : callable, optional
         ``TableInputs → DataFrame``, one row per case in their order: ``status``, ``message``,
         `TYRE_RESPONSES` and further scalars, units in the names; ``realised_FACTOR`` for each
         factor of which it used another value. The same numbers as `solve`, without curves. It may
         raise: the campaign then divides the table until it has found the cases at fault.
     table_cases : int
-        Most cases that the table function is given at once; the time limit is that of all of them.
+        Most cases that the table function is given at once; the time limit is for all of them.
     preload : tuple of str, optional
-        Modules that a case takes long to import; the process that all cases branch from has them.
+        Modules that take long to import; the process that all cases are forked from has them.
     table_case_s : float, optional
-        Wall time that a case of a table usually takes; without it that of a single case.
+        Wall time that a case of a table usually takes; by default that of a single case.
     shares : frozenset of str
-        Factors that decide a part which cases share, as designs of equal spokes share a table; the
-        stated time of a case, `SolverOptions.case_s`, is that of a case with a part of its own.
+        Factors that decide a part that cases share, as designs with equal spokes share a table;
+        `SolverOptions.case_s` is the time of a case that has to compute this part.
     shared_case_s : float
-        Wall time that a case usually takes whose part is there.
+        Wall time that a case usually takes if the shared part is already there.
     """
 
     name: str

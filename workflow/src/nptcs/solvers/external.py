@@ -1,7 +1,7 @@
-"""Run a solver that the user has: one command, its children, its time, its licence.
+"""Run a solver that the user has installed: one command, its children, its time, its licence.
 
-The command gets a process group of its own. Whatever happens to the case, the whole group is
-ended: a solver's launcher often leaves the process that computes, and that holds the licence.
+The command gets its own process group. Whatever happens to the case, the whole group is ended: a
+solver's launcher often leaves behind the process that computes, which holds the licence.
 """
 
 from __future__ import annotations
@@ -43,7 +43,7 @@ class CommandStopped(Exception):
 
 
 def time_for_command(timeout_s: float) -> float:
-    """Return a command's time limit: a little before its case is stopped without a word."""
+    """Return a command's time limit: a little before its case is stopped without a message."""
     return max(0.9 * timeout_s, timeout_s - 10.0)
 
 
@@ -118,7 +118,7 @@ def _end_group(process: subprocess.Popen[bytes]) -> None:
 
 
 def _signal(group: int, number: int) -> bool:
-    """Send a signal to a process group; False if there is nobody left in it."""
+    """Send a signal to a process group; False if no process is left in it."""
     with suppress(ProcessLookupError, PermissionError):
         os.killpg(group, number)
         return True

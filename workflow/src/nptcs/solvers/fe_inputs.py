@@ -1,4 +1,4 @@
-"""What the finite element solvers check of a case before they compute."""
+"""What the finite element solvers check in a case before they compute."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Solver ``fe_spoke``: one spoke pulled by 4 mm and pressed by 20 mm (section 4.3.1)."""
+"""Solver ``fe_spoke``: one spoke pulled by 4 mm and compressed by 20 mm (section 4.3.1)."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ SOLVER = Solver(
     version="2",
     solve=solve,
     factors=SPOKE_FACTORS,
-    about="one spoke pulled by 4 mm and pressed by 20 mm (section 4.3.1)",
+    about="one spoke pulled by 4 mm and compressed by 20 mm (section 4.3.1)",
     required=SPOKE_FACTORS,
     options=FeSpokeOptions,
     needs_ply=True,

@@ -1,4 +1,4 @@
-"""Solver ``fe_tyre``: the tyre on 60 spoke super-elements, pressed on a rigid plane."""
+"""Solver ``fe_tyre``: the tyre on spoke super-elements, pressed against a rigid plane."""
 
 from __future__ import annotations
 
@@ -39,12 +39,12 @@ from nptcs.solvers.fe_inputs import (
     realised_spacing,
 )
 
-# part of a wire's diameter
+# fraction of a wire's diameter
 LARGEST_WRINKLE = 0.25
 
 
 class FeTyreOptions(SolverOptions, FeModel):
-    """Options of ``fe_tyre``: the finite element model and where spokes are kept."""
+    """Options of ``fe_tyre``: the finite element model and where spokes are stored."""
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
@@ -58,8 +58,8 @@ class FeTyreOptions(SolverOptions, FeModel):
     curve_to_mm: float | None = Field(
         None,
         gt=0,
-        description="Go on beyond the load of the case until the tyre has moved so far, for "
-        "example 25 for the stiffness at 25 mm; the curve then costs two to four times as much",
+        description="Continue beyond the load of the case to this displacement, for example 25 for "
+        "the stiffness at 25 mm; the curve then takes two to four times as long",
     )
     spoke_cache: Path | None = Field(
         None,
@@ -133,7 +133,7 @@ def _curve(path: LoadPath) -> dict[str, list[float]]:
 
 
 def _wrinkles(tyre: TyreModel, state: TyreState, wire_mm: float) -> list[str]:
-    """Say so where membranes wrinkle: the stiffness is then one of the mesh."""
+    """Say so if membranes wrinkle: the stiffness then depends on the mesh."""
     wave = wire_wrinkle_mm(tyre.mesh, state.displacement)
     if wave is None or wave < LARGEST_WRINKLE * wire_mm:
         return []
@@ -164,7 +164,7 @@ SOLVER = Solver(
     version="4",
     solve=solve,
     factors=TYRE_FACTORS,
-    about="the tyre on 60 spoke super-elements, pressed on a rigid plane",
+    about="the tyre on spoke super-elements, pressed against a rigid plane",
     required=TYRE_FACTORS,
     options=FeTyreOptions,
     needs_ply=True,

@@ -16,8 +16,8 @@ class FeTyrePaperOptions(FeTyreOptions):
 
     ring: Literal["paper_mesh"] = Field(
         "paper_mesh",
-        description="The ring as table 4 of the paper counts it, and the section of the spoke "
-        "that was calibrated with it",
+        description="The ring with the element counts of table 4 of the paper, and the section of "
+        "the spoke that was calibrated with it",
     )
 
 

@@ -1,4 +1,4 @@
-"""The load-bearing analysis model as a solver: it sees the two rubbers, nothing else."""
+"""The load-bearing analysis model as a solver: it sees the two rubbers and nothing else."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ class LcaOptions(SolverOptions):
     contact_spokes: ContactSpokes = Field(
         "paper",
         description="Spokes over the contact: all shortened by the wheel's displacement "
-        "(equation 14), or each by the band's displacement at its place",
+        "(equation 14), or each by the band's displacement at its position",
     )
     curve_points: int = Field(
         20, ge=2, le=1000, description="Points of the load–displacement curve, up to the load"
@@ -76,8 +76,8 @@ def solve(inputs: CaseInputs) -> SolverResult:
     Returns
     -------
     SolverResult
-        ``error`` with a reason where the spokes' C10 lies outside the table, or the load needs
-        more displacement than the wheel has room for or the spokes' curve reaches.
+        ``error`` with a reason if the spokes' C10 is outside the table, or the load needs more
+        displacement than the wheel has room for or the spokes' curve covers.
     """
     options: LcaOptions = inputs.options
     section = lca.ShearBandSection.from_tyre(
@@ -98,7 +98,7 @@ def _room_mm(tyre: TyreGeometry) -> float:
 
 
 def _spokes(inputs: CaseInputs) -> lca.LinearSpokes | lca.SpokeLaw:
-    """Read the spokes of the case's rubber, with the table's name in any complaint."""
+    """Read the spokes of the case's rubber; an error in the table names its file."""
     options: LcaOptions = inputs.options
     (key, path), c10 = next(iter(options.tables().items())), inputs.values["spoke_c10_mpa"]
     rows, count = inputs.tables[key], inputs.tyre.spoke_count
@@ -236,7 +236,7 @@ def solve_table(inputs: TableInputs) -> pd.DataFrame:
 
 
 def _spoke_stiffness(inputs: TableInputs, c10_mpa: Floating) -> dict[str, Floating]:
-    """Stiffness of the spokes of each case; not a number where the table has no such rubber."""
+    """Stiffness of the spokes of each case; NaN where the table has no such rubber."""
     key = next(iter(inputs.options.tables()))
     table = SpokeStiffnessTable.from_rows(inputs.tables[key])
     outside = ~((c10_mpa >= table.c10_mpa[0]) & (c10_mpa <= table.c10_mpa[-1]))
@@ -249,7 +249,7 @@ def _spoke_stiffness(inputs: TableInputs, c10_mpa: Floating) -> dict[str, Floati
 
 
 def _refusal(inputs: CaseInputs) -> str:
-    """Say why a case is not solved, in the words of a single one."""
+    """Say why a case is not solved, as `solve` does."""
     try:
         return solve(inputs).message
     except InputError as error:

@@ -1,4 +1,4 @@
-"""The published finite element results, as a solver that looks a case up.
+"""The published finite element results, as a solver that looks up a case.
 
 Tables 5 and 7 of Sun et al., Machines 2024, 12, 358: Abaqus results of the authors, at 5000 N.
 They let the whole analysis run on real finite element data without a licence.
@@ -39,7 +39,7 @@ class PublishedOptions(SolverOptions):
         return {"archive": self.archive}
 
     def load_fault(self, load_n: float) -> str:
-        """Name the only load of the archive where another one is requested."""
+        """Name the only load of the archive if another one is requested."""
         if math.isclose(load_n, self.archive_load_n):
             return ""
         return f"the archive holds results at {self.archive_load_n:g} N, not at {load_n:g} N"

@@ -132,8 +132,8 @@ def check_study(study: Study, options: Mapping[str, Mapping[str, Any]]) -> None:
     Raises
     ------
     InputError
-        When a solver does not see a factor of the study (it would return a constant), lacks a
-        value that it needs, has faulty options, or cannot give what the study makes of it.
+        If a solver does not use a factor of the study (it would return a constant), lacks a value
+        that it needs, has faulty options, or cannot give what the study needs.
     """
     solvers = {name: load_solver(module_of(name, options[name])) for name in study.solvers}
     _check_responses(study, solvers)

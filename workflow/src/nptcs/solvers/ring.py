@@ -43,7 +43,7 @@ from nptcs.solvers.tables import one_by_one
 
 
 class RingSolverOptions(SolverOptions, RingModel):
-    """Options of ``ring``: the ring, its spokes and where these are kept."""
+    """Options of ``ring``: the ring, its spokes and where these are stored."""
 
     without_effect: ClassVar[frozenset[str]] = SolverOptions.without_effect | {"spoke_cache"}
 
@@ -51,7 +51,7 @@ class RingSolverOptions(SolverOptions, RingModel):
     case_memory_mb: float = Field(300.0, gt=0, description=CASE_MEMORY)
     plate_stress: Literal["all", "off"] = Field(
         "off",
-        description="all: the spokes that are loaded most are solved again at their motion in the "
+        description="all: the most loaded spokes are solved again at their motion in the "
         "tyre, as by `fe_tyre`, for the stress of plates and rubber, which takes a hundred times "
         "as long as the ring; off: those responses are not assessed",
     )
@@ -142,7 +142,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="5",
+    version="6",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,

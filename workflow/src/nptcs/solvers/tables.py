@@ -1,4 +1,4 @@
-"""Tables of cases, for solvers that have no faster way than one case after the other."""
+"""Tables of cases, for solvers that have no faster way than one case after another."""
 
 from __future__ import annotations
 
@@ -21,15 +21,15 @@ from nptcs.tables.tyres.cases import realised_column
 
 TableFunction = Callable[[TableInputs], pd.DataFrame]
 CURVE = "curve_"
-"""Prefix of the columns that hold the points of a load–displacement curve."""
+"""Prefix of the columns with the points of a load–displacement curve."""
 POINT = re.compile(rf"{CURVE}(?P<name>\w+)_(?P<number>\d+)")
 
 
 def one_by_one(solve: Callable[[CaseInputs], SolverResult]) -> TableFunction:
     """Make a table function of a solver's function for one case.
 
-    It saves a process and a file per case, and whatever the solver keeps between cases. A case
-    with bad input is a row with its message; any other exception is left to the campaign.
+    It saves a process and a file per case, and the solver can keep its caches between cases. A
+    case with bad input is a row with its message; any other exception is left to the campaign.
     """
 
     def solve_table(inputs: TableInputs) -> pd.DataFrame:

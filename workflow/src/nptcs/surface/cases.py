@@ -21,7 +21,7 @@ class SolvedCases:
     table : DataFrame
         Rows of ``cases.csv`` with the status ok, factors as realised, one row per tyre.
     changed : tuple of str
-        Factors of which the solver used other values than the given ones.
+        Factors for which the solver used values other than the given ones.
     same : int
         Cases left out because the solver made the same tyre for another case's values.
     failed : int
@@ -37,8 +37,8 @@ class SolvedCases:
 def solved_cases(cases: pd.DataFrame, solver: str, factors: Sequence[str]) -> SolvedCases:
     """Take the cases of a solver to which a surface can be fitted.
 
-    Cases whose given values differ and whose realised values do not are one point: the solver
-    has computed the same tyre twice. Cases with equal given values are replicates and all stay.
+    Cases whose given values differ but whose realised values do not are one point: the solver
+    has computed the same tyre twice. Cases with equal given values are replicates and are all kept.
 
     Parameters
     ----------
@@ -84,7 +84,7 @@ def as_realised(cases: pd.DataFrame, factors: Sequence[str]) -> pd.DataFrame:
 
 
 def changed_factors(cases: pd.DataFrame, factors: Sequence[str]) -> list[str]:
-    """Name the factors of which a solver used other values than the given ones."""
+    """Name the factors for which a solver used values other than the given ones."""
     used = as_realised(cases, factors)
     return [
         factor

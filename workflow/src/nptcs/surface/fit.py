@@ -1,4 +1,4 @@
-"""Least-squares fit of a response surface, in coded units, reported in both."""
+"""Least-squares fit of a response surface, in coded units, reported in coded and natural units."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ class Surface:
     x, y : ndarray of shape (m, n) and (m,)
         The cases that it was fitted to, natural units; their box is its range of validity.
     coefficients_coded, coefficients_natural : ndarray of shape (p,)
-        For c = (x - centre)/half range, and for x itself.
+        For c = (x - centre)/(half range), and for x itself.
     covariance_coded : ndarray of shape (p, p)
         s² (XᵀX)⁻¹ in coded units. For results of a solver, which have no noise, s² measures what
         the polynomial cannot follow (lack of fit).
@@ -90,7 +90,7 @@ class Surface:
         return self.polynomial.matrix(self.coded(x)) @ self.coefficients_coded
 
     def slopes(self, x: Array) -> Array:
-        """Differentiate the surface by its coded coefficients, shape (m, n) → (m, p)."""
+        """Differentiate the surface with respect to its coded coefficients, (m, n) → (m, p)."""
         return self.polynomial.matrix(self.coded(x)).astype(float)
 
     def gradient(self, x: Array, factor: str) -> Array:
@@ -202,7 +202,8 @@ def fit(
 def fit_points(x: Array, y: Array, polynomial: Polynomial, through_origin: bool = False) -> Surface:
     """Fit a polynomial to points of shape (m, n) with responses of shape (m,).
 
-    Coded units and their expansion into natural ones are computed in more digits than double.
+    Coded coefficients and their conversion to natural units are computed with more digits than
+    double precision has.
 
     Raises
     ------

@@ -20,8 +20,8 @@ REFINEMENTS = 3
 def widened(values: Array) -> WideArray:
     """Return the same numbers in a type with more digits than double.
 
-    That is long double where the compiler has a wider one than double; elsewhere (MSVC, ARM of
-    Apple) exact fractions, which are slower and serve as well.
+    That is long double where the compiler makes it wider than double; elsewhere (MSVC, Apple's
+    ARM) exact fractions, which are slower but serve equally well.
     """
     if np.finfo(np.longdouble).eps < np.finfo(np.float64).eps:
         return values.astype(np.longdouble)
@@ -39,7 +39,7 @@ def solve(matrix: WideArray, y: Array) -> tuple[WideArray, Array]:
     Parameters
     ----------
     matrix : ndarray of shape (m, p)
-        Of full rank, as `widened` returns numbers.
+        Of full rank, in the type that `widened` returns.
     y : ndarray of shape (m,)
 
     Returns

@@ -21,7 +21,7 @@ ONE_SIGMA = float(stats.norm.cdf(1.0) - stats.norm.cdf(-1.0))
 
 @dataclass(frozen=True, order=True)
 class Response:
-    """A quantity that solved tyres have one value of.
+    """A quantity that has one value for each solved tyre.
 
     Parameters
     ----------
@@ -30,7 +30,7 @@ class Response:
     at : str
         Load or displacement with its unit, ``"3000 N"`` or ``"25 mm"``; empty where there is none.
     unit : str
-        Of the response; ``1`` for a ratio.
+        Unit of the response; ``1`` for a ratio.
     """
 
     name: str
@@ -59,8 +59,8 @@ class Predicted:
     Parameters
     ----------
     mean, standard_error : ndarray of shape (m,)
-        In the unit of the response. The standard error is half the width of the prediction
-        interval that holds 68.3 %; it is NaN outside the box, where it is not assessed.
+        In the unit of the response. The standard error is half the width of the 68.3 % prediction
+        interval; it is NaN outside the box, where it is not assessed.
     inside : ndarray of shape (m,)
         Whether the point lies in the box of the cases that the surface was fitted to.
     """
@@ -83,11 +83,11 @@ class FittedSurface:
     surface : ResponseSurface
         Its factors are in the values that the solver really used.
     realised : tuple of str
-        Factors of which the solver used other values than the given ones.
+        Factors for which the solver used values other than the given ones.
     not_assessed, failed : int
         Solved cases without this response, and cases without any result: neither is in the fit.
     left_out_rms, left_out_largest : float
-        Errors of predictions of cases that were left out, in the unit of the response; NaN if not
+        Errors of the predictions of left-out cases, in the unit of the response; NaN if not
         assessed.
     """
 
@@ -121,8 +121,8 @@ class FittedSurface:
         Parameters
         ----------
         points : array of shape (m, n) or DataFrame
-            Natural units; an array has the columns of `factors`, a table has columns of these
-            names among others.
+            Natural units; an array has its columns in the order of `factors`, a table has columns
+            of these names, and possibly others.
 
         Raises
         ------
@@ -190,8 +190,8 @@ class SurfaceRegistry:
         Raises
         ------
         InputError
-            If there is none: what there is instead is named. If no solver is given and more than
-            one has the response.
+            If there is no such surface (the message names the responses that have one), or if no
+            solver is given and more than one has the response.
         """
         found = [
             s

@@ -13,7 +13,7 @@ from nptcs.arrays import Array, Index, Mask
 from nptcs.errors import InputError
 
 INSIDE_TOLERANCE = 1e-9
-"""Share of a factor's range by which a point may lie outside for rounding alone."""
+"""Share of a factor's range by which a point may be outside because of rounding."""
 
 
 class Outside(StrEnum):
@@ -54,7 +54,7 @@ class ResponseSurface(Protocol):
     x, y : ndarray of shape (m, n) and (m,)
         The cases that it was fitted to.
     coefficients : int
-        Fitted coefficients, hyperparameters of a Gaussian process left out.
+        Fitted coefficients, without the hyperparameters of a Gaussian process.
     outside : Outside
         What happens outside the cases' box.
     """
@@ -138,7 +138,7 @@ def predict(surface: ResponseSurface, x: Array, confidence: float = 0.95) -> Pre
     x : ndarray of shape (m, n)
         Points in natural units, in the order of the surface's factors.
     confidence : float
-        Of the interval.
+        Confidence of the interval.
 
     Returns
     -------
@@ -161,7 +161,7 @@ def predict(surface: ResponseSurface, x: Array, confidence: float = 0.95) -> Pre
 
 
 def refuse_unusable(x: Array, y: Array, factors: Sequence[str], coefficients: int) -> None:
-    """Refuse cases to which no surface with so many coefficients can be fitted.
+    """Refuse cases to which no surface with this number of coefficients can be fitted.
 
     Raises
     ------

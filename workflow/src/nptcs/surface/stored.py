@@ -39,7 +39,7 @@ def read_surfaces(path: str | Path) -> dict[str, Surface]:
     try:
         return load(read_stored(path, "file of surfaces"))
     except BrokenSealError as error:
-        raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
+        raise InputError(f"these surfaces cannot be used: {error}", REWRITE, path) from None
 
 
 def load(text: str) -> dict[str, Surface]:
@@ -65,7 +65,7 @@ def read_registry(path: str | Path) -> SurfaceRegistry:
     try:
         return load_registry(read_stored(path, "file of surfaces"))
     except BrokenSealError as error:
-        raise InputError(f"these surfaces are not sound: {error}", REWRITE, path) from None
+        raise InputError(f"these surfaces cannot be used: {error}", REWRITE, path) from None
 
 
 def read_models(path: str | Path) -> dict[str, dict[str, ResponseSurface]]:

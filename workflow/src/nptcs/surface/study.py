@@ -22,7 +22,7 @@ from nptcs.surface.response_surface import ResponseSurface
 from nptcs.tables.problems import Problem, problems_table
 
 RESPONSE = Response(STIFFNESS, unit="N/mm")
-"""What tables 6, 8 and 9 are of."""
+"""The response of tables 6, 8 and 9."""
 
 POLYNOMIAL = "polynomial"
 """Name of the surface of the study's own terms: that of tables 6 and 8."""
@@ -138,7 +138,7 @@ def fit_study(
     study : Study
         Factors, solvers, terms, further surfaces and responses.
     ply : mapping of str to float or None
-        Constants of the plates' ply, for surfaces that are made of them.
+        Constants of the plates' ply, for surfaces that are built on them.
     values : DataFrame, optional
         `nptcs.tables.tyres.tyre_responses.TyreResponses` of the study, for its further responses.
 
@@ -156,7 +156,7 @@ def fit_study(
             for solver in study.solvers
         }
         having = [solver for solver, found in by_solver.items() if found.notna().any()]
-        # an archive of stiffness has no stress: only what no solver has is a problem
+        # an archive of stiffness has no stress: a response is a problem only if no solver has it
         for solver in having or study.solvers:
             wanted = _Wanted(study, solver, response, solved[solver], by_solver[solver], ply)
             for fitted in _fits(wanted):
@@ -192,7 +192,7 @@ def _values(
 
 
 def _fits(wanted: _Wanted) -> Iterator[SurfaceFit | Problem]:
-    """Fit every surface of one response and solver, or give the rows of problems."""
+    """Yield every surface of one response and solver, or the problem row of its refusal."""
     study, response = wanted.study, wanted.response
     known = wanted.values.notna()
     table, y = wanted.solved.table[known], wanted.values[known].to_numpy(float)
@@ -218,7 +218,7 @@ def _fits(wanted: _Wanted) -> Iterator[SurfaceFit | Problem]:
 
 
 def _describes(model: SurfaceModel, response: Response) -> bool:
-    """Tell whether a kind of surface is made for a response: the plates' form is a stiffness."""
+    """Tell whether a kind of surface describes a response: the lamination form, a stiffness."""
     return response.unit == "N/mm" or not describes_stiffness_alone(model)
 
 
@@ -227,7 +227,7 @@ def _too_few(wanted: _Wanted, count: int, lacking: int) -> InputError:
     if lacking:
         counts += f", {lacking} without this response"
     return InputError(
-        f"no surface from so few cases: {counts}",
+        f"too few cases for a surface: {counts}",
         column=f"studies.{wanted.study.name}.least_cases",
         value=wanted.study.least_solved_cases(),
         remedy="see case_coverage.csv for the levels that failed, and solve more cases"

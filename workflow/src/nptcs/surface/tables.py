@@ -50,7 +50,7 @@ def surface_table(
 ) -> pd.DataFrame:
     """Make the `SurfaceTable` of a study's polynomials, by solver.
 
-    `published` maps the powers of a term to the coefficient that the paper prints.
+    `published` maps the powers of a term to the coefficient published in the paper.
     """
     rows = [
         row

@@ -406,9 +406,9 @@ TABLES: dict[str, ResultTable] = {
     ),
     "stiffness_exponents.csv": ResultTable(
         StiffnessExponents,
-        "Exponents of the stiffness by each modulus, computed and published",
+        "Exponents of the stiffness with respect to each modulus, computed and published",
         "compare_published",
-        "stiffness_against_published.csv, logarithms of stiffness by those of each modulus",
+        "stiffness_against_published.csv, logarithm of the stiffness against that of each modulus",
         section=ReportSection.PUBLISHED_STIFFNESS,
         headings=headings.EXPONENTS,
         synthetic=SyntheticBy.ROWS,

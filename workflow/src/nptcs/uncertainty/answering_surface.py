@@ -20,7 +20,7 @@ def answering_surface(
 ) -> str:
     """Name the surface through which the stiffness of a study's designs is predicted.
 
-    The configuration and ``nptcs design`` both ask here, so that they give the same answer.
+    The configured decisions and ``nptcs design`` both use this, so they give the same answer.
 
     Parameters
     ----------
@@ -32,8 +32,8 @@ def answering_surface(
     solver : str
         Solver whose cases the surface was fitted to.
     registry : SurfaceRegistry or None
-        The study's stored surfaces. Of those of its stiffness, the one with the smallest rms error
-        at left-out cases is taken where nothing is named.
+        The study's stored surfaces. Where none is named, the surface of its stiffness with the
+        smallest rms error at left-out cases is taken.
 
     Returns
     -------

@@ -70,7 +70,7 @@ class FittedResponse:
 
 @dataclass(frozen=True)
 class PlateMass:
-    """Mass of the plates: proportional to their number and thickness, without error of its own.
+    """Mass of the plates: proportional to their number and thickness, without error.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ class PlateMass:
 
     @property
     def knows(self) -> frozenset[str]:
-        """The thickness alone: a spacing that is off does not change the number of plates."""
+        """The thickness alone: a deviation in spacing does not change the number of plates."""
         return frozenset({THICKNESS})
 
     def value(self, x: Array, changes: Changes) -> Array:
@@ -125,8 +125,9 @@ def fit_response(
     results : StudyResults
     response : ResponseName
     surface : str
-        Name of a surface of the study, for the stiffness; other responses get a Gaussian process
-        on their mean, and the plates' mass follows from the dimensions.
+        Name of a surface of the study, for the stiffness. Other responses use their best stored
+        surface, or a Gaussian process on their mean if none is stored; the plates' mass follows
+        from the dimensions.
     tyre : TyreGeometry
     ply : mapping of str to float or None
         Constants of the plates' ply.
@@ -138,7 +139,8 @@ def fit_response(
     Raises
     ------
     InputError
-        When no case has the response, the study has no such surface, or the cases cannot carry it.
+        When no case has the response, the study has no such surface, or it cannot be fitted to the
+        cases.
     """
     if response.name == PLATE_MASS.name:
         return _plate_mass(results, tyre)
@@ -182,7 +184,7 @@ def _surface(
             value=results.study.least_solved_cases(),
             remedy="solve more cases",
         )
-    if stored is not None:  # cases were added: the form stays
+    if stored is not None:  # cases were added: the form is kept
         chosen, surface = stored.name, stored.surface.refit(cases.x, cases.y)
     else:
         surface = fit_surface(model, cases)
@@ -199,9 +201,9 @@ def _surface(
 def registry_surface(
     registry: SurfaceRegistry | None, results: StudyResults, response: ResponseName, name: str
 ) -> FittedSurface | None:
-    """Return the stored surface of that name; for what is not a stiffness, else the best one.
+    """Return the stored surface of that name, or else the best one if it is not a stiffness.
 
-    The stiffness at the study's own load is stored under a name of its own.
+    The stiffness at the study's own load is stored under a separate name.
     """
     if registry is None:
         return None
@@ -238,12 +240,13 @@ def _lamination(
 ) -> tuple[Lamination | None, str]:
     """Return the lamination form that gives the effect of the ply, or why there is none."""
     if response.name not in STIFFNESS:
-        return None, "effect of the ply not assessed: the lamination form is made for stiffness"
+        return None, "effect of the ply not assessed: the lamination form describes only stiffness"
     own = lamination_of(surface)
     if own is not None:
         return own, ""
     if sorted(cases.factors) != sorted(LAMINATION_FACTORS):
-        return None, "effect of the ply not assessed: the lamination form has S, T and A alone"
+        note = "effect of the ply not assessed: the lamination form has only the factors S, T and A"
+        return None, note
     try:
         form = fit_surface(LaminationModel(kind="lamination", coefficients=7), cases)
     except InputError as error:
@@ -254,7 +257,7 @@ def _lamination(
 def _rubber_effect(
     results: StudyResults, response: ResponseName, rubbers: StudyResults | None
 ) -> tuple[RubberEffect | None, str]:
-    """Fit the rubber study's surface of the same response, or say why it gives nothing."""
+    """Fit the rubber study's surface of the same response, or say why there is none."""
     study = results.study
     nominal = {name: float(results.solved[name].iloc[0]) for name in RUBBERS if name in study.fixed}
     if not nominal:
@@ -286,7 +289,7 @@ def _fit_rubbers(rubbers: StudyResults, response: ResponseName) -> ResponseSurfa
 
 
 def _plate_mass(results: StudyResults, tyre: TyreGeometry) -> FittedResponse:
-    """Read the mass per plate and thickness from the cases, and check that it is one number."""
+    """Read the mass per plate and thickness from the cases; check that all cases have the same."""
     if not {SPACING, THICKNESS} <= set(results.factors):
         raise InputError(
             f"study {results.study.name} does not vary the plates",
@@ -303,7 +306,7 @@ def _plate_mass(results: StudyResults, tyre: TyreGeometry) -> FittedResponse:
             "the plates' mass in the cases is not proportional to their number and thickness",
             column="decisions",
             value=PLATE_MASS.name,
-            remedy="use a solver whose plates are of one length",
+            remedy="use a solver whose plates all have the same length",
         )
     lower, upper = points.min(axis=0), points.max(axis=0)
     model = PlateMass(tuple(results.factors), lower, upper, float(each.mean()), tyre.tread_width_mm)

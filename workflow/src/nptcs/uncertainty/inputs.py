@@ -36,7 +36,8 @@ class UncertainInput:
     quantities : tuple of str
         Factors, rubbers or constants of the ply.
     root : ndarray of shape (quantities, d)
-        Unit of each quantity. Normal z have the standard deviation 1, uniform z lie in [-1, 1].
+        In the unit of each quantity. Normal z have the standard deviation 1, uniform z lie in
+        [-1, 1].
     shape : str
         Distribution of each z.
     relative : bool
@@ -73,7 +74,7 @@ def uncertain_inputs(
     values: Mapping[str, float],
     factors: Sequence[str],
 ) -> Inputs:
-    """List what is uncertain of the designs of a study.
+    """List what is uncertain about the designs of a study.
 
     Parameters
     ----------
@@ -81,9 +82,9 @@ def uncertain_inputs(
     card : MaterialCard
         For the tested rubbers.
     ply : PlyCard or None
-        Of the plates; None where the solver does not use the constants of a ply.
+        Ply of the plates; None where the solver does not use the constants of a ply.
     values : mapping of str to float
-        Factors and fixed values of the study; of the factors the names count alone.
+        Factors and fixed values of the study; of the factors only the names are used.
     factors : sequence of str
         Names of the factors: rubbers among them scatter in proportion to their value.
 

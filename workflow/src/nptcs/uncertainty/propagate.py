@@ -14,14 +14,14 @@ from nptcs.uncertainty.inputs import SourceKind, UncertainInput
 from nptcs.uncertainty.response_model import ResponseModel
 
 NODES = {"normal": (np.sqrt(3.0), 1 / 6), "uniform": (np.sqrt(0.6), 5 / 18)}
-"""Outer node and its weight of the three-point Gauss rule; the rest of the weight is in between.
+"""Outer node of the three-point Gauss rule and its weight; the middle node has the rest.
 
 Gauss–Hermite for a standard normal, Gauss–Legendre for a uniform on [-1, 1]: exact for
-polynomials of the fifth degree.
+polynomials up to the fifth degree.
 """
 
 MOST_DESIGNS = 1000
-"""Designs whose nodes are evaluated at a time."""
+"""Most designs whose nodes are evaluated at a time."""
 
 SURFACE = UncertainInput(
     name="surface",
@@ -70,7 +70,7 @@ def moments(model: ResponseModel, inputs: Sequence[UncertainInput], x: Array) ->
     """Propagate each input alone by a three-point Gauss rule.
 
     Exact where the response is at most quadratic in each input and inputs do not interact; both
-    hold for tolerances, and `distribution` shows how far.
+    are nearly true for tolerances, and `distribution` shows how nearly.
 
     Parameters
     ----------
@@ -126,6 +126,20 @@ def _moments(model: ResponseModel, inputs: Sequence[UncertainInput], x: Array) -
     )
 
 
+def shares_percent(variances: Array) -> Array:
+    """Return the share of each variance in their sum, in percent; 0 where all are 0.
+
+    The division comes first: ``100 * v / v`` can be 100.00000000000001.
+
+    Examples
+    --------
+    >>> shares_percent(np.array([3.0, 1.0]))
+    array([75., 25.])
+    """
+    total = variances.sum()
+    return 100.0 * (variances / total) if total > 0.0 else np.zeros_like(variances)
+
+
 def distribution(
     models: Sequence[ResponseModel],
     inputs: Sequence[UncertainInput],
@@ -135,13 +149,13 @@ def distribution(
 ) -> Array:
     """Sample several responses of one design together.
 
-    The same tyre has all responses: they share the samples of the inputs. The errors of their
+    All are responses of the same tyre and share the samples of the inputs. The errors of their
     surfaces are independent of each other.
 
     Parameters
     ----------
     models : sequence of ResponseModel
-        Of the same factors.
+        Models of the same factors.
     inputs : sequence of UncertainInput
         A model ignores an input that it cannot follow.
     x : ndarray of shape (n,)
@@ -149,7 +163,7 @@ def distribution(
     samples : int
         A power of two.
     seed : int
-        Of the scrambled Sobol sequence.
+        Seed of the scrambled Sobol sequence.
 
     Returns
     -------

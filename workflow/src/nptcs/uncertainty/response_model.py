@@ -23,11 +23,11 @@ ONE_SD = 0.6826894921370859
 """Confidence of the interval whose half width is one standard deviation of a normal."""
 
 Changes = Mapping[str, Array]
-"""Change of each quantity at each of m points, shape (m,); quantities without one stay."""
+"""Change of each quantity at each of m points, shape (m,); absent quantities do not change."""
 
 
 class ResponseModel(Protocol):
-    """What the propagation of uncertainty and the search for designs ask of a response.
+    """What the propagation of uncertainty and the search for designs need of a response.
 
     Attributes
     ----------
@@ -91,15 +91,15 @@ class RubberEffect:
 
 @dataclass(frozen=True)
 class SurfaceResponse:
-    """A fitted surface with what ply and rubbers do to it.
+    """A fitted surface with the effects of ply and rubbers.
 
     Parameters
     ----------
     surface : ResponseSurface
     least_sd : float
-        Root mean square error at left-out cases: the own error is never stated smaller.
+        Root mean square error at left-out cases: the model's own error is never stated smaller.
     lamination : Lamination or None
-        Lamination form of the same response: it tells what the constants of the ply do.
+        Lamination form of the same response: it gives the effect of the ply's constants.
     rubbers : RubberEffect or None
         For rubbers that are not factors of the surface.
     """
@@ -126,13 +126,13 @@ class SurfaceResponse:
 
     @property
     def knows(self) -> frozenset[str]:
-        """Factors, and what the effects add."""
+        """Factors, and the quantities that the effects add."""
         ply = self.lamination.ply if self.lamination is not None else {}
         rubbers = self.rubbers.surface.factors if self.rubbers is not None else ()
         return frozenset({*self.factors, *ply, *rubbers})
 
     def value(self, x: Array, changes: Changes) -> Array:
-        """Evaluate the response; beyond the box's edge it goes on along the slope there."""
+        """Evaluate the response; beyond the edge of the box it continues along the slope there."""
         moved = x.copy()
         for axis, name in enumerate(self.factors):
             moved[:, axis] += changes.get(name, 0.0)
@@ -147,7 +147,7 @@ class SurfaceResponse:
         return response
 
     def own_sd(self, x: Array) -> Array:
-        """Return half the 68 % prediction interval, at least the error at left-out cases."""
+        """Return half the width of the 68 % interval, or the error at left-out cases if larger."""
         low, high = self.surface.interval(x, ONE_SD)
         return np.maximum((high - low) / 2, self.least_sd)
 
@@ -176,7 +176,7 @@ def folded(x: Array, factors: tuple[str, ...]) -> Array:
         return x
     axis = factors.index(ANGLE)
     angle = np.abs((x[:, axis] + 90.0) % 180.0 - 90.0)
-    # values that lie in the range stay as they are, to the last digit
+    # values inside the range stay as they are, to the last digit
     inside = (x[:, axis] >= 0.0) & (x[:, axis] <= 90.0)
     moved = x.copy()
     moved[:, axis] = np.where(inside, x[:, axis], angle)
@@ -184,9 +184,9 @@ def folded(x: Array, factors: tuple[str, ...]) -> Array:
 
 
 def continued(surface: ResponseSurface, x: Array) -> Array:
-    """Evaluate a surface, and go on from the edge of its box along the slope at the edge.
+    """Evaluate a surface; beyond the edge of its box, continue along the slope at the edge.
 
-    For what a tolerance carries a little way out of the box; designs outside are refused.
+    For points that a tolerance moves a little way out of the box; designs outside are refused.
     """
     lower, upper = box(surface.x)
     inner = np.clip(x, lower, upper)

@@ -17,13 +17,13 @@ from nptcs.uncertainty.study_results import StudyResults
 
 @dataclass(frozen=True)
 class Materials:
-    """What is known of the materials.
+    """What is known about the materials.
 
     Parameters
     ----------
     card : MaterialCard
     ply : PlyCard or None
-        Of the study's plates; None where the solver does not use one.
+        Ply of the study's plates; None where the solver does not use one.
     """
 
     card: MaterialCard
@@ -37,11 +37,11 @@ class Source:
     Parameters
     ----------
     results : StudyResults
-        Of the study and the solver.
+        Results of the study by the solver.
     rubbers : StudyResults or None
-        Of the study that varies the rubbers, by the same solver.
+        Results of the study that varies the rubbers, by the same solver.
     registry : SurfaceRegistry or None
-        Surfaces of the study that are stored.
+        Stored surfaces of the study.
     materials : Materials
     tyre : TyreGeometry
     whole_plates : bool
@@ -58,7 +58,7 @@ class Source:
     settings: Uncertainty
 
     def fit(self, response: ResponseName, surface: str | None = None) -> FittedResponse:
-        """Return the model of a response, through a named surface or that which answers."""
+        """Return the model of a response, through the named surface or `answering_surface`."""
         study, solver = self.results.study, self.results.solver
         name = answering_surface(surface, self.settings.surface, study, solver, self.registry)
         ply = self.materials.ply.values() if self.materials.ply is not None else None
@@ -67,7 +67,7 @@ class Source:
         )
 
     def inputs(self) -> Inputs:
-        """List what is uncertain of any design of the study."""
+        """List what is uncertain about any design of the study."""
         solved = self.results.solved
         names = [*self.results.factors, *self.results.study.fixed]
         values = {name: float(solved[name].iloc[0]) for name in names}

@@ -22,7 +22,7 @@ STIFFNESS = ("secant_stiffness", "tangent_stiffness")
 
 @dataclass(frozen=True)
 class StudyResults:
-    """What a study and one of its solvers have given.
+    """Results of a study by one of its solvers.
 
     Parameters
     ----------
@@ -58,7 +58,7 @@ class StudyResults:
         return self.solved[self.factors].to_numpy(float)
 
     def at_its_load(self, response: ResponseName) -> ResponseName:
-        """Return a response without a stated place as that at the study's load."""
+        """Return the response at the study's load if it has no place but needs one."""
         if response.at or RESPONSE_KINDS[response.name].taken is Taken.UNLOADED:
             return response
         return replace(response, at=f"{self.study.load_n:g} N")
@@ -68,7 +68,7 @@ class StudyResults:
         return RESPONSE_KINDS[response.name].unit
 
     def gives(self, response: ResponseName) -> bool:
-        """Tell whether any solved case has a response: ``published`` has the stiffness alone."""
+        """Tell whether any solved case has a response: ``published`` has only the stiffness."""
         try:
             self.values(response)
         except InputError:
@@ -76,12 +76,12 @@ class StudyResults:
         return True
 
     def values(self, response: ResponseName) -> Array:
-        """Return a response of the solved cases, not a number where a case lacks it, (m,).
+        """Return a response of the solved cases, NaN where a case lacks it, shape (m,).
 
         Raises
         ------
         InputError
-            For a response that no case has, naming those that cases have.
+            For a response that no case has; the message names those that cases have.
         """
         if response.name in STIFFNESS:
             found = pd.Series(dict(self._stiffness(response)), dtype=float)

@@ -14,7 +14,14 @@ from nptcs.tables.analysis.uncertainty import ResponseUncertainty, UncertaintySh
 from nptcs.tables.published.stiffness import StiffnessErrors
 from nptcs.uncertainty.fitted import FittedResponse
 from nptcs.uncertainty.inputs import Inputs, UncertainInput
-from nptcs.uncertainty.propagate import SURFACE, Moments, assessed, distribution, moments
+from nptcs.uncertainty.propagate import (
+    SURFACE,
+    Moments,
+    assessed,
+    distribution,
+    moments,
+    shares_percent,
+)
 from nptcs.uncertainty.source import Source
 
 
@@ -25,7 +32,7 @@ class NamedDesign:
     Parameters
     ----------
     name : str
-        ``reference``, or that of a decision.
+        ``reference``, or the name of a decision.
     source : Source
     point : ndarray of shape (n,)
         Factors of the study, as the solver uses them.
@@ -87,7 +94,7 @@ NO_BIAS: Mapping[str, object] = {
 
 
 def _published_response(design: NamedDesign) -> ResponseName:
-    """Return what the published values are of: the secant stiffness at the study's load only."""
+    """Return the only response with published values: secant stiffness at the study's load."""
     return ResponseName("secant_stiffness", f"{design.source.results.study.load_n:g} N")
 
 
@@ -156,6 +163,7 @@ def _shares(
 ) -> Iterator[dict[str, object]]:
     """One row per source, the largest first."""  # noqa: D401
     variances = found.variances[0]
+    percent = shares_percent(variances)
     sources = [*followed, SURFACE]
     for place in np.argsort(-variances, kind="stable"):
         one = sources[place]
@@ -166,7 +174,7 @@ def _shares(
             "quantities": _quantities(one, fitted.model.factors, point),
             "source": one.source,
             "effect_sd": np.sqrt(variances[place]),
-            "share_percent": 100 * variances[place] / variances.sum() if variances.any() else 0.0,
+            "share_percent": percent[place],
         }
 
 

@@ -25,7 +25,10 @@ class MissingValues(Strict):
         "the channel's range is emptied and flagged",
     )
     largest_share: float = Field(
-        0.5, gt=0, le=1, description="A strain channel that lacks more than this share is dead"
+        0.5,
+        gt=0,
+        le=1,
+        description="A strain channel that lacks more than this share of its readings is dead",
     )
 
 
@@ -150,7 +153,7 @@ class FileLimits(Strict):
 
     file_mb: float = Field(500.0, gt=0, description="Size of a raw file in MB")
     unpacked_mb: float = Field(1000.0, gt=0, description="Size of a workbook when unpacked, in MB")
-    rows: int = Field(2_000_000, gt=0, description="Lines of a text or rows of a sheet")
+    rows: int = Field(2_000_000, gt=0, description="Lines of a text file or rows of a sheet")
     columns: int = Field(2_000, gt=0, description="Columns of a table")
     line_length: int = Field(100_000, gt=0, description="Characters of a line")
 

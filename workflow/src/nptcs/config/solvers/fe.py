@@ -50,8 +50,8 @@ class SpokeGeometry(Strict):
     calibrated_with: RingKind | None = Field(
         None,
         description="Ring of the tyres that the section was calibrated with, as `nptcs "
-        "fe-calibrate` prints it: no other ring takes it; null for a section that was drawn or "
-        "measured",
+        "fe-calibrate` prints it: it is refused with any other ring; null for a section that was "
+        "drawn or measured",
     )
     calibrated_axial: AxialFreedom | None = Field(
         None,
@@ -169,7 +169,7 @@ class EnergyTableOptions(Strict):
         gt=0,
         le=1,
         description="Part of the ranges of β and φ that is left at the lowest elongation, linear "
-        "from the unloaded one: the most compressed spokes stand on the ground and hardly turn",
+        "from the unloaded one: the most compressed spokes are over the ground and hardly turn",
     )
     samples: tuple[int, int, int] = Field(
         (7, 3, 3),
@@ -179,8 +179,8 @@ class EnergyTableOptions(Strict):
     side_states: Literal["alternate", "every"] = Field(
         "alternate",
         description="States other than β = φ = 0: alternate has one at both ends and at every "
-        "second level of the elongation, neighbouring rows taking turns; every has all of them, "
-        "for half as much time again",
+        "second level of the elongation, alternating between neighbouring rows; every has all of "
+        "them, which takes half as much time again",
     )
     accepted_work: float = Field(
         1e-7,
@@ -231,7 +231,7 @@ PAPER_COLUMNS = 270
 
 
 class PaperMesh(Strict):
-    """Mesh of the ring as table 4 counts it: quadrilaterals of four nodes with one pressure each.
+    """Mesh of the ring as in table 4: quadrilaterals of four nodes with one pressure each.
 
     Two rows in the band and two in the tread; the wires are membranes embedded in them, and
     contact with the ground acts at the nodes.
@@ -296,8 +296,8 @@ class FeSpokeModel(Strict):
         "converged",
         description="Ring of the tyre, and with it the section of the spoke that was calibrated "
         "with it. converged: wires that bend, results that do not depend on the mesh; paper_mesh: "
-        "the ring as table 4 of the paper counts it, of membranes in coarse elements, to compare "
-        "with the paper",
+        "the ring as in table 4 of the paper, membranes in coarse elements, to compare with the "
+        "paper",
     )
     geometry: SpokeGeometry = Field(
         default_factory=SpokeGeometry,

@@ -53,7 +53,7 @@ class CentralComposite(Strict):
 
 
 class BoxBehnken(Strict):
-    """Middles of the box's edges, and the centre; no case in a corner. Three to five factors."""
+    """Midpoints of the box's edges, and the centre; no case in a corner. Three to five factors."""
 
     kind: Literal["box_behnken"]
     centre_cases: int = Field(

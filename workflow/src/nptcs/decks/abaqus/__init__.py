@@ -1,4 +1,4 @@
-"""The Abaqus deck of the whole tyre: `deck` puts it together from `parts`, which `mesh` fills.
+"""The Abaqus deck of the whole tyre: `deck` assembles it from `parts`, whose meshes `mesh` makes.
 
 Configuration, ply and factor values come in, keywords and data lines go out. Nothing is run here.
 """

@@ -57,7 +57,7 @@ def check_radii(geometry: SpokeGeometry, tyre: TyreGeometry) -> None:
     room = band_radii(tyre)[0] - tyre.rim_diameter_mm / 2.0
     if abs(room - geometry.height_mm) > 0.1:
         raise InputError(
-            f"the spoke is {geometry.height_mm:g} mm high, rim and band are {room:g} mm apart",
+            f"the spoke is {geometry.height_mm:g} mm high, but rim and band are {room:g} mm apart",
             "give the spoke that height",
             column="geometry.height_mm",
             value=geometry.height_mm,

@@ -1,5 +1,5 @@
 """Elements and materials: shape functions, energies, forces and tangents of many elements at once.
 
-Nodes and displacements come in, element forces and tangents go out. Which elements make a spoke or
-a tyre is not known here.
+Nodes and displacements come in, element forces and tangents go out. Nothing here depends on which
+elements make up a spoke or a tyre.
 """

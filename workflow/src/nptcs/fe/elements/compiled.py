@@ -1,11 +1,12 @@
-"""Forces and tangents of one element after the other, compiled by numba.
+"""Forces and tangents of elements, one after another, compiled by numba.
 
 An element's gradients come as `columns`, array (points × directions, nodes): their products with
-displacements are deformations, those of their transpose with stresses are forces. Its tangent is
+displacements are deformations, those of their transpose with stresses are forces. The tangent is
 
     K_aibj = Σ_points ∂N_a/∂X_J  A_iJjL  ∂N_b/∂X_L dV,    A = ∂P/∂F,
 
-one product of `columns` with moduli-weighted ones for the pairs i ≤ j; the others are symmetric.
+one product of `columns` and columns weighted by the moduli for the pairs i ≤ j; the others follow
+by symmetry.
 """
 
 from __future__ import annotations
@@ -167,8 +168,8 @@ def rubber(
     displacement : array (all nodes, dim)
     pressure : array (elements, modes)
     whole : bool
-        Whether `coupling`, `lift` (elements, nodes × dim, modes) and `tangent` are wanted; else
-        pressures are eliminated by the given `lift`.
+        Whether `coupling`, `lift` (elements, nodes × dim, modes) and `tangent` are filled;
+        otherwise pressures are eliminated with the given `lift`.
     mismatch : array (elements, modes)
         Filled: ∫ ψ (J - 1 - p/κ) dV.
     force : array (elements, nodes, dim)
@@ -314,17 +315,17 @@ def linear(
     columns : array (elements, points × directions, nodes)
     weight : array (elements, points)
     stiffness : array (points, active, active)
-        Of the strain components that carry something.
+        Of the strain components that carry stress.
     active : array (active,)
-        Their places in Voigt's order.
+        Their places in Voigt order.
     frame : array (elements, points, 3, 3)
     displacement : array (all nodes, dim)
     carried : array (elements, points, 6)
         Stresses that the last step led to.
     own : bool
-        Whether they are taken; else those of the displacements.
+        Whether `carried` is used; otherwise the stresses of the displacements are.
     whole : bool
-        Whether `tangent` and `last`, the deformation at it, are filled.
+        Whether `tangent` and `last`, the deformation gradients of this state, are filled.
     last : array (elements, points, 3, 3)
     strain : array (elements, points, 6)
         Filled where active.

@@ -45,12 +45,12 @@ class MixedGroup(ElementGroup, Protocol):
     """Elements whose stresses are unknowns of Newton's method, eliminated in each element.
 
     They are pressures (elements, modes) of rubber, stresses (elements, points, 6) of stiff parts,
-    MPa. A guess of displacements that stretches what is stiff then spoils neither the tangents nor
+    MPa. A guess of displacements that stretches stiff parts then spoils neither the tangents nor
     the steps that follow.
     """
 
     def respond(self, displacement: Array, out: Array | None = None) -> ElementResponse:
-        """As `ElementGroup.respond`; the tangents are written into `out`, if it is given."""
+        """As `ElementGroup.respond`; the tangents are written into `out` if it is given."""
         ...
 
     def follow(self, step: Array, part: float = 1.0) -> None:
@@ -106,7 +106,7 @@ class LinearGroup:
         Local axes as columns.
     stress : array (elements, points, 6) or None
         Second Piola–Kirchhoff stress that the last Newton step led to (`follow`), MPa: the tangent
-        takes it, forces do not. None before the first step: that of the displacements.
+        uses it, forces do not. None before the first step: the stress of the displacements.
     """
 
     nodes: Index
@@ -240,7 +240,7 @@ class RubberGroup:
         self._eliminated(size)
 
     def _eliminated(self, size: int) -> None:
-        """Make new arrays for what the next response says of the pressures."""
+        """Make new arrays for the pressure terms of the next response."""
         shape = self.pressure.shape
         self._mismatch = np.zeros(shape)
         self._coupling = np.zeros((shape[0], size, shape[1]))

@@ -1,4 +1,4 @@
-"""Deformation of elements and its strain."""
+"""Deformation gradients of elements and their strains."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ def deformation_gradient(gradient: Array, displacement: Array, frame: Array | No
     gradient : array (elements, points, nodes, directions)
     displacement : array (elements, nodes, dim)
     frame : array (elements, points, 3, 3) or None
-        Q: axes of the local frame in which `gradient` is given, as columns; none for the identity.
+        Q: axes of the local frame in which `gradient` is given, as columns; None for the identity.
     """
     elements, points, _, directions = gradient.shape
     whole = np.empty((elements, points, 3, 3))

@@ -1,4 +1,4 @@
-"""Compiled functions made ready by the import of this module, in a process that others branch from.
+"""Compiled functions made ready when this module is imported, in a process that others fork from.
 
 The campaign starts each case as a copy of one process. That process imports and compiles, or reads
 numba's copies from disk (0.5 s), once for all cases.

@@ -30,7 +30,7 @@ class BlockMatrix:
     below : array (blocks - 1, row, 2 row)
         Second row of each block by all of the next block.
     size : int
-        Unknowns; the last block is filled up with ones on the diagonal.
+        Unknowns; the last block is padded with ones on the diagonal.
     """
 
     diagonal: Array
@@ -85,8 +85,8 @@ class BlockPattern:
     def assemble(self, tangents: Sequence[Array], out: Array | None = None) -> BlockMatrix:
         """Sum element tangents (elements, dofs, dofs).
 
-        With `out`, an array of `empty_entries`, the matrix is written there: an older matrix or its
-        factorisation in it is lost.
+        With `out`, an array of `empty_entries`, the matrix is written there and overwrites an older
+        matrix or its factorisation.
         """
         from nptcs.fe.matrices.compiled import add_at
 
@@ -148,7 +148,7 @@ class BlockCholesky:
 def _triangle(factor: Array, rhs: Array, transposed: bool) -> Array:
     """Solve with a lower triangle, or its transpose, for right-hand sides (n, m)."""
     if rhs.shape[1] == 1:
-        # LAPACK copies the triangle for several right-hand sides, which takes longer than one
+        # dtrsm copies the triangle, which takes longer than solving for one right-hand side
         line: Array = dtrsv(factor, rhs[:, 0], lower=1, trans=transposed)
         return line[:, None]
     found: Array = dtrsm(1.0, factor, rhs, lower=1, trans_a=transposed)
@@ -184,7 +184,7 @@ def solve_indefinite(matrix: BlockMatrix, rhs: Array) -> Array:
 
 
 def _split(rhs: Array, blocks: int, wide: int) -> list[Array]:
-    """Right-hand sides (size, …) in pieces (2 row, n), filled up with zeros."""
+    """Right-hand sides (size, …) in pieces (2 row, n), padded with zeros."""
     flat = rhs.reshape(len(rhs), -1)
     padded = np.zeros((blocks * wide, flat.shape[1]))
     padded[: len(flat)] = flat

@@ -8,6 +8,6 @@ from nptcs.machine_code import compiled
 
 @compiled
 def add_at(targets: Places, keep: Places, tangents: Array, whole: Array) -> None:
-    """Add the kept entries of element tangents, all as one line, to their targets."""
+    """Add the kept entries of element tangents, flattened, to their targets."""
     for place in range(len(keep)):
         whole[targets[place]] += tangents[keep[place]]

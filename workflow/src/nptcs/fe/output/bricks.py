@@ -59,7 +59,7 @@ class Bricks:
 
 
 def join_bricks(parts: list[Bricks]) -> Bricks:
-    """All bricks of several sets with the same fields."""
+    """Join several sets of bricks with the same fields."""
     return Bricks(
         np.concatenate([part.position for part in parts]),
         np.concatenate([part.displacement for part in parts]),
@@ -74,10 +74,10 @@ def spoke_bricks(model: SpokeModel, state: SpokeState, spoke: int = 0) -> Bricks
     Parameters
     ----------
     model : SpokeModel
-        Takes the pressures of the state.
+        Its groups are given the pressures of the state.
     state : SpokeState
     spoke : int
-        Number that the bricks carry.
+        Number of the spoke, a field of the bricks.
     """
     for group, pressure in zip(model.rubbers, state.pressures, strict=True):
         group.pressure = pressure

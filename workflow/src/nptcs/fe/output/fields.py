@@ -35,7 +35,7 @@ class RubberFields:
 
 
 def rubber_fields(group: RubberGroup, displacement: Array) -> RubberFields:
-    """Fields at the Gauss points of a group, at its present pressures."""
+    """Fields at the Gauss points of a group, at its current pressures."""
     local = displacement[group.nodes]
     return _law(group, deformation_gradient(group.gradient, local, None), group.pressure_shape)
 

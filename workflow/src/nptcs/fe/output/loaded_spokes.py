@@ -19,7 +19,7 @@ DIGITS = 6
 def loaded_spokes(
     model: SpokeModel, table: SpokeEnergyTable, motion: Array
 ) -> tuple[dict[str, list[float]], dict[str, float]]:
-    """Stress of the plates and strain of the rubber in the spokes that may decide.
+    """Stress of the plates and strain of the rubber in the spokes that may have the largest.
 
     Parameters
     ----------
@@ -39,14 +39,14 @@ def loaded_spokes(
     Raises
     ------
     SpokeError
-        If a spoke is not found again at its motion.
+        If a spoke has no equilibrium at its motion.
     """
     names = [field.name for field in fields(FaceStress)]
     columns: dict[str, list[float]] = {name: [] for name in ("spoke", *names)}
     strain, density = 0.0, 0.0
     state = model.rest()
     for number in deciding_spokes(table, motion):
-        # on from the spoke before, which is loaded nearly alike; `move` halves a step that fails
+        # start from the previous spoke, loaded almost the same; `move` halves a step that fails
         state = model.move(state, motion[number])
         faces = face_stress(model, state)
         columns["spoke"] += [float(number)] * len(faces.leg)

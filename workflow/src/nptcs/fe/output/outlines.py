@@ -1,4 +1,4 @@
-"""Outlines of the spokes, plates and band of a loaded tyre: what figure 10 a of the paper shows."""
+"""Outlines of the spokes, plates and band of a loaded tyre, as in figure 10 a of the paper."""
 
 from __future__ import annotations
 
@@ -16,9 +16,11 @@ CELLS = 1
 """Drawn cells along each side of an element."""
 
 SAME_MM = 1e-6
-"""Corners of neighbouring cells that are no further apart are one point."""
+"""Corners of neighbouring cells that are no further apart than this are one point."""
 
 RIM_POINTS = 180
+
+COORDINATES = ["x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]
 
 
 def outlines(cells: Array) -> list[list[int]]:
@@ -32,7 +34,7 @@ def outlines(cells: Array) -> list[list[int]]:
     Returns
     -------
     list of lists of int
-        Places of each line's points in the flattened corners, in order along it.
+        Indices of each line's points in the flattened corners, in order along it.
 
     Examples
     --------
@@ -54,7 +56,7 @@ def outlines(cells: Array) -> list[list[int]]:
 
 
 def _chained(edges: list[list[int]]) -> list[list[int]]:
-    """Put edges one behind the other until each line closes."""
+    """Join edges end to end until each line closes."""
     at: dict[int, list[int]] = {}
     for number, (start, end) in enumerate(edges):
         at.setdefault(start, []).append(number)
@@ -95,7 +97,7 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
     Raises
     ------
     SpokeError
-        If a spoke finds no equilibrium at its motion.
+        If a spoke has no equilibrium at its motion.
     """
     last = spoke.rest()
     rest = section_stress(spoke, last, CELLS)
@@ -117,11 +119,11 @@ def tyre_outlines(tyre: TyreModel, state: TyreState, spoke: SpokeModel) -> pd.Da
     turn = np.linspace(0.0, 2.0 * np.pi, RIM_POINTS, endpoint=False)
     circle = rim * np.column_stack([np.sin(turn), -np.cos(turn)])
     parts.append(("rim", circle, circle))
-    return pd.concat([_rows(number, *part) for number, part in enumerate(parts)])
+    return pd.concat([_rows(number, *part) for number, part in enumerate(parts)], ignore_index=True)
 
 
 CELLS_OF = {"spoke": "rubber", "plate": "plate"}
-"""Cells of a section that make each part."""
+"""Cells of a section that make up each part."""
 
 
 def _placed(points: Array, angle: float, rim_mm: float) -> Array:
@@ -141,8 +143,7 @@ def _band(tyre: TyreModel, state: TyreState) -> list[tuple[str, Array, Array]]:
 
 def _rows(number: int, part: str, before: Array, after: Array) -> pd.DataFrame:
     columns = np.round(np.column_stack([after, before]), 3) + 0.0
-    names = ["x_mm", "y_mm", "x_undeformed_mm", "y_undeformed_mm"]
-    rows = pd.DataFrame(columns, columns=names)
+    rows = pd.DataFrame(columns, columns=COORDINATES)
     rows.insert(0, "outline", number)
     rows.insert(0, "part", part)
     return rows

@@ -41,7 +41,7 @@ class FaceStress:
         σ1, σ2 and τ12 in the fibre axes of that ply, at the centre.
     mises_mpa, mean_mises_mpa : arrays
         Von Mises stress in the plane of the plate: at the centre, where a reduced-integration
-        shell has its one point, and of the mean stress of the element's face.
+        shell has its only point, and of the mean stress of the element's face.
     """
 
     leg: Index

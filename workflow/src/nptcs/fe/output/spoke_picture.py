@@ -1,4 +1,4 @@
-"""Picture of the single spoke, pulled and pressed, with the stress of rubber and fibres."""
+"""Picture of the single spoke, pulled and compressed, with the stress of rubber and fibres."""
 
 from __future__ import annotations
 
@@ -50,7 +50,7 @@ def section_stress(model: SpokeModel, state: SpokeState, fine: int = 12) -> Sect
     Parameters
     ----------
     model : SpokeModel
-        Takes the pressures of the state.
+        Its groups are given the pressures of the state.
     state : SpokeState
     fine : int
         Drawn cells along each side of an element.
@@ -96,7 +96,7 @@ def _profile(model: SpokeModel, state: SpokeState, cut: Mask, across: float) -> 
 
 
 def _cut(elements: ElementSet, fine: int) -> tuple[Mask, Array]:
-    """Elements that the plane y = 0 cuts, and local points in it; all are cut alike."""
+    """Elements that the plane y = 0 cuts, and local points in it, the same for all of them."""
     low, high = elements.corners[..., 1].min(axis=1), elements.corners[..., 1].max(axis=1)
     cut = (low <= 0.0) & (high > 0.0)
     line = np.linspace(-1.0, 1.0, fine + 1)
@@ -106,7 +106,7 @@ def _cut(elements: ElementSet, fine: int) -> tuple[Mask, Array]:
 
 
 def corners(values: Array) -> Array:
-    """Values at the four corners of the cells that a square grid of points makes.
+    """Values at the four corners of the cells between the points of a square grid.
 
     Parameters
     ----------
@@ -135,7 +135,9 @@ def _quads(
 
 
 def spoke_figure(model: SpokeModel) -> Figure:
-    """Draw the spoke pulled by 4 mm and pressed by 20 mm (figure 13's ends), the band not turning.
+    """Draw the spoke pulled by 4 mm and compressed by 20 mm, the ends of figure 13's curves.
+
+    The band does not turn.
 
     Colour: von Mises stress of the rubber, the plates dark. Next to it the stress along the fibres
     near the faces of both plies.

@@ -1,6 +1,6 @@
 """Bricks as VTK files for ParaView: ``.vtu``, and ``.pvd`` for a series of states.
 
-VTK itself writes them (the extra ``nptcs[paraview]``, see ``docs/how-to/use-finite-elements.md``).
+The VTK library writes them (extra ``nptcs[paraview]``, see ``docs/how-to/use-finite-elements.md``).
 """
 
 from __future__ import annotations
@@ -117,7 +117,7 @@ def _grid(nodes: Index, position: Array) -> Any:
         vtkUnstructuredGrid,
     )
 
-    # VTK's own local coordinates tell where each of our nodes belongs
+    # VTK's own local coordinates show where each of our nodes belongs
     local = np.array(vtkTriQuadraticHexahedron().GetParametricCoords()).reshape(-1, 3)
     order = np.round(2.0 * local).astype(np.int64) @ np.array([9, 3, 1])
     points = vtkPoints()

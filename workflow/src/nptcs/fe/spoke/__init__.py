@@ -1,5 +1,5 @@
 """One spoke: mesh, equilibrium, the energy table that represents it in the tyre, its pull and push.
 
-A `SpokeDesign` comes in, states (`equilibrium`), an energy (`energy_table`) or a force–displacement
-curve (`pull`) goes out. The tyre is not known here.
+A `SpokeDesign` comes in; states (`equilibrium`), an energy (`energy_table`) or a force–displacement
+curve (`pull`) go out. Nothing here depends on the tyre.
 """

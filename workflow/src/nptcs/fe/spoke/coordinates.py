@@ -1,18 +1,18 @@
 """Coordinates of the band's motion in which the spoke's symmetry shows.
 
 The spoke is the same after a half turn about the circumferential line at its mid-height: rim and
-band change places, and the plies [+A/-A] come back as they were. What its energy depends on, the
-place of one foot as the other sees it, is then
+band change places, and the plies [+A/-A] are unchanged. Its energy depends on the place of one foot
+relative to the other, which is given by
 
     s = |line| - height,    β = (inclination of the line) + φ/2,    φ,
 
-the line running from the rim's foot to the band's, its inclination positive along +u_θ. The half
-turn takes β to -β and leaves s and φ: E(s, β, φ) = E(s, -β, φ).
+where the line runs from the rim's foot to the band's and its inclination is positive along +u_θ.
+The half turn takes β to -β and leaves s and φ unchanged: E(s, β, φ) = E(s, -β, φ).
 
-Two straight legs that are hinged at mid-height turn by angles that go with √(a - s), where a is the
-elongation at which they are in one line: their stiffness along the line grows without bound as s
-nears a. A polynomial in s rings along the whole range to follow that (by 5 % of the stiffness with
-degree 13 on -40 … 8 mm), one in √(a - s) does not.
+Two straight legs that are hinged at mid-height rotate by angles proportional to √(a - s), where a
+is the elongation at which they are in line: their stiffness along the line grows without bound as s
+approaches a. A polynomial in s that follows this oscillates along the whole range (by 5 % of the
+stiffness with degree 13 on -40 … 8 mm); one in √(a - s) does not.
 """
 
 from __future__ import annotations
@@ -21,7 +21,7 @@ import numpy as np
 
 from nptcs.arrays import Array
 
-# least distance from a table's range to the elongation at which the legs are in one line, in parts
+# least distance from a table's range to the elongation at which the legs are in line, as a fraction
 # of the range's upper end: a spoke whose legs are steeper stretches rather than straightens
 LEAST_ROOM = 0.5
 
@@ -31,7 +31,7 @@ Map = tuple[Array, Array, Array]
 
 
 def coordinates_of(motion: Array, height_mm: float) -> Map:
-    """Give (s, β, φ) of motions (n, 3) (u_r, u_θ, φ), and their derivatives by the motion."""
+    """Give (s, β, φ) of motions (n, 3) (u_r, u_θ, φ), and the derivatives with respect to them."""
     along, radial = motion[:, 1], height_mm + motion[:, 0]
     length = np.hypot(along, radial)
     cos, sin = radial / length, along / length
@@ -51,11 +51,11 @@ def coordinates_of(motion: Array, height_mm: float) -> Map:
 
 
 def motion_of(coordinates: Array, height_mm: float) -> Map:
-    """Give (u_r, u_θ, φ) at coordinates (n, 3) (s, β, φ), and the derivatives by them."""
+    """Give (u_r, u_θ, φ) at (s, β, φ), array (n, 3), and the derivatives with respect to these."""
     length, inclination = height_mm + coordinates[:, 0], coordinates[:, 1] - coordinates[:, 2] / 2.0
     cos, sin = np.cos(inclination), np.sin(inclination)
     values = np.stack([length * cos - height_mm, length * sin, coordinates[:, 2]], axis=1)
-    # the inclination's derivatives by (s, β, φ)
+    # derivatives of the inclination with respect to (s, β, φ)
     turn = np.array([0.0, 1.0, -0.5])
     first, second = np.zeros((len(coordinates), 3, 3)), np.zeros((len(coordinates), 3, 3, 3))
     first[:, 0, 0], first[:, 1, 0], first[:, 2, 2] = cos, sin, 1.0
@@ -70,7 +70,7 @@ def motion_of(coordinates: Array, height_mm: float) -> Map:
 
 
 def carried(force: Array, tangent: Array, first: Array, second: Array) -> tuple[Array, Array]:
-    """Carry an energy's derivatives from the values of a map to its variables.
+    """Transform an energy's derivatives from the values of a map to its variables.
 
     Parameters
     ----------
@@ -86,7 +86,7 @@ def carried(force: Array, tangent: Array, first: Array, second: Array) -> tuple[
 
 
 def straight_elongation_mm(height_mm: float, leg_angle_deg: float, highest_mm: float) -> float:
-    """Elongation at which the legs are in one line, H (1/cos α - 1), or beyond the table's end."""
+    """Elongation at which the legs are in line, H (1/cos α - 1), or beyond the table's end."""
     straight = height_mm * (1.0 / float(np.cos(np.radians(leg_angle_deg))) - 1.0)
     return max(straight, (1.0 + LEAST_ROOM) * highest_mm)
 
@@ -96,7 +96,7 @@ def unit_elongation(
 ) -> tuple[Array, Array, Array]:
     """Give x, from -1 to 1 along a range of s and linear in √(a - s), and dx/ds and d²x/ds².
 
-    Beyond the range's upper end it goes on as a parabola.
+    Beyond the range's upper end it continues as a parabola.
 
     Parameters
     ----------

@@ -45,8 +45,8 @@ def plate_groups(
     The in-plane strains of the layer vary linearly through it; they are read at the plies' true
     distances from the mid-surface, which may lie inside or outside the layer, with plane-stress
     stiffness. So membrane, coupling and bending stiffness are those of classical lamination
-    theory whatever the layer's thickness, the large rotations those of the solid. Stretch through
-    the thickness and transverse shear (factor 5/6, under-integrated along the plate against
+    theory whatever the layer's thickness, and large rotations are those of the solid. Stretch
+    through the thickness and transverse shear (factor 5/6, under-integrated along the plate against
     locking) hold the two faces together.
 
     Parameters

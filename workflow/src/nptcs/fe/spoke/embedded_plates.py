@@ -1,9 +1,9 @@
 """Plates as shells embedded in bricks: their mid-surface stays straight across their width.
 
-A shell node that is embedded moves as the linear brick around it. The paper's 3612 bricks per spoke
+An embedded shell node moves with the linear brick around it. The paper's 3612 bricks per spoke
 (table 4) are 84 times 43, and 43 across the width of 215 mm are 5 mm each, as wide as a plate. The
-plate can stretch, twist and turn its sections, but its mid-surface cannot bow across the width,
-which holds part of the curvature that bending along the fibres' angle would give it.
+plate can stretch and twist and its sections can turn, but its mid-surface cannot bow across the
+width, which suppresses part of the curvature that bending at the fibres' angle would give it.
 """
 
 from __future__ import annotations
@@ -17,7 +17,7 @@ from nptcs.fe.elements.groups import ElementResponse
 from nptcs.fe.spoke.mesh import ElementSet
 
 # stiffness of the springs along each line of nodes, as a multiple of the ply's transverse modulus:
-# a hundred times more changes a spoke's stiffness by less than 0.01 % and adds rounding errors
+# a hundred times this changes a spoke's stiffness by less than 0.01 % and adds rounding errors
 HELD = 100.0
 SIMPSON = np.array([1.0, 4.0, 1.0]) / 6.0
 

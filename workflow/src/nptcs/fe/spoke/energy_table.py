@@ -2,8 +2,8 @@
 
 The polynomial is fitted to energies, forces and condensed tangents of finite element states
 together, so that forces and tangents in the tyre are exact derivatives of one energy. Its variables
-are those of `coordinates`, with √(a - s) for s: it is even in β, and only states with β ≥ 0 are
-computed.
+are those of `coordinates`, with √(a - s) in place of s: it is even in β, and only states with β ≥ 0
+are computed.
 """
 
 from __future__ import annotations
@@ -22,10 +22,10 @@ from nptcs.fe.spoke.coordinates import (
 )
 
 SECOND = ((0, 0), (1, 1), (2, 2), (0, 1), (1, 2), (0, 2))
-# what rounding in `coordinates_of` may add to a state on the table's edge, in parts of the range:
-# motions are differences of lengths of a hundred millimetres, known to 1e-14
+# what rounding in `coordinates_of` may add to a state on the table's edge, as a fraction of the
+# range: motions are differences of lengths of a hundred millimetres, known to 1e-14
 EDGE = 1e-12
-# part of the largest energy that is added to each state's own where its data are weighted
+# fraction of the largest energy that is added to each state's own to weight its data
 FLOOR = 0.1
 NAMES = ("elongation (mm)", "inclination β (rad)", "φ (rad)")
 
@@ -61,7 +61,7 @@ class SpokeEnergyTable:
     coefficients : array (terms,)
         N mm.
     narrowing : float
-        Part of the ranges of β and φ that is left at the lowest s, linear from s = 0.
+        Fraction of the ranges of β and φ that remains at the lowest s, linear from s = 0.
     force_residual_n : float
         Root mean square misfit of the force along the line between the feet at the sampled states.
     """
@@ -121,7 +121,7 @@ def _order(*axes: int) -> tuple[int, int, int]:
 def _local(
     coordinates: Array, low: Array, high: Array, straight_mm: float
 ) -> tuple[Array, Array, Array]:
-    """Give what the polynomials take, from -1 to 1, and its derivatives: arrays (n, 3)."""
+    """Give the polynomials' variables, from -1 to 1, and their derivatives: arrays (n, 3)."""
     slope = np.broadcast_to(2.0 / (high - low), coordinates.shape).copy()
     values, curve = (coordinates - low) * slope - 1.0, np.zeros_like(coordinates)
     limits = float(low[0]), float(high[0])
@@ -170,7 +170,7 @@ def chebyshev_nodes(low: float, high: float, count: int) -> Array:
 
 
 def side_part(s: Array, lowest: float, narrowing: float) -> Array:
-    """Part of the ranges of β and φ that the table covers at these s."""
+    """Fraction of the ranges of β and φ that the table covers at these s."""
     part: Array = 1.0 - (1.0 - narrowing) * np.clip(s / lowest, 0.0, 1.0)
     return part
 
@@ -180,9 +180,10 @@ def fit_energy(
 ) -> SpokeEnergyTable:
     """Fit the energy polynomial to energies, forces and tangents by least squares.
 
-    All data enter in units of energy, as derivatives by what the polynomials take; those of a state
-    in parts of its energy plus a tenth of the largest. So small loads are met as well as large
-    ones. A table that ends early has fewer levels of s, and for them a lower degree.
+    All data enter in units of energy, as derivatives with respect to the polynomials' variables;
+    those of a state are divided by its energy plus a tenth of the largest, so that small loads are
+    fitted as well as large ones. A table that ends early has fewer levels of s, and so a lower
+    degree in s.
 
     Raises
     ------
@@ -224,7 +225,7 @@ def fit_energy(
     if rank < len(exponents):
         raise ValueError(
             f"{len(exponents)} terms cannot be determined from {len(samples.coordinates)} states "
-            f"(rank {rank}): lower degrees or take more samples"
+            f"(rank {rank}): lower the degrees or take more samples"
         )
     along = _term(lines, _order(0)) @ coefficients * slope[:, 0]
     residual = float(np.sqrt(np.mean((along - samples.force[:, 0]) ** 2)))

@@ -1,4 +1,4 @@
-"""The spoke: its response to the band's motion (u_r, u_θ, φ), the rim being clamped."""
+"""The spoke: its response to the band's motion (u_r, u_θ, φ) with the rim clamped."""
 
 from __future__ import annotations
 
@@ -15,20 +15,21 @@ from nptcs.fe.spoke.period import SpokeDesign, SpokePeriod
 MAX_ITERATIONS = 14
 SMALLEST_CUT = 1.0 / 16.0
 LARGEST_STEP_MM = 30.0
-# work of the step that is left, in parts of the energy, unless another value is given
+# accepted work of the remaining step, as a fraction of the energy, unless another value is given
 STRICT_WORK = 1e-9
-# an older matrix is followed while each step leaves less than this part of the last one's work
+# an older matrix is reused while each step leaves less than this fraction of the last one's work
 FOLLOWED = 0.25
-# work to which an older matrix is followed, in parts of the accepted work, if the next step leaves
-# as small a part as the last one did: the state's own matrix, which is computed then, has its
-# tangent to first order in the step that is left
+# work down to which an older matrix is reused, as a fraction of the accepted work, if the next step
+# reduces it as much as the last one did: the state's own matrix, computed then, gives the tangent
+# to first order in the remaining step
 BELOW_ACCEPTED = 1e-2
-# misfit between energy and work along a row, in parts of the energy, on one equilibrium path
+# largest misfit between energy and work along a row of states on one equilibrium path, as a
+# fraction of the energy
 SAME_PATH = 0.05
 
 
 class SpokeError(RuntimeError):
-    """The spoke's equilibrium was not found, with the last state that was found."""
+    """The spoke's equilibrium was not found; the message gives the last state that was."""
 
 
 @dataclass
@@ -77,7 +78,7 @@ class SpokeFields:
 def _joined(last: SpokeState, state: SpokeState) -> bool:
     """Whether one equilibrium path joins two states: their energies differ by the forces' work.
 
-    A spoke that has buckled to another side, or beyond a loss of stability, fails this.
+    A spoke that has buckled to the other side, or has passed a loss of stability, fails this.
     """
     way = state.motion - last.motion
     work = 0.5 * (last.force + state.force) @ way
@@ -105,7 +106,7 @@ class SpokeModel(SpokePeriod):
         self._accepted_work = accepted_work
 
     def rest(self) -> SpokeState:
-        """Return the unloaded spoke: no energy and no force, not even of rounding."""
+        """Return the unloaded spoke: its energy and forces are exactly zero, without rounding."""
         unloaded, motion = np.zeros_like(self.mesh.positions), np.zeros(3)
         for group in self.mixed:
             group.release()
@@ -139,7 +140,7 @@ class SpokeModel(SpokePeriod):
         return state
 
     def walk(self, start: SpokeState, motions: Array) -> Iterator[SpokeState]:
-        """Go from an equilibrium through a row of motions (n, 3), and give each state.
+        """Go from an equilibrium through a row of motions (n, 3), and yield each state.
 
         Raises
         ------
@@ -152,10 +153,10 @@ class SpokeModel(SpokePeriod):
             yield last
 
     def next_state(self, before: SpokeState | None, last: SpokeState, motion: Array) -> SpokeState:
-        """Go on along the last two states of a row.
+        """Continue a row from its last two states.
 
-        Newton's method begins at the cubic through them; where it does not converge, or leaves
-        the equilibrium path, `move` goes on from the last state.
+        Newton's method begins at the cubic through them; if it does not converge, or leaves the
+        equilibrium path, `move` continues from the last state.
 
         Raises
         ------
@@ -204,14 +205,14 @@ class SpokeModel(SpokePeriod):
     def settle(self, motion: Array, guess: SpokeFields) -> SpokeState:
         """Newton's method at a fixed motion of the band.
 
-        Each matrix is used for as many steps as it is good for, each of which costs a seventh of
-        one with a new matrix. The state that is accepted has its own.
+        Each matrix is reused as long as its steps converge; such a step costs a seventh of one
+        with a new matrix. The accepted state has its own matrix.
 
         Parameters
         ----------
         motion : array (3,)
         guess : SpokeFields
-            Its nodes on the band have the motion.
+            Its nodes on the band already have this motion.
 
         Raises
         ------
@@ -255,7 +256,7 @@ class SpokeModel(SpokePeriod):
     def _followed(
         self, displacement: Array, factor: BlockCholesky, step: Array, work: float
     ) -> Array:
-        """Take a step, and more with the same matrix as long as their work shrinks."""
+        """Take a step, and more with the same matrix as long as the work shrinks."""
         while True:
             displacement = self._taken(displacement, step)
             before = work
@@ -284,7 +285,7 @@ class SpokeModel(SpokePeriod):
     ) -> SpokeState:
         """Condense onto the band: force and tangent of the three motions.
 
-        The force is right to second order in what the last step leaves of the inner forces.
+        The force is right to second order in the inner forces that the last step leaves.
         """
         slope, curve = self.band_motion_slope(float(motion[2]))
         product = self._top_product(responses, slope)

@@ -1,9 +1,9 @@
 """Mesh of one axial period of the spoke: quadratic hexahedra in horizontal rows.
 
 Axes: x along the circumference, y along the tyre's axis, z along the radius from rim to band. One
-plate lies in y within ± half its width; the period repeats at the pitch, the tyre's width over the
-number of plates, which is not their spacing. Nodes are numbered row by row, so that the stiffness
-matrix is a chain of dense blocks (`nptcs.fe.matrices.block_tridiagonal`).
+plate lies in y within ± half its width; the period repeats at the pitch, which is the tyre's width
+divided by the number of plates and not their spacing. Nodes are numbered row by row, so that the
+stiffness matrix is a chain of dense blocks (`nptcs.fe.matrices.block_tridiagonal`).
 """
 
 from __future__ import annotations
@@ -64,7 +64,7 @@ class PeriodMesh:
 
 
 def subdivide(breaks: Sequence[float], counts: Sequence[int]) -> Array:
-    """Divide each interval between two breaks into `count` equal parts; all edges, array (edges,).
+    """Divide each interval between two breaks into equal parts; return all edges, array (edges,).
 
     Raises
     ------

@@ -94,7 +94,7 @@ class SpokePeriod:
 
     @property
     def groups(self) -> list[ElementGroup]:
-        """All element groups, and what holds the plates straight."""
+        """All element groups, including the springs that hold the plates straight."""
         return [*self.rubbers, *self.plates, *self.embedding]
 
     def band_motion(self, motion: Array) -> Array:
@@ -118,14 +118,14 @@ class SpokePeriod:
         return slope.reshape(-1, 3), curve.ravel()
 
     def _respond(self, displacement: Array) -> tuple[list[ElementResponse], Array]:
-        """Responses of all groups, whose tangents last until the next call, and their forces."""
+        """Responses of all groups, whose tangents the next call overwrites, and their forces."""
         kept = zip(self.mixed, self._tangents, strict=True)
         responses = [group.respond(displacement, out) for group, out in kept]
         responses += [group.respond(displacement) for group in self.embedding]
         return responses, self._summed([response.force for response in responses])
 
     def _factorised(self, responses: Sequence[ElementResponse]) -> BlockCholesky:
-        """Factorise the matrix of these responses; lasts until the next call."""
+        """Factorise the matrix of these responses; the next call overwrites it."""
         tangents = [response.tangent for response in responses]
         return BlockCholesky(self._pattern.assemble(tangents, self._entries))
 

@@ -1,4 +1,4 @@
-"""The single spoke pulled and pressed, section 4.3.1 of the paper (figure 13, table 10)."""
+"""The single spoke pulled and compressed, section 4.3.1 of the paper (figure 13, table 10)."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ class SpokeStiffness:
 def spoke_stiffness(
     model: SpokeModel, tension_steps: int = 8, compression_steps: int = 10
 ) -> SpokeStiffness:
-    """Pull a spoke by 4 mm, press it by 20 mm, and fit lines through the origin."""
+    """Pull a spoke by 4 mm, compress it by 20 mm, and fit lines through the origin."""
     tension = pull(model, TENSION_MM, tension_steps)
     compression = pull(model, -COMPRESSION_MM, compression_steps)
     return SpokeStiffness(

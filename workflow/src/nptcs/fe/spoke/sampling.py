@@ -31,13 +31,13 @@ from nptcs.fe.spoke.period import SpokeDesign
 Place = tuple[int, int]
 # level of s = 0, where each row starts
 START = -1
-# part of the range of s
+# fraction of the range of s
 NEXT_TO_REST = 0.03
 
 
 @dataclass(frozen=True)
 class SampledRow:
-    """States of equal β and φ (at full range), and the numbers of their levels, rising."""
+    """States of equal β and φ (at full range), and the numbers of their levels in rising order."""
 
     number: int
     beta: float
@@ -49,8 +49,8 @@ class Grid:
     """Where a table is sampled: levels of s, and the rows of states across them.
 
     The row β = φ = 0 has a state at every level. The other rows have one at both ends and at every
-    second level between them, where they take turns as the colours of a chessboard, unless the
-    options ask for every state.
+    second level between them, alternating from row to row like the squares of a chessboard, unless
+    the options ask for every state.
 
     Parameters
     ----------
@@ -66,7 +66,7 @@ class Grid:
         nodes = chebyshev_nodes(-1.0, 1.0, options.samples[0])
         self.lengths = elongations_at(nodes, (low, high), straight)
         self.lengths[[0, -1]] = low, high
-        # a level next to s = 0 would say what the rows' start says
+        # a level next to s = 0 would repeat the rows' start
         zero = np.abs(self.lengths) < NEXT_TO_REST * np.ptp(self.lengths)
         self._levels = [int(level) for level in np.flatnonzero(~zero)]
 
@@ -117,14 +117,14 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
     Raises
     ------
     SpokeError
-        If a state in tension or of the unloaded radius is not found.
+        If a state in tension or at the unloaded radius is not found.
     """
     grid = Grid(options, model.design.geometry)
     walk = _Walk(model, grid)
     rest, lowest = model.rest(), 0
     starts: dict[float, SpokeState] = {}
     for row in grid.rows():
-        # on from the row of equal φ and the next smaller β
+        # start from the row of equal φ and the next smaller β
         start = starts[row.phi] = walk.begun(row, starts.get(row.phi, rest))
         up = [level for level in row.levels if grid.lengths[level] > 0.0]
         walk.along(row, start, up)
@@ -138,7 +138,7 @@ def sampled_states(model: SpokeModel, options: EnergyTableOptions) -> dict[Place
 
 @dataclass(frozen=True)
 class _Walk:
-    """Goes along rows and collects what it finds."""
+    """Goes along rows and collects their states."""
 
     model: SpokeModel
     grid: Grid
@@ -152,7 +152,7 @@ class _Walk:
         return self.along(row, near, [START])
 
     def along(self, row: SampledRow, start: SpokeState, levels: Sequence[int]) -> SpokeState:
-        """Go from a state through these levels of a row, and give the last state."""
+        """Go from a state through these levels of a row, and return the last state."""
         before, last = None, start
         for level, motion in zip(levels, self.grid.motions(row, levels), strict=True):
             before, last = last, self.model.next_state(before, last, motion)
@@ -165,7 +165,7 @@ class _Walk:
 def _check_stability(state: SpokeState) -> None:
     """Refuse a compressed state in which the foot on the band, if it were free, would turn.
 
-    The spoke is about to snap there: its tangents change so fast that no polynomial follows them.
+    The spoke is about to snap there: its tangents change too fast for a polynomial to follow.
 
     Raises
     ------
@@ -179,7 +179,7 @@ def _check_stability(state: SpokeState) -> None:
 def _last_level(
     model: SpokeModel, grid: Grid, row: SampledRow, found: dict[Place, SpokeState]
 ) -> int:
-    """Lowest level that a row reaches, with the one that it leaves out next to its last state."""
+    """Lowest level that a row reaches, including the level it skips next to its last state."""
     inside = int(np.searchsorted(grid.lengths, 0.0))
     reached = [level for number, level in found if number == row.number and 0 <= level < inside]
     last = min(reached, default=START)
@@ -197,7 +197,7 @@ def _last_level(
 
 
 def samples_of(states: Mapping[Place, SpokeState], height_mm: float) -> SpokeSamples:
-    """Energies and derivatives of states by the table's coordinates."""
+    """Energies of states and their derivatives with respect to the table's coordinates."""
     motion = np.array([state.motion for state in states.values()])
     force = np.array([state.force for state in states.values()])
     tangent = np.array([state.tangent for state in states.values()])

@@ -37,13 +37,13 @@ UNREADABLE = (
 
 
 def write_arrays(path: Path, kind: str, arrays: Mapping[str, Any]) -> None:
-    """Write arrays atomically, with what they are and a checksum over both.
+    """Write arrays atomically, with their kind and a checksum over both.
 
     Parameters
     ----------
     path : Path
     kind : str
-        What the file holds, with the version of its format and the key of its content.
+        What the file contains, with the version of its format and the key of its content.
     arrays : mapping of str to array
         Numbers only.
     """
@@ -58,8 +58,8 @@ def read_arrays(path: Path, kind: str) -> dict[str, Array] | None:
     Returns
     -------
     dict of str to array or None
-        None if there is no such file, or it is not whole, of another kind, altered, or holds a
-        number that is not finite.
+        None if there is no such file, or it is incomplete, altered, of another kind, or contains
+        a number that is not finite.
     """
     try:
         with np.load(io.BytesIO(path.read_bytes()), allow_pickle=False) as data:

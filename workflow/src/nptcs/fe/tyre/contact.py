@@ -10,7 +10,7 @@ from nptcs.arrays import Array, Index
 from nptcs.config.solvers.fe import GroundContact
 from nptcs.fe.elements.lagrange import line_shape
 
-# MPa/mm and mm of the soft ground: it gives way by some hundredths of a millimetre
+# MPa/mm and mm of the soft ground: it gives way by a few hundredths of a millimetre
 SOFT = 50.0, 0.1
 # tanh is 1 to rounding beyond this
 RATIO_CAP = 20.0
@@ -65,14 +65,14 @@ class Ground:
 
     The normal pressure is p(g) = ε g²/2d up to a penetration d, ε (g - d/2) beyond: its slope does
     not jump, so Newton's method does not chatter. The shear traction is µ p tanh(ε_t s / µ p)
-    with the slip s since the last converged step, at which it is remembered.
+    with the slip s from an anchor, which each converged step moves.
 
     Parameters
     ----------
     positions : array (nodes, 2)
     edges : array (edges, nodes of an edge)
     rule : pair of arrays (points,)
-        Where the ground is felt on an edge, from -1 to 1, and the points' weights.
+        Contact points on an edge, from -1 to 1, and their weights.
     width_mm : float
         Axial width of the tread.
     options : GroundContact
@@ -91,7 +91,7 @@ class Ground:
         tangent = np.einsum("gn,eni->egi", slope, positions[edges])
         length = np.linalg.norm(tangent, axis=2) * weights
         self._length = length
-        # where the parts of an edge that its points stand for begin and end
+        # where the parts of an edge that its points represent begin and end
         ends = np.clip(np.cumsum([-1.0, *weights]), -1.0, 1.0)
         self._end_shape, _ = line_shape(edges.shape[1] - 1, ends)
         self._at_nodes = np.array_equal(points, [-1.0, 1.0])
@@ -110,7 +110,7 @@ class Ground:
         return self._law[1] > self._options.smoothing_mm
 
     def soften(self) -> None:
-        """Take the pressure of a soft ground, with which Newton's method finds the contact."""
+        """Use the pressure of a soft ground, on which Newton's method finds the contact."""
         stiff, smooth = self._options.penalty_mpa_per_mm, self._options.smoothing_mm
         self._law = min(stiff, SOFT[0]), max(smooth, SOFT[1])
 
@@ -169,7 +169,7 @@ class Ground:
         self._anchor = np.zeros(self._area.shape)
 
     def advance(self, displacement: Array, rise_mm: float) -> None:
-        """Remember the slip of a converged step; points off the ground forget theirs."""
+        """Store the slip of a converged step; points off the ground lose theirs."""
         along, pressure, _, shear, _, _ = self._state(displacement, rise_mm)
         self._anchor = along - np.where(
             pressure > 0.0, shear / self._options.tangential_mpa_per_mm, 0.0
@@ -181,12 +181,12 @@ class Ground:
         return (self._place[..., 0] + along).ravel(), pressure.ravel()
 
     def cells(self, displacement: Array, rise_mm: float) -> ContactCells:
-        """Parts of the tread that the contact points stand for, in the order of θ."""
+        """Parts of the tread that the contact points represent, in the order of θ."""
         x = (self._positions + displacement)[self._edges][..., 0]
         ends = np.einsum("gn,en->eg", self._end_shape, x)
         _, pressure, *_ = self._state(displacement, rise_mm)
         if self._at_nodes:
-            # a node stands for half of the edges on both sides of it
+            # a node represents half of the edge on either side of it
             half, length = ends[:, 1], self._length
             return ContactCells(
                 half, np.roll(half, -1), pressure[:, 1], length[:, 1] + np.roll(length[:, 0], -1)

@@ -55,7 +55,7 @@ def wire_groups(ring: RingMesh, tyre: TyreGeometry) -> list[LinearGroup]:
 def _membrane(
     ring: RingMesh, nodes: Index, place: float, modulus: float, area_mm2: float
 ) -> list[LinearGroup]:
-    """Wires without bending stiffness, embedded in elements: they stretch and nothing else.
+    """Wires without bending stiffness, embedded in elements: they only stretch.
 
     One point, since the strain of a straight wire between two sides of an element is uniform. A
     compressed layer of them buckles at the length of the elements, however short they are.

@@ -1,4 +1,4 @@
-"""The tyre: band and tread in plane strain on spoke super-elements, pressed on the ground."""
+"""The tyre: band and tread in plane strain on spoke super-elements, pressed against the ground."""
 
 from __future__ import annotations
 
@@ -20,14 +20,14 @@ from nptcs.fe.tyre.mesh import build_ring
 from nptcs.fe.tyre.path import LoadPoint, check_branch, extrapolated
 
 MAX_ITERATIONS = 30
-# from an extrapolated start: beyond that it lies in another contact
+# from an extrapolated start, which needs more only if it lies in another contact state
 MAX_ITERATIONS_AHEAD = 12
 # from this iteration on, steps that do not shrink are shortened
 CALM_ITERATIONS = 6
 # a soft ground hardens when the steps are this small
 SETTLED_MM = 0.05
 LARGEST_STEP_MM = 6.0
-# last step, after which Newton's method is right to the square of it
+# largest last step: the error after it is about its square
 CONVERGED_MM = 1e-5
 SMALLEST_STEP_N = 2.0
 FIRST_RISE_MM = 0.5
@@ -35,10 +35,10 @@ SMALLEST_RISE_MM = 0.02
 
 
 class TyreError(RuntimeError):
-    """The load could not be reached; `path` holds the points that were."""
+    """The load could not be reached; `path` has the points that were."""
 
     def __init__(self, message: str, path: LoadPath) -> None:
-        # both in args, so that it survives the way back from a worker process
+        # both in args, so that a worker process can pickle the exception
         super().__init__(message, path)
         self.path = path
 
@@ -79,7 +79,7 @@ class _Trial:
 
 
 class TyreModel:
-    """A tyre of one table of spokes and one rubber of band and tread.
+    """A tyre with one energy table for all spokes and one rubber for band and tread.
 
     Parameters
     ----------
@@ -213,7 +213,7 @@ class TyreModel:
         raise FloatingPointError(f"no equilibrium in {most} iterations")
 
     def load(self, loads_n: Sequence[float]) -> TyreState:
-        """Press the tyre on the ground through a rising sequence of loads.
+        """Press the tyre against the ground through a rising sequence of loads.
 
         Raises
         ------
@@ -253,7 +253,7 @@ class TyreModel:
             return self._point(reached, displacement, rise)
 
     def _unloaded(self, rise_mm: float) -> LoadPoint:
-        """Give the tyre as it was before the ground rose."""
+        """Return the tyre as it was before the ground rose."""
         displacement = np.zeros_like(self.mesh.positions)
         for group in self._bodies:
             group.release()
@@ -269,8 +269,8 @@ class TyreModel:
     ) -> LoadPoint:
         """One load step from the last point, halved until it converges.
 
-        Newton's method begins on the line through the last two points; where it does not converge
-        from there, at the last point.
+        Newton's method begins on the line through the last two points; if it does not converge
+        from there, it begins at the last point.
         """
         step = load - last.force_n
         start = last if before is None else extrapolated(before, last, load)

@@ -1,4 +1,4 @@
-"""What the spokes feel of the ring: the mean motion of each foot over its width."""
+"""Motion that the ring gives to the spokes: the mean of each foot over its width."""
 
 from __future__ import annotations
 
@@ -42,8 +42,8 @@ def foot_operators(ring: RingMesh) -> Array:
 def _edge(ring: RingMesh, local: slice, along: Array) -> tuple[Array, Array, Array]:
     """Shape functions, lengths and arms at points of the part of one edge that a foot covers.
 
-    Arrays (spokes, points, nodes of the edge), (spokes, points), (spokes, points); the edge is one
-    of each foot's, the arms are lengths along +θ from the foot's direction.
+    Arrays (spokes, points, nodes of the edge), (spokes, points), (spokes, points), for one edge of
+    each foot; the arms are lengths along +θ from the foot's direction.
     """
     nodes = ring.feet[:, local]
     low, high = _covered(ring, nodes)

@@ -43,9 +43,9 @@ class RingMesh:
     tread_edges : array (edges, nodes of an edge)
         Nodes of the outer edges, in the order of θ.
     contact_rule : pair of arrays
-        Where on these edges the ground is felt, and with which weights.
+        Contact points on these edges, and their weights.
     feet : array (spokes, nodes)
-        Nodes on the inside of the band that hold the whole foot of each spoke, in the order of θ.
+        Nodes on the inside of the band that span the whole foot of each spoke, in the order of θ.
     foot_half_angle : float
         Half the angle of a foot, rad.
     spoke_angle : array (spokes,)
@@ -154,7 +154,7 @@ def _converged_ring(tyre: TyreGeometry, mesh: TyreMesh, foot_width_mm: float) ->
 
 
 def _paper_ring(tyre: TyreGeometry, mesh: PaperMesh, foot_width_mm: float) -> RingMesh:
-    """Even quads of four nodes, two rows in the band and two in the tread; contact at nodes."""
+    """Equal four-node quads, two rows in the band and two in the tread; contact at nodes."""
     inner, outer = band_radii(tyre)
     outside, columns = tyre.outer_diameter_mm / 2.0, mesh.around
     radii = np.array([inner, (inner + outer) / 2.0, outer, (outer + outside) / 2.0, outside])

@@ -1,4 +1,4 @@
-"""Points of a tyre's load path: where the next one begins, and whether it is on the same branch."""
+"""Points of a tyre's load path: the start of the next one, and whether it is on the same branch."""
 
 from __future__ import annotations
 
@@ -24,7 +24,7 @@ class LoadPoint:
 
 
 def extrapolated(before: LoadPoint, last: LoadPoint, force_n: float) -> LoadPoint:
-    """Extrapolate the line of the load through two points."""
+    """Extrapolate two points linearly to a load."""
     part = (force_n - last.force_n) / (last.force_n - before.force_n)
     return LoadPoint(
         force_n,
@@ -37,7 +37,7 @@ def extrapolated(before: LoadPoint, last: LoadPoint, force_n: float) -> LoadPoin
 def check_branch(
     forces_n: Sequence[float], rises_mm: Sequence[float], force_n: float, rise_mm: float
 ) -> None:
-    """Refuse a step that has left for another equilibrium, in which wires have buckled.
+    """Refuse a step that has jumped to another equilibrium, in which wires have buckled.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What a loaded tyre does, from arrays that every ring has: pressures, and motions of spokes."""
+"""Responses of a loaded tyre, from arrays that every ring has: pressures and motions of spokes."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.fe.tyre.contact import ContactCells
 from nptcs.fe.tyre.mesh import MEMBRANES, RingMesh
 
-# part of the largest energy of a spoke above which a spoke's stress may be the largest one
+# fraction of the largest energy of a spoke above which a spoke's stress may be the largest
 DECIDING = 0.75
-# parts of the tread in a contact that is resolved
+# fewest parts of the tread in a contact that is resolved
 LEAST_CELLS = 5.0
 
 
@@ -19,10 +19,10 @@ def contact_responses(cells: ContactCells) -> dict[str, float]:
     """Length of the contact, and its largest and mean pressure.
 
     The length is that of an even pressure with the same variance of place, √(12 Var). The pressure
-    of each contact point is spread evenly over the part of the tread that the point stands for, so
+    of each contact point is spread evenly over the part of the tread that the point represents, so
     that the length does not jump by an element when a point lifts off, and the mean pressure, the
-    load per width over that length, does not exceed the largest. Of a contact that is shorter than
-    `LEAST_CELLS` such parts nothing is said: its length would be that of the mesh.
+    load per width over that length, does not exceed the largest. For a contact shorter than
+    `LEAST_CELLS` such parts only their number is returned: its length would be that of the mesh.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ def contact_responses(cells: ContactCells) -> dict[str, float]:
     variance = float(np.sum(share * ((middle - mean) ** 2 + width**2 / 12.0))) / line_load
     length = float(np.sqrt(12.0 * variance))
     across = length / float(width.max())
-    # on the ground a part is as long as it is there, not as it was unloaded
+    # a part on the ground has its loaded length, not its unloaded one
     largest = float(np.max(share / width))
     found = {"contact_cells": across}
     if across >= LEAST_CELLS:
@@ -82,8 +82,8 @@ def spoke_forces(table: SpokeEnergyTable, motion: Array) -> dict[str, float]:
 def deciding_spokes(table: SpokeEnergyTable, motion: Array) -> Index:
     """Numbers of the spokes that store nearly as much energy as the one that stores most.
 
-    The plate's largest stress is in one of them: where one spoke stands over the contact it is
-    that spoke, where the contact's middle is between two spokes it is either.
+    The plate's largest stress is in one of them: if one spoke is above the contact it is that
+    spoke, if the contact's middle is between two spokes it is either.
     """
     energy, _, _ = table.evaluate(motion)
     order: Index = np.argsort(-energy, kind="stable")
@@ -91,11 +91,11 @@ def deciding_spokes(table: SpokeEnergyTable, motion: Array) -> Index:
 
 
 def wire_wrinkle_mm(ring: RingMesh, displacement: Array) -> float | None:
-    """Amplitude of the wave of two elements in which membranes wrinkle, mm.
+    """Amplitude of the waves, two elements long, in which membranes wrinkle, mm.
 
-    Of a compressed wire layer every other node moves out and the rest in: the part of the radial
-    displacement that changes its sign from node to node, the largest over both layers. Waves that
-    are long against an element do not count. None for wires that bend.
+    In a compressed wire layer every other node moves out and the rest in: this is the part of the
+    radial displacement that changes its sign from node to node, the largest of both layers. Waves
+    much longer than an element do not count. None for wires that bend.
 
     Parameters
     ----------
@@ -114,6 +114,6 @@ def wire_wrinkle_mm(ring: RingMesh, displacement: Array) -> float | None:
 
 
 def _alternating(values: Array) -> Array:
-    """Half of the difference from the mean of both neighbours around the ring."""
+    """Half of the difference from the mean of the two neighbours around the ring."""
     difference: Array = (values - 0.5 * (np.roll(values, 1) + np.roll(values, -1))) / 2.0
     return difference

@@ -1,4 +1,4 @@
-"""Reference models for benchmarks and tests, which the faster models are measured against.
+"""Reference models for benchmarks and tests, to check the faster models against.
 
 The same inputs as in `nptcs.fe.tyre` come in and the same results go out, with more unknowns. No
 study and no solver imports from here.

@@ -1,4 +1,4 @@
-"""The tyre with every spoke meshed: the direct model that the reduced tyre is measured against.
+"""The tyre with every spoke meshed: the direct model that the reduced tyre is checked against.
 
 The same ring, contact and load control as `TyreModel`; in place of the energy table each spoke is
 its own finite element mesh. Each Newton iteration linearises ring and spokes together. The inner

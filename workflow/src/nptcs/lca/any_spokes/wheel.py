@@ -2,8 +2,8 @@
 
 Spokes follow a law. Smeared over the arc they make a symmetric wheel, of which one half is solved;
 single spokes act at their angles on a whole ring. In the contact region they are either taken at
-their local displacement and pull on the ring as they do elsewhere (``local``), or, as the paper
-has it, all shortened by δ and carried past the ring to the ground (``paper``, equation 14).
+their local displacement and pull on the ring as they do elsewhere (``local``), or, as in the
+paper, all shortened by δ and carried past the ring to the ground (``paper``, equation 14).
 """
 
 from __future__ import annotations
@@ -43,12 +43,12 @@ class Wheel:
     Parameters
     ----------
     section, law : ShearBandSection, SpokeLaw
-        ScaledRing and spokes.
+        Ring and spokes.
     contact : {"local", "paper"}
         How the contact region's spokes act; single spokes act locally.
     spoke_angles : array, optional
         Angles of all single spokes (radians), on a ring that starts in the middle between two
-        of them; without them the spokes are smeared.
+        of them; if not given, the spokes are smeared.
     """
 
     section: ShearBandSection
@@ -69,7 +69,7 @@ class Wheel:
 
     @property
     def passes_by(self) -> bool:
-        """Whether the contact region's spokes act past the ring, as the paper has it."""
+        """Whether the contact region's spokes bypass the ring, as in the paper."""
         return self.contact == "paper" and self.spoke_angles is None
 
     @property
@@ -81,7 +81,7 @@ class Wheel:
         return start, start + 2 * float(np.pi)
 
     def force(self, u: Floating) -> tuple[Floating, Floating]:
-        """Force of the spokes over GA and its slope by u_r/R; per radian where smeared."""
+        """Force of the spokes over GA and its slope with u_r/R; per radian if smeared."""
         force, slope = self.law.evaluate(u * self.section.radius_mm)
         factor = 1 / self.section.shear_stiffness_n
         if self.spoke_angles is None:
@@ -317,7 +317,7 @@ def _single_spokes(
 ) -> Jumps:
     """Single spokes at the element ends, none if the spokes are smeared.
 
-    On the ground flatness asks ΔV = ε tan θ ΔN: the reaction is -S/(cos θ + ε sin² θ/cos θ).
+    On the ground flatness requires ΔV = ε tan θ ΔN: the reaction is -S/(cos θ + ε sin² θ/cos θ).
     """
     if wheel.spoke_angles is None:
         empty = np.zeros_like(points)
@@ -343,15 +343,15 @@ def _single_spokes(
 def _end_conditions(
     wheel: Wheel, points: Floating, first: int
 ) -> tuple[list[tuple[int, int, float]], list[float]]:
-    """Seven conditions besides the elements': (condition, unknown, factor), right-hand sides.
+    """Seven conditions on top of the elements': (condition, unknown, factor), right-hand sides.
 
     On flat ground u cos θ - v sin θ + δ = 1 - cos θ and V - Φ - ε tan θ N = tan θ, at one point.
-    Half a wheel has v = Φ = 0 at both ends and V = 0 at the top; a whole ring closes, but for M,
-    which closes only if the ground's force passes through the hub.
+    Half a wheel has v = Φ = 0 at both ends and V = 0 at the top; a whole ring closes, except for
+    M, which closes only if the ground's force passes through the hub.
     """
     theta = float(points[first])
     sine, cosine, tangent = np.sin(theta), np.cos(theta), np.tan(theta)
-    # behind a spoke at the left edge, flatness holds at the start of the element
+    # after a spoke at the left edge, flatness holds at the start of the element
     begin, last = 6 * first, 6 * (len(points) - 1)
     delta = 6 * len(points)
     entries = [
@@ -374,7 +374,7 @@ def _end_conditions(
 def solve_ends(
     elements: Elements, jumps: Jumps, conditions: tuple[list[tuple[int, int, float]], list[float]]
 ) -> tuple[Floating, Floating, float]:
-    """Join the elements: states before (n + 1, 6) and behind (n, 6) their ends, and δ/R."""
+    """Join the elements: states before (n + 1, 6) and after (n, 6) their ends, and δ/R."""
     n = len(elements.end_map)
     across = np.zeros((n + 1, 6, 6)) + np.eye(6)
     across[:, 4, 0] += jumps.shear * jumps.slope

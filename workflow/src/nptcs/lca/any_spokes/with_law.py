@@ -204,7 +204,7 @@ def solve_law(
         Spokes of the contact region at their local displacement, or all shortened by δ as in
         equation 14 (smeared spokes only).
     hub_angle_deg : float, optional
-        With it the spokes are single ones, one of them at this angle from the contact's centre.
+        If given, the spokes are single, one of them at this angle from the contact's centre.
 
     Raises
     ------

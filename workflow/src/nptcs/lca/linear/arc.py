@@ -22,8 +22,8 @@ _ODD = np.array([False, True, True, False, True, False])
 """Rows that change their sign when the direction of θ does."""
 _CLOSEST = 1e-11
 """Relative discriminant below which two real roots are replaced by a conjugate pair just as
-close. The solution changes as little; two real modes so close would lose digits, the real and
-imaginary part of one complex mode do not."""
+close. The solution changes just as little; two real modes so close would lose digits, but the real
+and imaginary parts of one complex mode do not."""
 
 
 @dataclass(frozen=True)
@@ -91,7 +91,7 @@ class Foundation:
         Parameters
         ----------
         distance : array, shape (n,), optional
-            x ≥ 0; without it the end itself.
+            x ≥ 0; by default the end itself.
         """
         return self._real(self.modes if distance is None else self._scaled(distance))
 

@@ -1,4 +1,4 @@
-"""The contact region, flat without any series of cosines: a small spectral system.
+"""The contact region, made flat by a small spectral system instead of a series of cosines.
 
 The ground's pressure is vertical, so the horizontal resultant H = N cos θ + V sin θ is constant
 and the vertical one, W = V cos θ - N sin θ, is half the ground's force on |θ| ≤ θ: W' = b R q/GA.
@@ -27,7 +27,7 @@ _POINTS = ((0.5, 8), (1.25, 16), (13.0, 40), (np.inf, 64))
 LARGEST_KAPPA_ANGLE = 200.0
 """Largest κθc that the most points resolve."""
 COLUMNS = ("m", "h", "delta", "one")
-"""Columns of the contact states: moment at θc, H, δ, and what is there without them."""
+"""Columns of the contact states: moment at θc, H, δ, and what does not depend on these."""
 
 
 @dataclass(frozen=True)
@@ -100,7 +100,7 @@ class Contact:
 
 
 def hardness(kappa2: Floating, angle: Floating) -> Floating:
-    """Return what decides on the number of points, max(θc, κθc/6)."""
+    """Return what decides the number of points, max(θc, κθc/6)."""
     return np.asarray(np.maximum(angle, np.sqrt(kappa2) * angle / 6))
 
 
@@ -133,7 +133,7 @@ def solve_contact(
     epsilon, kappa2, angle : array, shape (n,)
         ε = GA/EA, κ² = GA R²/EI and θc in radians, 0 < θc < π/2.
     points : int, optional
-        Points of the spectral system; without it, as many as `points_for` asks for.
+        Points of the spectral system; by default those of `points_for`.
     """
     points = points_for(kappa2, angle) if points is None else points
     r = rule(points)

@@ -1,4 +1,4 @@
-"""Whether a solution is one: vertical balance, and the model's own assumptions about signs."""
+"""Whether a solution is valid: vertical balance, and the model's own assumptions about signs."""
 
 from __future__ import annotations
 
@@ -76,7 +76,7 @@ def _unit_gauss(points: int) -> tuple[Floating, Floating]:
 
 
 def doubts(diagnosis: Diagnosis) -> list[str]:
-    """One text per design: which assumption of the model its solution breaks, or nothing."""
+    """One text per design: which assumption of the model its solution breaks; empty if none."""
     texts = [""] * len(diagnosis.balance_residual)
     checks = (
         (

@@ -51,7 +51,7 @@ def _first_transition(ring: ScaledRing, theta_c: Floating) -> Floating:
 
 
 def _misfit(joined: Joined, target: Target, value: Floating) -> Floating:
-    """Quantity minus its target, with derivatives by θc and θt, shape ``(n, 3)``."""
+    """Quantity minus its target, with derivatives with respect to θc and θt, (n, 3)."""
     match target:
         case "contact_angle":
             error = joined.contact_angle - value

@@ -1,4 +1,4 @@
-"""All three regions joined, for given contact and transition angles: a linear system of eleven.
+"""All three regions joined, for given contact and transition angles: eleven linear equations.
 
 Unknowns: four modes and the rotation of the compression arc, two modes of the tension arc, the
 constant C = N + M that both arcs share, and the contact region's edge moment m, horizontal force H
@@ -46,7 +46,7 @@ class Arcs:
 
 @dataclass(frozen=True)
 class Joined:
-    """Solution for given angles and its derivatives by them; n designs.
+    """Solution for given angles and its derivatives with respect to them; n designs.
 
     Parameters
     ----------
@@ -57,9 +57,9 @@ class Joined:
     unknowns : array, shape (n, 11)
         Coefficients of all columns.
     sinking, force : array, shape (n, 3)
-        δ/R and F/GA, each with its derivatives by θc and θt.
+        δ/R and F/GA, each with its derivatives with respect to θc and θt.
     transition : array, shape (n, 3)
-        u_r/R at θt, with the derivatives by θc and θt.
+        u_r/R at θt, with the derivatives with respect to θc and θt.
     """
 
     contact_angle: Floating
@@ -118,10 +118,10 @@ def _dot(columns: Floating, coefficients: Floating) -> Floating:
 def join_regions(
     ring: ScaledRing, arcs: Arcs, theta_c: Floating, theta_t: Floating, points: int | None = None
 ) -> Joined:
-    """Solve n designs for given angles θc < θt (radians), with derivatives by both.
+    """Solve n designs for given angles θc < θt (radians), with derivatives with respect to both.
 
-    A boundary that moves changes the loads only, so the derivative of the solution is what a
-    jump of N' and V' at θc, or of V' at θt, does; the latter is (a_j - a_k) u(θt), nothing at
+    Moving a boundary changes only the loads, so the derivative of the solution is its response to
+    a jump of N' and V' at θc, or of V' at θt; the latter is (a_j - a_k) u(θt), which is zero at
     the solution.
     """
     contact = solve_contact(ring.epsilon, ring.kappa2, theta_c, points)

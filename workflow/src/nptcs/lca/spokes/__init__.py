@@ -1,5 +1,5 @@
-"""What a spoke does in the load-bearing model: two stiffnesses, or force against displacement.
+"""Spokes of the load-bearing model: two stiffnesses, or a curve of force against displacement.
 
-Laws and their tables against the rubber's C10 come from here. How a ring on such spokes is solved
-does not belong here.
+A table of stiffness or of curves by the rubber's C10 comes in, the spokes of one rubber go out.
+How a ring on such spokes is solved does not belong here.
 """

@@ -90,10 +90,10 @@ class SpokeLaw:
         return float(self.elongation_mm[0]), float(self.elongation_mm[-1])
 
     def evaluate(self, elongation_mm: ArrayLike) -> tuple[Floating, Floating]:
-        """Return force (N) and slope (N/mm); beyond its ends the curve goes on as a straight line.
+        """Return force (N) and slope (N/mm); beyond its ends the curve continues straight.
 
-        A result that needs the straight ends is refused by the solver; they only keep its
-        iterations defined.
+        The solver refuses a result that needs the straight ends; they only keep its iterations
+        defined.
         """
         e = np.asarray(elongation_mm, dtype=float)
         low, high = self.range_mm

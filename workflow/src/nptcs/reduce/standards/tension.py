@@ -137,8 +137,10 @@ def no_slope(strain: Array, stress: Array, low: float, high: float) -> str:
     if leap := leap_within(strain, stress, low, high):
         return leap
     if (ratio := stiffening(strain, stress, low, high)) > NO_LAMINATE:
-        by = f"by a factor of {ratio:.3g}"
-        return f"the curve stiffens {by} within the range: slack or a toe remains"
+        return (
+            f"the curve stiffens by a factor of {ratio:.3g} within the range: slack or a toe "
+            "remains"
+        )
     return ""
 
 

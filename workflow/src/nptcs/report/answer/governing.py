@@ -29,7 +29,7 @@ def governing_finding(results: Results) -> Finding:
         return Finding(
             tr("What governs it?"),
             tr("Not assessed"),
-            tr("No surface was fitted to the stiffness, so that no factor has an impact."),
+            tr("No surface was fitted to the stiffness, so no factor has an impact value."),
             "impact.csv",
             ReportSection.SENSITIVITY,
             assessed=False,
@@ -71,7 +71,7 @@ def governing_finding(results: Results) -> Finding:
 def _leading_impacts(results: Results) -> tuple[str, pd.DataFrame]:
     """Return the impacts of the leading solver by the first rule, the largest first.
 
-    A factor that several studies vary counts in the first of them.
+    A factor that several studies vary is taken from the first of them.
     """
     table = results.table(Impact)
     table = table[table["rule"] == results.config.sensitivity.rules[0]]

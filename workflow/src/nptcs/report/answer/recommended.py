@@ -29,14 +29,14 @@ Row = Mapping[Hashable, Any]
 
 
 def recommended_findings(results: Results) -> list[Finding]:
-    """Write one finding for each decision; one that says so where none was asked for."""
+    """Write one finding for each decision, or one that says that there is none."""
     rows = results.table(Decisions).to_dict("records")
     if not rows:
         return [
             Finding(
                 _question(),
-                tr("Not asked"),
-                tr("The configuration asks for no decision: no design is recommended."),
+                tr("Not requested"),
+                tr("The configuration has no decision, so no design is recommended."),
                 "decisions.csv",
                 ReportSection.DECISION,
                 assessed=False,
@@ -61,7 +61,7 @@ def _finding(results: Results, row: Row) -> Finding:
         case "infeasible":
             answer = tr("No design meets the goals")
             sentence = tr(
-                "Asked: {asked}. {message}. Nearest design: {design}.",
+                "Goals: {asked}. {message}. Nearest design: {design}.",
                 asked=asked,
                 message=message_text(row["message"]),
                 design=design,
@@ -69,7 +69,7 @@ def _finding(results: Results, row: Row) -> Finding:
         case "refused":
             answer = tr("Not assessed")
             sentence = tr(
-                "Asked: {asked}. {message}.", asked=asked, message=message_text(row["message"])
+                "Goals: {asked}. {message}.", asked=asked, message=message_text(row["message"])
             )
         case _:
             assert_never(outcome)
@@ -90,9 +90,9 @@ def _decision(results: Results, row: Row) -> Decision:
 
 
 def _chosen(results: Results, row: Row, asked: str) -> str:
-    """Say what was asked, how probable it is, and how the solved case came out."""
+    """State the goals, how probably the design meets them, and the result of the solved case."""
     probability = tr(
-        "Asked: {asked}. With materials and tolerances as they scatter, the design meets every "
+        "Goals: {asked}. With the scatter of materials and tolerances, the design meets every "
         "target with a probability of {percent} %.",
         asked=asked,
         percent=f"{100 * row['probability']:.0f}",
@@ -119,7 +119,7 @@ def _confirmed(results: Results, row: Row) -> str:
         case "not solved":
             said = tr("It could not be solved with {solver}: not confirmed.", solver=solver)
         case "not asked" | "":
-            return tr("No solved case was asked for: not confirmed.")
+            return tr("No confirmation by a solved case was requested: not confirmed.")
         case _:
             assert_never(confirmation)
     missed = _last_round(results, str(row["decision"]))

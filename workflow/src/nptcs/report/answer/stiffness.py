@@ -40,7 +40,7 @@ def stiffness_finding(results: Results) -> Finding:
 
 
 def leading_solver(study: Study, solvers: list[str]) -> str:
-    """Choose the solver whose results are said first: that of a decision, else a computing one."""
+    """Choose the solver whose results come first: that of a decision, else a computing one."""
     asked = [decision.solver for decision in study.decisions if decision.solver in solvers]
     computing = [name for name in study.solvers if name in solvers and name != PUBLISHED]
     return [*asked, *computing, *solvers][0]
@@ -128,8 +128,8 @@ def _without_uncertainty(results: Results, study: Study, solved: pd.DataFrame) -
         _question(),
         tr("{value} at {load} N", value=value, load=f"{study.load_n:g}"),
         tr(
-            "The reference design of the study “{study}” ({design}) was solved with {solver}. How "
-            "uncertain its stiffness is was not assessed.",
+            "The reference design of the study “{study}” ({design}) was solved with {solver}. "
+            "The uncertainty of its stiffness was not assessed.",
             study=study.name,
             design=in_words(design, factor_headings([study])),
             solver=solver,
@@ -159,8 +159,8 @@ def _over_all_cases(results: Results) -> Finding:
             _question(),
             tr("{low} to {high} N/mm at {load} N", low=low, high=high, load=f"{study.load_n:g}"),
             tr(
-                "Over {count} solved cases of the study “{study}”, solver {solver}. {why}, so that "
-                "no single stiffness is given and its uncertainty was not assessed.",
+                "Over {count} solved cases of the study “{study}”, solver {solver}. {why}, so no "
+                "single stiffness is given and its uncertainty was not assessed.",
                 count=len(mine),
                 study=study.name,
                 solver=solver,

@@ -14,7 +14,7 @@ MODULUS = "modulus"
 
 
 def tests_finding(results: Results) -> Finding:
-    """Count the specimens by what a reader must know of them, and say how moduli scatter."""
+    """Count the specimens by what a reader must know about them, and say how moduli scatter."""
     total = len(results.sheet)
     if not total:
         return Finding(
@@ -31,7 +31,7 @@ def tests_finding(results: Results) -> Finding:
     used = total - len(out)
     flagged = len(deviating - out)
     parts = [
-        Share(tr("as the standard asks"), used - flagged, "good"),
+        Share(tr("as the standard requires"), used - flagged, "good"),
         Share(tr("deviate from it"), flagged, "warn"),
         Share(tr("left out by the sheet"), len(set(left_out) - failed), "soft"),
         Share(tr("could not be read"), len(failed), "bad"),
@@ -96,8 +96,8 @@ def _origin(results: Results) -> str:
     if not synthetic:
         return tr("All specimens were measured.")
     return tr(
-        "{count} of {total} specimens are SYNTHETIC example data, and with them everything that "
-        "rests on their constants.",
+        "{count} of {total} specimens are SYNTHETIC example data, and so is everything based on "
+        "their constants.",
         count=synthetic,
         total=len(results.sheet),
     )

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import replace
 from importlib import resources
 
+import pandas as pd
 from markupsafe import Markup
 
 from nptcs.language import current_language, tr
@@ -17,6 +18,8 @@ from nptcs.runs.part import Part
 
 MOST_ROWS = 200
 """Rows of a table that the page shows."""
+CHECKSUM_DIGITS = 12
+"""Digits of a checksum that the page shows, as of the identity of a run."""
 
 
 def comparison_page(done: ComparedRuns) -> str:
@@ -52,8 +55,15 @@ def differing(part: Part, synthetic: bool) -> TableView | None:
     rows = sheet.table.loc[part.differences.index]
     if rows.empty:
         return None
-    view = table_view(rows.iloc[:MOST_ROWS], sheet.entry, mark=mark_row, whole=True)
+    shown = shortened(rows.iloc[:MOST_ROWS])
+    view = table_view(shown, sheet.entry, mark=mark_row, whole=True)
     return replace(view, synthetic=synthetic, all_rows=len(rows))
+
+
+def shortened(rows: pd.DataFrame) -> pd.DataFrame:
+    """Cut checksums to their first digits, which tell files apart; the workbook has all of them."""
+    checksums = [name for name in rows.columns if name.startswith("sha256")]
+    return rows.assign(**{name: rows[name].str[:CHECKSUM_DIGITS] for name in checksums})
 
 
 def _resource(name: str) -> Markup:

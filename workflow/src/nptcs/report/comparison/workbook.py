@@ -48,7 +48,7 @@ def _write_summary(sheet: Worksheet, done: ComparedRuns) -> None:
     lines = [f"A = {done.a}", f"B = {done.b}", done.verdict(), *done.sentences()]
     lines.append(
         tr(
-            "Numbers within a relative difference of {within} are the same. Rows: yellow "
+            "Numbers within a relative difference of {within} count as the same. Rows: yellow "
             "different, red different by more than the uncertainty, grey in one run only or not "
             "comparable.",
             within=f"{done.within:g}",
@@ -58,7 +58,8 @@ def _write_summary(sheet: Worksheet, done: ComparedRuns) -> None:
         lines.append(tr("SYNTHETIC example data are among the materials of these runs."))
     row = write_title(sheet, tr(TITLE), lines) + 1
     sheet["A4"].font = Font(name=FONT, bold=True)
-    head_row(sheet, row, [tr("sheet"), tr("what was found"), tr("rows"), tr("how it was compared")])
+    heads = [tr("worksheet"), tr("what was found"), tr("rows"), tr("how it was compared")]
+    head_row(sheet, row, heads)
     for place, part in enumerate(done.parts, start=row + 1):
         found = "; ".join([part.headline(), *part.remarks])
         write_row(sheet, place, [part.name, found, len(part.table), part.about])

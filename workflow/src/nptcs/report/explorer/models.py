@@ -1,8 +1,8 @@
 """Every kind of stored surface as the numbers that a browser needs to evaluate it.
 
-A prediction is written with what its formula has: coefficients and their covariance, or the cases,
-hyperparameters and weights of a process. Factors of a Cholesky decomposition are left out, because
-they are the bulk of a process; the browser decomposes its matrix when it needs an interval.
+A prediction is written with what its formula needs: coefficients and their covariance, or the
+cases, hyperparameters and weights of a process. Factors of a Cholesky decomposition are left out,
+because they are the bulk of a process; the browser decomposes its matrix when it needs an interval.
 """
 
 from __future__ import annotations
@@ -23,7 +23,7 @@ from nptcs.surface.kinds.spoke_process import SPOKE, SpokeProcess
 from nptcs.surface.response_surface import ResponseSurface
 
 CONFIDENCE = 0.95
-"""Of all intervals."""
+"""Confidence of all intervals."""
 
 
 def plain_surface(surface: ResponseSurface) -> Plain:
@@ -32,7 +32,7 @@ def plain_surface(surface: ResponseSurface) -> Plain:
     Raises
     ------
     KeyError
-        For a kind that no browser can evaluate: `WRITERS` has all kinds.
+        For a kind without a writer; `WRITERS` has all kinds.
     """
     return {
         "kind": type(surface).__name__,

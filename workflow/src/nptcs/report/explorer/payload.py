@@ -1,4 +1,4 @@
-"""What the explorer computes from: stored surfaces, their cases, and what is known of error."""
+"""What the explorer computes from: stored surfaces, their cases, and their known errors."""
 
 from __future__ import annotations
 
@@ -48,7 +48,7 @@ SECANT = "secant_stiffness"
 
 
 ROUNDING = 1e-12
-"""Left-out error, as a share of the largest response, that is rounding alone."""
+"""Left-out error, as a share of the largest response, up to which it is only rounding."""
 
 
 def explorer_payload(results: Results) -> Plain:
@@ -57,7 +57,7 @@ def explorer_payload(results: Results) -> Plain:
     Parameters
     ----------
     results : Results
-        Everything that a run has made, its stored surfaces among it.
+        Everything that a run has made, including its stored surfaces.
 
     Returns
     -------
@@ -171,7 +171,7 @@ def _solver(results: Results, study: Study, registry: SurfaceRegistry, solver: s
 
 
 def _as_secant(response: Response, study: Study) -> Response:
-    """Name the study's own response as the secant stiffness at its load that it is."""
+    """Name the study's own response as what it is: the secant stiffness at its load."""
     return Response.stiffness(study.load_n) if response.name == STIFFNESS else response
 
 
@@ -222,7 +222,7 @@ def _surface(fitted: FittedSurface) -> Plain:
 
 
 def _left_out(fitted: FittedSurface) -> float | None:
-    """Return the left-out error; zero for rounding alone, None where it is not known."""
+    """Return the left-out error; zero if it is only rounding, None where it is not known."""
     if not np.isfinite(fitted.left_out_rms):
         return None
     rounding = ROUNDING * float(np.abs(fitted.surface.y).max())

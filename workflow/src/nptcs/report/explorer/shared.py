@@ -1,4 +1,4 @@
-"""Numbers that many surfaces of a page have in common are written once.
+"""Numbers that many surfaces of a page share are written once.
 
 The covariance of a polynomial's coefficients is its residual variance times (XᵀX)⁻¹, which depends
 on the cases and the terms alone: all polynomials of a study, of any response, have the same one.

@@ -1,4 +1,4 @@
-"""All texts of the explorer in the language of the run: scripts have none of their own.
+"""All texts of the explorer in the language of the run; the scripts themselves contain none.
 
 Scripts put values where ``{name}`` stands; a text is one whole sentence or one term.
 """
@@ -17,7 +17,7 @@ def page_words() -> dict[str, str]:
         "best": tr("smallest left-out error for each response"),
         "response": tr("Response"),
         "load": tr("load F"),
-        "held": tr("Held at {value} {unit} in this study: its models do not see it."),
+        "held": tr("Held at {value} {unit} in this study: its models do not depend on it."),
         "not_in_study": tr("This study does not vary it, and its cases do not state it."),
         "one_load": tr("The stiffness is fitted at this load only."),
         "load_stops": tr("Stops at the loads that have a surface: {loads} N."),
@@ -29,7 +29,7 @@ def page_words() -> dict[str, str]:
         "inside": tr("Inside the box of the solved cases."),
         "plates_used": tr("{solver} uses whole plates: {count} plates at a pitch of {pitch} mm."),
         "plates_given": tr(
-            "{solver} takes the spacing as it is given. Whole plates in the width of {width} mm: "
+            "{solver} takes the spacing as given. Whole plates in the width of {width} mm: "
             "{count} at a pitch of {pitch} mm."
         ),
         "displacement": tr("displacement"),
@@ -75,15 +75,15 @@ def page_words() -> dict[str, str]:
         "up": tr("vertical axis"),
         "plane_response": tr("shown"),
         "plane_alt": tr(
-            "Contour map of {response} over {across} and {up}; {share} % of the plane are inside "
+            "Contour map of {response} over {across} and {up}; {share} % of the plane is inside "
             "the target band"
         ),
         "plane_share": tr(
-            "{share} % of this plane are inside the target band of the stiffness, {sure} % with "
-            "their whole interval."
+            "{share} % of this plane is inside the target band of the stiffness, {sure} % with "
+            "the whole interval."
         ),
         "plane_none": tr("The other factors lie outside the cases: no value in this plane."),
-        "plane_one": tr("The study varies one factor only: there is no plane."),
+        "plane_one": tr("The study varies only one factor: there is no plane."),
         "view3d": tr("3-D view"),
         "view3d_alt": tr(
             "{response} as a surface over {across} and {up}, seen from {turn} degrees"
@@ -107,7 +107,7 @@ def page_words() -> dict[str, str]:
         ),
         "ring_none": tr("No ring is drawn: no study of this run is solved by the LCA."),
         "ring_outside": tr(
-            "No ring is drawn: the spoke table {table} has S-C {low} to {high} MPa only."
+            "No ring is drawn: the spoke table {table} covers only S-C {low} to {high} MPa."
         ),
         "ring_unsolved": tr("No ring is drawn: the LCA does not reach this load."),
         "ring_unknown": tr("No ring is drawn: this study does not state its rubbers."),
@@ -119,10 +119,10 @@ def page_words() -> dict[str, str]:
         "curve_point": tr("{load} N at {delta} mm"),
         "models": tr("All models at this design"),
         "models_lead": tr(
-            "Each stored surface of {response}. Values of other studies hold for what these "
-            "studies hold: it is written next to them."
+            "Each stored surface of {response}. Values of another study apply to the values that "
+            "it holds fixed, which are given next to them."
         ),
-        "not_same": tr("holds for {list}, not for this design"),
+        "not_same": tr("applies to {list}, not to this design"),
         "copy_link": tr("Copy link to this state"),
         "copy_find": tr("Copy nptcs design: find a design in the band"),
         "copy_judge": tr("Copy nptcs design: judge this design"),
@@ -139,7 +139,7 @@ def page_words() -> dict[str, str]:
         "legend_bias": tr("bias band"),
         "legend_band": tr("target band"),
         "legend_edge": tr("edge of the target band of the stiffness"),
-        "legend_sure": tr("there the whole interval is inside"),
+        "legend_sure": tr("edge of the region where the whole interval is inside"),
         "legend_dim": tr("dimmed: outside the band"),
         "no_value": tr("no value"),
         "synthetic": tr("SYNTHETIC DATA"),

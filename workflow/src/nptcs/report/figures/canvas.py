@@ -19,7 +19,7 @@ AS_WIDE = "\N{EM DASH}"
 """As wide as a Chinese character, in the font of the layout."""
 
 AS_HIGH = "Åg"
-"""A dash is low; a Chinese character is as high as a capital with its accent."""
+"""A dash is low; a Chinese character is as high as a capital letter with an accent."""
 
 POINTS_PER_INCH = 72.0
 
@@ -42,7 +42,7 @@ class WideCanvas(FigureCanvasSVG):
     """Lays a figure out and writes it with `WideRenderer`."""
 
     def get_renderer(self) -> WideRenderer:
-        """Return what the layout is measured with; what it writes is lost."""
+        """Return the renderer that measures the layout; what it draws is discarded."""
         return self._renderer(io.StringIO())
 
     def write(self, stream: TextIO) -> None:

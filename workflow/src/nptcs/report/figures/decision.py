@@ -1,4 +1,4 @@
-"""Figure of a decision: the best designs with their intervals, and what was asked."""
+"""Figure of a decision: the best designs with their intervals, and what was required."""
 
 from __future__ import annotations
 
@@ -17,7 +17,7 @@ from nptcs.report.tables.names import in_words
 
 
 def design_names(designs: Sequence[str]) -> list[str]:
-    r"""Name designs by the values that are not the same in all of them; all alike: by their place.
+    r"""Name designs by the values in which they differ; by their rank if they do not differ.
 
     Examples
     --------
@@ -47,7 +47,7 @@ def design_in_lines(name: str) -> str:
 
 @styled
 def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
-    """Draw one response of the best designs, and the range that a target or bound asks for.
+    """Draw one response of the best designs, and the range that a target or bound requires.
 
     Parameters
     ----------
@@ -90,7 +90,7 @@ def goal_intervals(designs: pd.DataFrame, synthetic: bool = False) -> Figure:
     limits = first[["smallest_accepted", "largest_accepted"]].to_numpy(float)
     if np.isfinite(limits).any():
         start, end = np.where(np.isfinite(limits), limits, [low, high])
-        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label=tr("asked for"))
+        axes.axvspan(start, end, color=COLOURS[2], alpha=0.15, label=tr("required"))
         axes.set_xlim(low, high)
     axes.set_yticks(place, names)
     figure.data = designs

@@ -21,7 +21,7 @@ def impact_bars(
     rules: Sequence[str],
     synthetic: bool = False,
 ) -> Figure:
-    """Draw the impact values of one solver, a bar for each rule, the printed value as a mark.
+    """Draw the impact values of one solver, one bar for each rule, the published value as a mark.
 
     Parameters
     ----------

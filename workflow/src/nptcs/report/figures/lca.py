@@ -37,7 +37,7 @@ REGIONS = {
 
 LOAD = translatable("vertical load [N]")
 RING_MARKS = 60
-"""Points of a finite element ring that are marked; its numbers hold all."""
+"""Points of a finite element ring that are marked; the figure's numbers contain all points."""
 
 
 def _section_panel(table: pd.DataFrame, x_label: str, y_label: str) -> tuple[Chart, Axes]:
@@ -53,7 +53,7 @@ def _line_per_rubber(axes: Axes, table: pd.DataFrame, rubber: str, x: str, y: st
 
 
 def _rubber_legend(axes: Axes) -> None:
-    """Begin the axis at zero and name the lines by the spokes' rubber."""
+    """Start the axis at zero and name the lines by the spokes' rubber."""
     axes.set_ylim(bottom=0)
     axes.legend(title=tr("spoke C10 [MPa]"), ncols=2)
 
@@ -121,7 +121,7 @@ def _loads(table: pd.DataFrame, finite_elements: pd.DataFrame) -> pd.DataFrame:
 
 @styled
 def load_errors(table: pd.DataFrame, synthetic: bool = False) -> Figure:
-    """Draw how far model and finite elements are apart at each load, and the paper's largest.
+    """Draw how far model and finite elements differ at each load, and the paper's largest error.
 
     Parameters
     ----------

@@ -28,8 +28,8 @@ def hyperelastic_fit(
 ) -> Figure:
     """Draw the tests of a rubber and its model over the range of the fit, figure 5.
 
-    The model goes on, dotted, to twice the range, to show where it leaves the data. Hollow marks
-    are the neo-Hookean model with the C10 that the paper prints, P = 2 C10 (λ - λ⁻²).
+    The model continues, dotted, to twice the range, to show where it leaves the data. Hollow marks
+    are the neo-Hookean model with the C10 printed in the paper, P = 2 C10 (λ - λ⁻²).
 
     Parameters
     ----------

@@ -32,7 +32,7 @@ DISPLACEMENTS = {
 }
 
 MOST_NUMBERS = 1000
-"""Rows of a table beyond which a figure carries the numbers of its sample only."""
+"""Rows of a table beyond which a figure carries only the numbers of its sample."""
 
 
 def _look(solver: object, order: Sequence[str]) -> dict[str, Any]:
@@ -62,7 +62,7 @@ def parity(
     title : str
         Name of the study.
     order : sequence of str
-        All solvers of the run: a solver's place gives its colour.
+        All solvers of the run: a solver's place in this list gives its colour.
     synthetic : bool
         Whether the materials of any solver are synthetic.
     """
@@ -102,7 +102,7 @@ def main_effect(
     levels : DataFrame
         Rows of ``stiffness_by_level.csv`` of one study and factor.
     label : FactorLabel
-        How the factor is written.
+        Label of the factor.
     order : sequence of str
         All solvers of the run: a solver's place gives its colour.
     synthetic : bool
@@ -113,7 +113,7 @@ def main_effect(
         str(label),
         tr("mean vertical stiffness [N/mm]"),
     )
-    # solvers may have been compared over different cases: then each has a published mean of its own
+    # solvers may have been compared over different cases: then each has its own published mean
     same = levels.groupby("level")["published_mean_n_per_mm"].nunique().max() == 1
     for number, (solver, rows) in enumerate(levels.groupby("solver")):
         look = _look(solver, order)

@@ -17,13 +17,13 @@ from nptcs.report.figures.theme import COLOURS, GREY, INK
 from nptcs.report.text import text_width
 
 DRAWN_POINTS = 200
-"""Readings of a curve that are drawn; the curve files hold all of them."""
+"""Readings of a curve that are drawn; the curve files contain all of them."""
 
 LEGEND_CHARACTERS = 72
 """Characters of the names of curves that fit on one line below a panel."""
 
 SIGN_CHARACTERS = 8
-"""Room that the sign of a curve takes there, in characters."""
+"""Space that the legend mark of a curve takes there, in characters."""
 
 MOST_NAMED = 8
 """Specimens of a panel beyond which they are not named one by one."""
@@ -31,7 +31,7 @@ MOST_NAMED = 8
 
 @dataclass(frozen=True)
 class Axis:
-    """What a curve is drawn over, and as what: names of columns and words.
+    """The two quantities that a curve is drawn in: names of columns, and labels.
 
     Parameters
     ----------
@@ -87,7 +87,7 @@ class Moduli:
 
 
 def evenly_spaced(curve: pd.DataFrame, axis: Axis = NORMAL) -> pd.DataFrame:
-    """Take evenly spaced readings with a strain, and the one of largest stress."""
+    """Take evenly spaced readings that have a strain, and the one with the largest stress."""
     curve = curve[curve[axis.strain].notna()]
     if len(curve) <= DRAWN_POINTS:
         return curve
@@ -107,7 +107,7 @@ def stress_strain(
 ) -> Figure:
     """Draw the curves of one series, with the chord of each modulus, figure 2 of the paper.
 
-    Specimens that the sheet leaves out are dashed grey. A chord is a bold piece of its curve's
+    Specimens that the sheet leaves out are dashed grey. A chord is a bold line in its curve's
     colour between the strains that the standard names; lines through the origin have the slope of
     the mean and of the paper's modulus.
 
@@ -194,7 +194,7 @@ def _draw_moduli(
     axis: Axis,
     colours: Mapping[str, str],
 ) -> list[pd.DataFrame]:
-    """Draw the chords and the slopes through the origin; returns their ends."""
+    """Draw the chords and the slopes through the origin; return their ends."""
     sign, parts = moduli.sign, []
     for row in moduli.chords.to_dict("records"):
         if row["specimen"] not in colours:

@@ -34,7 +34,7 @@ def force_displacement(
     lines : DataFrame
         The same of ``spoke_stiffness.csv``.
     direction : {"tension", "compression"}
-        Which half of the curves.
+        Half of the curves to draw.
     synthetic : bool
         Whether the materials are synthetic.
     """

@@ -1,4 +1,4 @@
-"""One look for all figures, and figures as SVG text that is the same in each run.
+"""The same look for all figures, and figures as SVG text that is the same in each run.
 
 Lines differ in marker or dash as well as in colour. One panel is one figure, so that a phone shows
 it at its own size. A figure carries the numbers that it shows, which the page offers as CSV.
@@ -36,13 +36,13 @@ TITLE_CHARACTERS = 36
 """Characters of a title that fit on one line above the axes of a panel."""
 
 BESIDE_LABELS = 24
-"""The same where long labels at the left leave less room."""
+"""The same where long labels on the left leave less room."""
 
 BESIDE_SYNTHETIC = 22
 """Characters of a title that leave room on its line for the label of synthetic data."""
 
 MOST_MARKS = 300
-"""Cases of which a figure draws all; of more it draws a sample, and says so."""
+"""Most cases that a figure draws; of more it draws a sample, and says so."""
 
 STYLE: Any = {
     "font.family": "DejaVu Sans",
@@ -80,7 +80,7 @@ class Chart(Figure):
 
 
 def data_of(figure: Figure) -> pd.DataFrame | None:
-    """Return the numbers that a figure shows; None for a figure that carries none."""
+    """Return the numbers that a figure shows; None for a figure that has none."""
     return figure.data if isinstance(figure, Chart) else None
 
 
@@ -122,14 +122,14 @@ def panel(
 
 
 def round_ticks(axis: Axis, most: int = 7) -> None:
-    """Put ticks at round numbers, at most so many; of an angle at multiples of 15 or 30 degrees."""
+    """Put at most `most` ticks at round numbers; for an angle at multiples of 15 or 30 degrees."""
     angle = axis.get_label_text().endswith(("[deg]", "[°]"))
     steps = [1, 1.5, 3, 4.5, 6, 9, 10] if angle else [1, 2, 5, 10]
     axis.set_major_locator(MaxNLocator(most, steps=steps))
 
 
 def line_look(number: int) -> dict[str, Any]:
-    """Colour and marker of a figure's line of that number, from 0."""
+    """Colour and marker of the line with this number in a figure, counted from 0."""
     return {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
 
 
@@ -155,14 +155,14 @@ def mark_synthetic(figure: Figure, synthetic: bool) -> None:
 
 
 def sampled(table: pd.DataFrame, most: int = MOST_MARKS) -> pd.DataFrame:
-    """Take at most so many rows of a table, in even steps, the first and the last among them."""
+    """Take at most `most` rows of a table, in even steps, with the first and the last."""
     if len(table) <= most:
         return table
     return table.iloc[np.linspace(0, len(table) - 1, most).round().astype(int)]
 
 
 def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
-    """Write into a figure that it draws a sample only."""
+    """Write into a figure that it draws only a sample."""
     if drawn < of:
         axes.annotate(
             tr("sampled: {drawn:,} of {of:,} {what}", drawn=drawn, of=of, what=what),

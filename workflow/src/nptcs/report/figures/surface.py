@@ -73,7 +73,7 @@ def _grid(
 
 
 def evenly(values: Sequence[float], most: int) -> list[float]:
-    """Take at most so many of some values, evenly spaced, the first and the last among them.
+    """Take at most `most` of some values, evenly spaced, with the first and the last.
 
     Examples
     --------
@@ -89,7 +89,7 @@ def evenly(values: Sequence[float], most: int) -> list[float]:
 def drawn_cases(cases: pd.DataFrame, varied: Sequence[str]) -> pd.DataFrame:
     """Take the cases that a figure draws: all, or of very many those on evenly spaced levels.
 
-    Cases that share no levels, as those of a Latin hypercube, are taken in even steps.
+    Cases that share no levels, such as those of a Latin hypercube, are taken in even steps.
     """
     if len(cases) <= MOST_MARKS:
         return cases
@@ -166,13 +166,13 @@ def contours(
     Parameters
     ----------
     surface : Surface
-        As fitted.
+        The fitted polynomial.
     cases : DataFrame
         The solved cases of one solver: ``solver``, a column for each factor, the stiffness.
     pair : tuple of str
         Factors on the x and y axis; the others stay at their middle levels.
     labels : mapping of str to FactorLabel
-        How factors are written.
+        Labels of the factors.
     synthetic : bool
         Whether the materials are synthetic.
     levels : sequence of float, optional
@@ -217,8 +217,8 @@ def _contour_lines(
 ) -> None:
     """Draw the lines between the steps and name them, dark on bright colours and bright on dark.
 
-    A line is named once, off the marks of the cases (rows of x and y); one that only crosses a
-    corner stays without a name, which would lie over the edge.
+    A line is named once, away from the marks of the cases (rows of x and y); one that only crosses
+    a corner is not named, because its name would reach over the edge.
     """
     colours = [_readable_on(mpl.colormaps[MAP](norm(step))) for step in steps]
     lines = axes.contour(*grid, levels=steps, colors=colours, linewidths=0.6)
@@ -259,7 +259,7 @@ def _numbers(
     pair: tuple[str, str],
     held: Mapping[str, float],
 ) -> pd.DataFrame:
-    """Gather the cases of a panel, and the surface at every so many points of its grid."""
+    """Gather the cases of a panel, and the surface at every `SPARSE`-th point of its grid."""
     x, y, z = (part[::SPARSE, ::SPARSE].ravel() for part in grid)
     surface = pd.DataFrame({pair[0]: x, pair[1]: y, **held, STIFFNESS: z, "what": "surface"})
     return pd.concat([shown.assign(what="case")[list(surface)], surface], ignore_index=True)
@@ -298,7 +298,7 @@ def slices(
     varied : sequence of str
         The factor on the x axis, then the one whose levels make the lines.
     limits : sequence of float, optional
-        Levels whose first and last one end the axis of the stiffness, to compare solvers.
+        The first and the last of these levels end the axis of the stiffness, to compare solvers.
     """
     shown, held = at_middle(surface, cases, varied)
     title = _title(cases["solver"].iloc[0], held, labels)

@@ -1,7 +1,7 @@
 """Colours of the figures on light and on dark pages: one list for Matplotlib and for the page.
 
-Matplotlib draws with the light colours. In the SVG each of them becomes a CSS variable, so that a
-page in dark mode shows the same figure with colours that have contrast on a dark ground.
+Matplotlib draws with the light colours. In the SVG each of them becomes a CSS variable, so a page
+in dark mode shows the same figure in colours that have contrast on a dark background.
 """
 
 from __future__ import annotations
@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 COLOURS = ("#0072b2", "#d55e00", "#008f68", "#b8558c", "#a66f00", "#3a8fc4", "#4d4d4d")
-"""Data: after Okabe and Ito, the light ones darkened to a contrast of 3:1 on white."""
+"""For data: after Okabe and Ito, the light ones darkened to a contrast of 3:1 on white."""
 
 DARK_COLOURS = ("#6ea8ff", "#ff9550", "#2fcf9c", "#ee9ccb", "#e8b53c", "#7fdcff", "#c4c4c4")
 
@@ -17,10 +17,10 @@ INK = "#000000"
 GREY = "#666666"
 GRID = "#dddddd"
 RANGE = "#eeeeef"
-"""Ground of a range behind the data."""
+"""Background of a range behind the data."""
 
 PAPER = "#fffffe"
-"""Ground of the page; `white` stays white in dark mode, as on the colour map."""
+"""Background of the page; `white` stays white in dark mode, as on the colour map."""
 
 WARNING = "#8a4b00"
 

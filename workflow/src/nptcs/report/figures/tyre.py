@@ -26,7 +26,7 @@ from nptcs.report.figures.style import (
 from nptcs.report.figures.theme import COLOURS, GREY, INK, RANGE
 
 WINDOW_MM = 110.0
-"""Half the width of the surroundings of the contact that are drawn."""
+"""Half the width of the drawn surroundings of the contact."""
 
 PUBLISHED_STRESS_MPA = 89.5
 """Largest stress of a reinforcing plate at 5000 N, section 4.1 of the paper."""
@@ -144,12 +144,12 @@ def deformed_tyre(
     axes.grid(visible=False)
     handles = [
         Patch(fc=RANGE, ec=GREY, label=tr("rubber of a spoke")),
-        Patch(fc=COLOURS[1], label=tr("plates")),
+        Patch(fc=COLOURS[1], label=tr("plates of a spoke")),
         Line2D([], [], color=COLOURS[0], label=tr("band and tread")),
         Line2D([], [], color=INK, label=tr("rim, ground")),
     ]
     if near:
-        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before the load")))
+        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before loading")))
     figure.legend(handles=handles, title=solver, ncols=3, loc="outside lower center")
     places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
     figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))

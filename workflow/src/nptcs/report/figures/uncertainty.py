@@ -1,4 +1,4 @@
-"""Figure of the shares of the variance: which test or tolerance a response is uncertain by."""
+"""Figure of the shares of the variance: which test or tolerance makes a response uncertain."""
 
 from __future__ import annotations
 
@@ -67,7 +67,7 @@ def share_bars(shares: pd.DataFrame, title: str, synthetic: bool = False) -> Fig
 
 
 def share_text(percent: float) -> str:
-    """Write a share in percent: whole ones, small ones to a digit, none below a hundredth.
+    """Write a share in percent: whole, or to one digit if small, or as less than a hundredth.
 
     Examples
     --------
@@ -80,7 +80,7 @@ def share_text(percent: float) -> str:
 
 
 def inputs_in_lines(quantities: str) -> str:
-    """Write quantities and their standard deviations for a reader, each on a line of its own.
+    """Write quantities and their standard deviations for a reader, each on its own line.
 
     Examples
     --------

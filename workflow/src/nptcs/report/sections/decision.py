@@ -1,4 +1,4 @@
-"""What was asked of a design, the answer, and whether a solved case confirms it."""
+"""The goals of a decision, its answer, and whether a solved case confirms it."""
 
 from __future__ import annotations
 
@@ -55,7 +55,7 @@ def _answer(results: Results, row: Row) -> str:
     names = factor_headings([results.config.study(str(row["study"]))])
     design = in_words(str(row["design"]), names)
     asked = tr(
-        "Asked of study {study}, solver {solver}: {goals}",
+        "Goals for study {study}, solver {solver}: {goals}",
         study=row["study"],
         solver=row["solver"],
         goals=in_words(str(row["goals"]), names),
@@ -87,7 +87,7 @@ def _answer(results: Results, row: Row) -> str:
 
 
 def _confirmation(results: Results, decision: str) -> list[PageBlock]:
-    """Say how the solved designs came out."""
+    """State the results of the solved designs."""
     rows = results.table(DecisionConfirmation)
     names = factor_headings([results.config.study(_decision(results, decision).study)])
     facts = []

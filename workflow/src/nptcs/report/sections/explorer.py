@@ -1,4 +1,4 @@
-"""The explorer: sliders for the design, and what every stored surface says of it."""
+"""The explorer: sliders for the design, and what every stored surface says about it."""
 
 from __future__ import annotations
 
@@ -18,10 +18,10 @@ def explorer_section(results: Results, sheets: Sheets) -> Section:
     if not payload["studies"]:
         return Section(ReportSection.EXPLORE, title, ())
     lead = tr(
-        "On screen, move a slider, or click in a profile or in the plane: the page computes every "
-        "value from the fitted surfaces of this run, without a network. Each study has its own "
-        "models; a factor that a study holds cannot be moved in it, and results of two studies "
-        "are not multiplied."
+        "On screen, move a slider, or click in a profile or in the plane: the page computes "
+        "every value from the fitted surfaces of this run, without a network. Each study has its "
+        "own models; a factor that a study holds fixed cannot be moved in it, and results of two "
+        "studies are not multiplied."
     )
     without_script = tr("This part computes in the browser and needs scripts, which are off.")
     synthetic = any(

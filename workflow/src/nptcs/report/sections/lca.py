@@ -39,11 +39,10 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             tr(
-                "The model is solved with the spoke stiffness of table 10. The section "
-                "constants that the paper prints are those of another bending axis. Both "
-                "sections are shown here, the sandwich section and the one as printed, "
-                "each next to the printed results of table 11 (shear band C10 = "
-                "{shear_band_c10_mpa:g} MPa).",
+                "The model is solved with the spoke stiffness of table 10. The section constants "
+                "printed in the paper belong to another bending axis. Both sections are shown "
+                "here, the sandwich section and the one as printed, each next to the printed "
+                "results of table 11 (shear band C10 = {shear_band_c10_mpa:g} MPa).",
                 shear_band_c10_mpa=results.config.lca_validation.shear_band_c10_mpa,
             )
         ),
@@ -57,11 +56,11 @@ def lca_section(results: Results, sheets: Sheets) -> Section:
         ),
         Plots(
             tr(
-                "Vertical stiffness of table 11's designs, and displacement against load "
-                "at the loads of figure 15, by our load-bearing model and our finite "
-                "elements. The paper draws figure 15 as curves without numbers, so that "
-                "printed displacements exist at table 11's load only; of the other loads "
-                "it prints the largest error of its model, without a sign."
+                "Vertical stiffness of table 11's designs, and displacement against load at the "
+                "loads of figure 15, by our load-bearing model and our finite elements. The "
+                "paper draws figure 15 as curves without numbers, so printed displacements exist "
+                "only at table 11's load; for the other loads it prints the largest error of its "
+                "model, without a sign."
             ),
             (_stiffness_plot(results), *_load_plots(results)),
             shown=2,

@@ -48,10 +48,10 @@ def materials_section(results: Results, sheets: Sheets) -> Section:
     blocks += [
         Plots(
             tr(
-                "The rubbers' tests and their models (figure 5 of the paper): the model "
-                "within the range of its fit (full line) and beyond it (dotted); "
-                "squares: the neo-Hookean model with the C10 that the paper prints. Last "
-                "panel: how C10 depends on that range."
+                "The rubbers' tests and their models (figure 5 of the paper): the model within "
+                "the range of its fit (full line) and beyond it (dotted); squares: the "
+                "neo-Hookean model with the C10 printed in the paper. Last panel: how C10 "
+                "depends on that range."
             ),
             (*_fit_plots(results), *_range_plot(results)),
         ),

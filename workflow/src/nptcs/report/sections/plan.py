@@ -44,13 +44,13 @@ MOST_OPEN_ROWS = 6
 
 
 def further_section(results: Results, sheets: Sheets) -> Section:
-    """Begin the section of tables that no other section claims."""
+    """Return the empty section for tables that no other section claims."""
     return Section(ReportSection.FURTHER, tr("Further tables"), ())
 
 
 @dataclass(frozen=True)
 class SectionPlan:
-    """How a section comes about.
+    """How a section is built.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ class SectionPlan:
 
 
 PLANS: Mapping[ReportSection, SectionPlan] = {
-    # what follows the first screen: to try out designs, then the results, then what they rest on
+    # after the first screen: a place to try out designs, then the results, then their basis
     ReportSection.EXPLORE: SectionPlan(explorer_section),
     ReportSection.DECISION: SectionPlan(decision_section),
     ReportSection.UNCERTAINTY: SectionPlan(uncertainty_section),

@@ -33,9 +33,8 @@ def ply_words(results: Results) -> str:
         origin = tr(" (SYNTHETIC data)") if ply.synthetic else ""
         sentences.append(
             tr(
-                "The ply of {solvers} is {ply} of the material card{origin}, not the one "
-                "that the paper prints; in brackets the difference from table 2: "
-                "{differences}.",
+                "The ply of {solvers} is {ply} of the material card{origin}, not the one printed "
+                "in the paper; in brackets the difference from table 2: {differences}.",
                 solvers=joined(solvers),
                 ply=ply.name,
                 origin=origin,

@@ -11,7 +11,7 @@ from nptcs.report.tables import entries
 from nptcs.report.tables.provenance import configuration_text, entries_table
 from nptcs.report.tables.sheets import Sheets
 from nptcs.runs.identity import RunIdentity
-from nptcs.tables.result_table import ReportSection
+from nptcs.tables.result_table import Heading, ReportSection
 
 TABLES = entries.Entry(
     "about",
@@ -19,6 +19,7 @@ TABLES = entries.Entry(
     translatable("this report"),
     "report",
     translatable("the catalogue of tables"),
+    {"sheet": Heading(translatable("worksheet"))},
 )
 
 

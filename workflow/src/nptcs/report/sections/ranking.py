@@ -29,7 +29,7 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
         tr("Table 9 and ours: impact values with their rank by every rule"),
         FILE,
         "sensitivity",
-        tr("impact.csv, factors that table 9 prints; a rank is among these"),
+        tr("impact.csv, factors of table 9; ranks are among these factors"),
         headings,
     ).with_factors(factor_headings(results.config.studies))
     synthetic = any(
@@ -38,7 +38,7 @@ def ranking_blocks(results: Results) -> list[PageBlock]:
     )
     return [
         Listing(
-            tr("Is the ranking that of table 9?"),
+            tr("Is the ranking the same as in table 9?"),
             (
                 *published_order(results, compared),
                 *verdicts(results, compared),
@@ -87,8 +87,8 @@ def near_tie_sentences(results: Results, compared: pd.DataFrame) -> list[str]:
     }
     return [
         tr(
-            "{factor} and {partner} are a near tie: their order is not settled, "
-            "because they are close, or rules or solvers disagree on it.",
+            "{factor} and {partner} are a near tie: their order is not settled, because they are "
+            "close or because rules or solvers disagree on it.",
             factor=labels[study, one],
             partner=labels[study, other],
         )
@@ -108,7 +108,7 @@ def published_order(results: Results, compared: pd.DataFrame) -> list[str]:
 def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
     """Say for each solver by which rules its factors are ranked as in table 9, and by which not.
 
-    Rules that give the same order are one sentence.
+    Rules that give the same order share one sentence.
     """
     sentences, whole = [], published_order(results, compared)
     for solver, of_solver in compared.groupby("solver", sort=True):
@@ -121,9 +121,11 @@ def verdicts(results: Results, compared: pd.DataFrame) -> list[str]:
             if computed == published:
                 sentence = tr("{solver}, {rules}: {order}: the same as in table 9.")
             elif tr("Table 9: {order}.", order=published) in whole:
-                sentence = tr("{solver}, {rules}: {order}: NOT that of table 9.")
+                sentence = tr("{solver}, {rules}: {order}: NOT the same as in table 9.")
             else:
-                sentence = tr("{solver}, {rules}: {order}: NOT that of table 9 ({published}).")
+                sentence = tr(
+                    "{solver}, {rules}: {order}: NOT the same as in table 9 ({published})."
+                )
             told = {"rules": joined(rules), "order": computed, "published": published}
             sentences.append(sentence.format(solver=solver, **told))
     return sentences

@@ -1,4 +1,4 @@
-"""Published values that are not put next to a study, because their conditions are others."""
+"""Published values that are not put next to a study, because their conditions differ."""
 
 from __future__ import annotations
 
@@ -47,6 +47,6 @@ def all_refused(results: Results) -> list[str]:
 
 
 def refused_blocks(study: Study) -> list[Text]:
-    """Write the reason as a paragraph of the study's surfaces."""
+    """Write the reason as a paragraph in the section on the study's surfaces."""
     words = refused_words(study)
     return [Text(words, "warn")] if words else []

@@ -32,7 +32,7 @@ PUBLISHED_MODULI = {
     (TestType.COMPRESSION, 0.0): ("E1c", math.nan),
     (TestType.COMPRESSION, 90.0): ("E2c", math.nan),
 }
-"""Symbol and the paper's value (table 2, MPa) by test and direction; it has none in compression."""
+"""Symbol and the paper's value (table 2, MPa) by test and direction; none in compression."""
 FIGURE_4 = frozenset({TestType.RUBBER_TENSION})
 """Tests of rubbers that figure 4 of the paper draws in one panel."""
 
@@ -48,11 +48,10 @@ def specimens_section(results: Results, sheets: Sheets) -> Section:
     )
     curves = Plots(
         tr(
-            "Stress–strain curves of each series after signal conditioning (figures "
-            "2 and 4 of the paper). A bold piece of a curve is the chord of its "
-            "modulus; lines through the origin have the mean modulus and the one "
-            "that the paper prints in table 2. Dashed grey: left out by the specimen "
-            "sheet. Compression is negative."
+            "Stress–strain curves of each series after signal conditioning (figures 2 and 4 of "
+            "the paper). The bold part of a curve is the chord of its modulus; lines through the "
+            "origin have the mean modulus and the one printed in table 2 of the paper. Dashed "
+            "grey: left out by the specimen sheet. Compression is negative."
         ),
         tuple(_series_plots(results)),
     )
@@ -72,8 +71,8 @@ def _counts(results: Results) -> Text:
     failed, left_out = len(results.failed()), len(results.left_out())
     return Text(
         tr(
-            "{specimens} specimens in {series} series; {left_out} left out by the "
-            "sheet, {failed} that could not be read. Files of the folder: {files}.",
+            "{specimens} specimens in {series} series; {left_out} left out by the sheet, "
+            "{failed} could not be read. Files in the folder: {files}.",
             specimens=len(results.sheet),
             series=len(results.series()),
             left_out=left_out,

@@ -46,12 +46,11 @@ def spoke_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             tr(
-                "One spoke, clamped at the rim; its foot at the band is moved along the "
-                "radius and neither slides nor turns (section 4.3.1 of the paper). The "
-                "stiffness is the slope of the line through the origin over all points "
-                "of the curve. R² is given in both conventions, uncentred as software "
-                "prints it for a line without intercept, and centred; the paper does not "
-                "say which one it prints. "
+                "One spoke, clamped at the rim; its foot at the band is moved along the radius "
+                "and neither slides nor turns (section 4.3.1 of the paper). The stiffness is the "
+                "slope of the line through the origin over all points of the curve. R² is given "
+                "in both conventions, uncentred as software prints it for a line without "
+                "intercept, and centred; the paper does not say which one it uses. "
             )
             + ply_words(results)
         ),

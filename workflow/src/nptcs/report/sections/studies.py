@@ -184,10 +184,10 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             tr(
-                "Coefficients are fitted in coded units, each factor scaled to [−1, 1] "
-                "over its range, and given in both units at full precision: a surface "
-                "can be evaluated from this page. The published coefficient is next to "
-                "it, rounded as the paper prints it."
+                "Coefficients are fitted in coded units, each factor scaled to [−1, 1] over its "
+                "range, and given in coded and natural units at full precision: a surface can be "
+                "evaluated from this page. Published coefficients are next to them, rounded as "
+                "in the paper."
             )
         ),
         *surface_facts(results),
@@ -201,7 +201,7 @@ def surfaces_section(results: Results, sheets: Sheets) -> Section:
 def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[PageBlock]:
     """Build the coefficients and the figures of one study."""
     if not study.terms:
-        asked = tr("This study has no terms, so that no surface is fitted to it.")
+        asked = tr("This study has no terms, so no surface is fitted to it.")
         return [Text(tr(study.title), "heading"), Text(asked)]
     if not results.surfaces[study.name]:
         refused = tr(
@@ -225,7 +225,7 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     ]
     first = len(plots) // len(solved)  # the panels of one solver
     many = len(results.designs[study.name]) > MOST_MARKS
-    held = tr(" Factors that a panel does not show are at the middle level in its title.")
+    held = tr(" Factors that a panel does not show are at the middle level named in its title.")
     caption = tr(
         "{title}: each surface over two factors, the discs are the cases; one "
         "colour scale for all panels and solvers; and over one factor, the lines "
@@ -235,10 +235,9 @@ def _surface_blocks(results: Results, sheets: Sheets, study: Study) -> list[Page
     blocks.append(Plots(caption + held * (len(study.factors) > 2), tuple(plots), shown=first))
     if residuals := _residual_plots(results, study):
         words_of_residuals = tr(
-            "{title}: residuals of the polynomial at its cases, over its value (marks "
-            "grow with the leverage) and against a normal distribution. The results "
-            "of a solver have no noise: a pattern is what the polynomial cannot "
-            "follow.",
+            "{title}: residuals of the polynomial at its cases, over its value (marks grow with "
+            "the leverage) and against a normal distribution. The results of a solver have no "
+            "noise: a pattern shows what the polynomial cannot follow.",
             title=tr(study.title),
         )
         blocks.append(Plots(words_of_residuals, tuple(residuals), shown=0))
@@ -260,7 +259,7 @@ def _residual_plots(results: Results, study: Study) -> list[Plot]:
 
 
 def _solved(results: Results, study: Study, solver: str) -> pd.DataFrame:
-    """Take the cases on which the surface of a solver rests."""
+    """Take the cases that the surface of a solver was fitted to."""
     cases, factors = results.table(Cases), results.surfaces[study.name][solver].factors
     return solved_cases(cases[cases["study"] == study.name], solver, factors).table
 
@@ -304,10 +303,10 @@ def sensitivity_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             tr(
-                "Comprehensive impact value = average gradient × range of the factor "
-                "(section 4.2.3 of the paper). The paper does not state how it averages, "
-                "and no single rule gives all its numbers, so that every rule is given "
-                "here. The ranking and the order of the bars are by {rules}.",
+                "Comprehensive impact value = average gradient × range of the factor (section "
+                "4.2.3 of the paper). The paper does not state how it averages, and no single "
+                "rule gives all its numbers, so every rule is given here. The ranking and the "
+                "order of the bars are by {rules}.",
                 rules=words(rules[0]),
             )
         ),

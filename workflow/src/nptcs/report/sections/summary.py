@@ -1,4 +1,4 @@
-"""The head of the report: what failed, before anything else, what came out, what to know."""
+"""The head of the report: first what failed, then the main results and what to know."""
 
 from __future__ import annotations
 
@@ -32,7 +32,7 @@ def summary_blocks(results: Results, sheets: Sheets) -> tuple[PageBlock, ...]:
     ]
     blocks.append(Findings(findings(results)))
     if flags := flag_lines(results):
-        lead = tr("Where the tests deviate from their standards, and what they could not give")
+        lead = tr("Where the tests deviate from their standards, and what they could not determine")
         blocks.append(Listing(lead, flags, "warn"))
     if remarks := _remarks(results):
         blocks.append(Listing(tr("Worth knowing"), remarks, "warn"))
@@ -72,8 +72,8 @@ def _remarks(results: Results) -> tuple[str, ...]:
         synthetic = [s.specimen for s in results.sheet if s.origin == "synthetic"]
         remarks.append(
             tr(
-                "{count} of {total} specimens are SYNTHETIC example data; everything made from "
-                "them carries the badge.",
+                "{count} of {total} specimens are SYNTHETIC example data; everything derived "
+                "from them carries the badge.",
                 count=len(synthetic),
                 total=len(results.sheet),
             )
@@ -87,7 +87,7 @@ def _remarks(results: Results) -> tuple[str, ...]:
     if len(stray):
         remarks.append(
             tr(
-                "No row of the sheet names these files of the folder: {files}",
+                "No row of the sheet names these files in the folder: {files}",
                 files=joined(stray["file"]),
             )
         )

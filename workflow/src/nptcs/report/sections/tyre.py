@@ -28,7 +28,7 @@ from nptcs.tables.tyres.cases import Cases
 from nptcs.tables.tyres.deformed_tyre import DeformedTyre
 from nptcs.tables.tyres.tyre_responses import PlateStress, TyreCurves, TyreResponses
 
-TITLE = translatable("What the solved tyres do (section 4.1)")
+TITLE = translatable("Behaviour of the solved tyres (section 4.1)")
 
 
 def tyre_section(results: Results, sheets: Sheets) -> Section:
@@ -39,11 +39,11 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             tr(
-                "Load–displacement curves and plate stress of the tyres that were "
-                "solved. Plates are looked at where they are loaded most: at their "
-                "faces, in the few spokes that store most energy, each solved again at "
-                "its own motion in the tyre. Margins are factors by which the stress may "
-                "grow; the strengths are those of the laboratory's statistics. "
+                "Load–displacement curves and plate stress of the solved tyres. Plates are "
+                "assessed where they are loaded most: at their faces, in the few spokes that "
+                "store most energy, each solved again at its own motion in the tyre. Margins are "
+                "factors by which the stress may grow; the strengths are those of the "
+                "laboratory's statistics. "
             )
             + ply_words(results)
         ),
@@ -63,9 +63,9 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
         blocks.append(
             Plots(
                 tr(
-                    "Deformation of spokes and shear band by {solver} (figure 10 a of the paper): "
-                    "the section through the middle of a plate, to scale, every spoke solved "
-                    "again at its own motion. Dotted: before the load.",
+                    "Deformation of spokes and shear band by {solver} (figure 10 a of the "
+                    "paper): the section through the middle of a plate, to scale, every spoke "
+                    "solved again at its own motion. Dotted: before loading.",
                     solver=results.table(DeformedTyre)["solver"].iloc[0],
                 ),
                 tuple(deformed),
@@ -77,7 +77,7 @@ def tyre_section(results: Results, sheets: Sheets) -> Section:
                 tr(
                     "No tyre is drawn with its spokes (figure 10 a of the paper): no finite "
                     "element solver has solved one of the cases of neutral_line_cases, or the "
-                    "spokes of that tyre were not found again."
+                    "spokes of that tyre could not be solved again."
                 )
             )
         )
@@ -130,10 +130,10 @@ def published_stress(results: Results) -> list[str]:
             )
     return [
         tr(
-            "The paper gives {published_stress_mpa:g} MPa as the largest stress of a "
-            "plate at 5000 N; it does not say for which plates and rubbers, nor of "
-            "which measure. The largest von Mises stress here, at the faces of the "
-            "fiducial plates, is {names}. Nothing was fitted to it.",
+            "The paper gives {published_stress_mpa:g} MPa as the largest stress of a plate at "
+            "5000 N; it does not say for which plates and rubbers, nor which stress measure is "
+            "meant. The largest von Mises stress here, at the faces of the fiducial plates, is "
+            "{names}. Nothing was fitted to it.",
             published_stress_mpa=PUBLISHED_STRESS_MPA,
             names=joined(parts),
         )
@@ -152,7 +152,7 @@ def fiducial_cases(results: Results) -> list[str]:
 def not_assessed_sentence(responses: pd.DataFrame) -> list[str]:
     """Say how many responses have no value, and why, one sentence for each reason.
 
-    Responses that the same number of tyres lack for the same reason are one sentence.
+    Responses that the same number of tyres lack for the same reason share one sentence.
     """
     missing = responses[responses["status"] != "ok"]
     alike: dict[tuple[str, int, str], list[str]] = {}

@@ -1,4 +1,4 @@
-"""How sure the responses of reference and chosen designs are, and what that comes from."""
+"""Uncertainty of the responses of reference and chosen designs, and its sources."""
 
 from __future__ import annotations
 
@@ -36,14 +36,14 @@ def uncertainty_section(results: Results, sheets: Sheets) -> Section:
     blocks: list[PageBlock] = [
         Text(
             tr(
-                "What is not known exactly is propagated through the surfaces: the tests "
-                "behind the material card, stated rubbers, tolerances of manufacture and "
-                "the surface's own error. A large share says which test to repeat or "
-                "which tolerance to tighten. The difference of the solver from the "
-                "published stiffness (bias) is next to the interval and not part of it."
+                "What is not known exactly is propagated through the surfaces: the tests behind "
+                "the material card, stated rubbers, manufacturing tolerances and the surface's "
+                "own error. A large share shows which test to repeat or which tolerance to "
+                "tighten. The difference of the solver from the published stiffness (bias) is "
+                "next to the interval and not part of it."
             )
         ),
-        Facts(tr("How sure each response is"), tuple(_facts(results, table, shares))),
+        Facts(tr("How certain each response is"), tuple(_facts(results, table, shares))),
         Plots(tr("Shares of the variance by source."), tuple(_plots(results, shares)), shown=2),
         sheet_view(sheet_of(sheets, ResponseUncertainty)),
         sheet_view(sheet_of(sheets, UncertaintyShares)),

@@ -1,4 +1,4 @@
-"""What the report and the workbook say of a table: sheet, title, file, rule, source, headings.
+"""What the report and the workbook say about a table: sheet, title, file, rule, source, headings.
 
 Result tables get their entry from `nptcs.tables.catalogue`; the others, which the report makes
 itself from the sheet, the records and the material card, have theirs here.
@@ -56,7 +56,7 @@ class Entry:
         return replace(self, headings={**factors, **self.headings}, factors=factors)
 
     def with_headings(self, headings: Mapping[str, Heading]) -> Entry:
-        """Return the same entry for a view of it that has columns of its own."""
+        """Return the same entry for a view of the table that has other columns."""
         return replace(self, headings={**self.headings, **headings})
 
 

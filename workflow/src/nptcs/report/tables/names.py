@@ -65,7 +65,7 @@ def phrases(text: str) -> str:
 def in_symbols(text: str, labels: Mapping[str, Heading]) -> str:
     """Write terms of a polynomial with the symbols that end the factors' labels.
 
-    A factor whose label ends in no symbol of its own is written by its label.
+    A factor whose label does not end in a symbol of its own is written by its label.
 
     Examples
     --------

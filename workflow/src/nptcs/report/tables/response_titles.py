@@ -1,4 +1,4 @@
-"""Names of responses as a reader knows them; tables and the configuration keep their own."""
+"""Names of responses as a reader knows them; tables and the configuration use other names."""
 
 from __future__ import annotations
 
@@ -28,4 +28,4 @@ RESPONSE_TITLES: Mapping[str, str] = {
     "plate_mass": translatable("plate mass"),
     "plate_cost": translatable("plate cost"),
 }
-"""Responses as a reader names them; the names are those of `nptcs.config.studies.response`."""
+"""Title of each response, by its name in `nptcs.config.studies.response`."""

@@ -58,7 +58,7 @@ def every_row(row: Row) -> str:
 
 
 def by_status(row: Row) -> str:
-    """Mark what did not end well."""
+    """Mark everything whose status is not ok."""
     return "" if row["status"] == "ok" else "bad"
 
 

@@ -1,4 +1,4 @@
-"""The tables of the results in reading order: what the workbook holds and the report lists."""
+"""The tables of the results in reading order: what the workbook contains and the report lists."""
 
 from __future__ import annotations
 
@@ -25,7 +25,7 @@ from nptcs.tables.result_table import ReportSection, RowMark, SyntheticBy
 from nptcs.tables.tyres.cases import Cases
 
 LONGEST_SHEET = 5000
-"""Rows of the longest table that is a sheet of the workbook; a longer one is a CSV file only."""
+"""Rows of the longest table that is a sheet of the workbook; a longer one is only a CSV file."""
 
 
 @dataclass(frozen=True)
@@ -35,7 +35,7 @@ class Sheet:
     Parameters
     ----------
     entry : Entry
-        What is said of it.
+        What is said about the table.
     table : DataFrame
         Finished values.
     mark : callable
@@ -45,7 +45,7 @@ class Sheet:
     section : ReportSection, optional
         Section of the report that shows it by default; none for a table that a section names.
     raw : bool
-        Whether it holds curves, shapes or fields point by point.
+        Whether it contains curves, shapes or fields point by point.
     """
 
     entry: Entry

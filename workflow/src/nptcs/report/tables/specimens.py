@@ -1,4 +1,4 @@
-"""Tables of specimens that no file holds in this form: the sheet, and the ingest records."""
+"""Tables of specimens that no file has in this form: the sheet, and the ingest records."""
 
 from __future__ import annotations
 
@@ -60,7 +60,7 @@ def sheet_table(results: Results) -> pd.DataFrame:
 
 
 def conditioning_table(results: Results) -> pd.DataFrame:
-    """Write how each curve came about, one row per specimen."""
+    """Write how each curve was obtained, one row per specimen."""
     return pd.DataFrame(
         [
             {

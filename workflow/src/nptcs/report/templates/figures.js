@@ -5,7 +5,7 @@
   const light = {};
   for (const [, name, colour] of theme.split("@media")[0].matchAll(/(--[\w-]+):\s*(#\w+)/g)) light[name] = colour;
 
-  // a file of its own: colours of the light page, a white ground, links that older programs read
+  // a standalone file: colours of the light page, a white background, links that older programs read
   function alone(svg) {
     const copy = svg.cloneNode(true);
     const ground = document.createElementNS("http://www.w3.org/2000/svg", "rect");
@@ -27,7 +27,7 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 60000);
   }
 
-  // PNG has its resolution in a chunk of its own (pHYs), without which a text program shows 96 dpi
+  // PNG has its resolution in a separate chunk (pHYs), without which a word processor shows 96 dpi
   async function withResolution(blob) {
     const bytes = new Uint8Array(await blob.arrayBuffer());
     const chunk = new Uint8Array(21), view = new DataView(chunk.buffer);

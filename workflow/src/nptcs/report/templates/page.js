@@ -1,4 +1,4 @@
-// The page works without any of this: sorting of tables, light or dark, where the reader is.
+// The page works without any of this: sorting of tables, light or dark, marking the current section.
 (function () {
   var root = document.documentElement, button = document.getElementById("theme");
   function show(theme) {
@@ -11,11 +11,11 @@
     button.addEventListener("click", function () {
       var order = ["", "dark", "light"], next = order[(order.indexOf(root.dataset.theme || "") + 1) % 3];
       show(next);
-      try { localStorage.setItem("nptcs-theme", next); } catch (refused) { /* a page that may keep nothing */ }
+      try { localStorage.setItem("nptcs-theme", next); } catch (refused) { /* no storage */ }
     });
   }
 
-  // sort a table by the column whose head is clicked; once more turns the order round
+  // sort a table by the column whose heading is clicked; a second click reverses the order
   document.querySelectorAll("thead th").forEach(function (head) {
     var sorter = document.createElement("button");
     sorter.type = "button";
@@ -40,7 +40,7 @@
     });
   });
 
-  // mark the section that is read, and close the menu when one is chosen
+  // mark the section being read, and close the menu when one is chosen
   var links = {};
   document.querySelectorAll("nav a").forEach(function (link) {
     var name = link.getAttribute("href").slice(1);

@@ -1,4 +1,4 @@
-"""What cards, surfaces, responses and uncertainties say of how a value was found."""
+"""What cards, surfaces, responses and uncertainties say about how a value was found."""
 
 from __future__ import annotations
 
@@ -57,13 +57,13 @@ SENTENCES = (
         "not significant"
     ),
     translatable(
-        "no chance: the results have no noise, and a small p says only that the term is large "
-        "compared with what the polynomial cannot follow"
+        "not a probability: the results have no noise, and a small p says only that the term is "
+        "large compared with what the polynomial cannot follow"
     ),
     translatable(
-        "no chance where the results come from a deterministic solver, which has no noise: a "
-        "small p then says only that the term is large compared with what the polynomial "
-        "cannot follow"
+        "not a probability where the results come from a deterministic solver, which has no "
+        "noise: a small p then says only that the term is large compared with what the "
+        "polynomial cannot follow"
     ),
     translatable("a case"),
     translatable("all cases that share a spoke"),

@@ -1,4 +1,4 @@
-"""What the ingest did to the readings of a specimen, and what it noticed."""
+"""What ingest did to the readings of a specimen, and what it noticed."""
 
 from __future__ import annotations
 

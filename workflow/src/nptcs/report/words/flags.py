@@ -1,7 +1,7 @@
-"""Flags and checks that the tables hold in English, in the language of the page.
+"""Flags and checks, which the tables have in English, in the language of the page.
 
-A table is the same in every language, so that its flags are English sentences with numbers in them.
-The page finds the sentence that a flag was made from, and writes its translation with the same
+A table is the same in every language: its flags are English sentences with numbers in them. The
+page finds the sentence that a flag was made from, and writes its translation with the same
 numbers. A flag of another wording stays as the table has it.
 """
 
@@ -64,8 +64,10 @@ SENTENCES = (
     translatable("{rule}: no test states how uncertain it is"),
     translatable("uncertainty.tolerances of the configuration"),
     translatable("prediction interval of the surface, at least its error at left-out cases"),
-    translatable("effect of the ply not assessed: the lamination form is made for stiffness"),
-    translatable("effect of the ply not assessed: the lamination form has S, T and A alone"),
+    translatable("effect of the ply not assessed: the lamination form describes only stiffness"),
+    translatable(
+        "effect of the ply not assessed: the lamination form has only the factors S, T and A"
+    ),
     translatable("effect of the rubbers not assessed: no study of this solver varies them"),
     translatable("effect of the rubbers not assessed: their study varies other factors too"),
     translatable("ordinary least squares in coded units, solved cases only"),
@@ -79,7 +81,7 @@ SENTENCES = (
 """The sentences, as the stages write them; ``{…}`` stands for what differs."""
 
 JOINTS = (" | ", "; ")
-"""What stands between several sentences: rules of several tests, then sentences of one rule."""
+"""Separators of several sentences: between rules of several tests, between sentences of one."""
 
 SPAN = re.compile(r"^(?P<low>[-+.\de]+) to (?P<high>[-+.\de]+)(?P<unit>.*)$", re.DOTALL)
 """The lowest and the highest number of flags that are collected into one."""
@@ -88,7 +90,7 @@ SPAN = re.compile(r"^(?P<low>[-+.\de]+) to (?P<high>[-+.\de]+)(?P<unit>.*)$", re
 def flag_text(flag: str) -> str:
     """Write a sentence of a stage, or several that are joined, in the language of the run.
 
-    A text that no sentence makes is looked up whole, so that a user's own words stay as they are.
+    A text that matches no sentence is looked up whole, so a user's own words stay as they are.
 
     Examples
     --------
@@ -101,7 +103,7 @@ def flag_text(flag: str) -> str:
 
 @cache
 def _flag_text(flag: str, language: Language) -> str:
-    """Write a flag in the current language, which is named so that each has its own answer."""
+    """Write a flag in the current language, an argument so that each has its cache entry."""
     if (written := translated(flag, SENTENCES)) is not None:
         return written
     for mark in JOINTS:
@@ -126,7 +128,7 @@ def translated(text: str, sentences: Sequence[str]) -> str | None:
 
 @cache
 def pattern(sentence: str) -> re.Pattern[str]:
-    """Return the pattern of all flags that a sentence makes.
+    """Return the pattern that all flags made from a sentence match.
 
     Examples
     --------
@@ -141,7 +143,7 @@ def pattern(sentence: str) -> re.Pattern[str]:
 
 
 def _value(text: str) -> str:
-    """Write what a sentence holds: a sentence, a span of numbers, a list of terms, or as it is."""
+    """Write a value in a sentence: itself a sentence, a span of numbers, a list, or as it is."""
     if " " in text and (written := translated(text, SENTENCES)) is not None:
         return written
     if span := SPAN.fullmatch(text):

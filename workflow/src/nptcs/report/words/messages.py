@@ -45,11 +45,11 @@ SENTENCES = (
     translatable("the {link} link needs a positive response"),
     translatable("use the identity link for this response"),
     translatable("leave this surface out, or change its mean"),
-    translatable("no surface from so few cases: {counts}"),
+    translatable("too few cases for a surface: {counts}"),
     translatable("this distribution is outside the cases ({low} to {high})"),
     translatable("give a distribution inside the range of the levels"),
     # uncertainty and decisions
-    translatable("no case of study {study} by {solver} is solved"),
+    translatable("no case of study {study} has been solved by {solver}"),
     translatable("see cases.csv for what failed"),
     translatable("the reference design is outside the solved cases"),
     translatable("give a design inside the range of the levels"),
@@ -134,14 +134,14 @@ SENTENCES = (
     ),
     translatable(
         "solve more cases on each spoke, lower the degree, or narrow the range of the factors "
-        "until none fails"
+        "until no case fails"
     ),
     translatable(
         "the surface is the same everywhere, or not a number somewhere, and has no indices"
     ),
     translatable("look at surface_comparison.csv"),
     translatable("the plates' mass in the cases is not proportional to their number and thickness"),
-    translatable("use a solver whose plates are of one length"),
+    translatable("use a solver whose plates all have the same length"),
     translatable("study {study} is not solved by this solver"),
     translatable("name one of {choices}"),
     translatable("no case of study {study} by {solver} has {response}"),
@@ -168,7 +168,7 @@ def message_text(message: str) -> str:
 
 @cache
 def _message_text(message: str, language: Language) -> str:
-    """Write a message in the current language, which is named so that each has its own answer."""
+    """Write a message in the current language, an argument so that each has its cache entry."""
     head, remedy_follows, remedy = message.partition(REMEDY)
     head, value_follows, value = head.partition(VALUE)
     text = _with_place(head)

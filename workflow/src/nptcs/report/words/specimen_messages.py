@@ -1,10 +1,10 @@
-"""What reading a specimen's files says where it fails: message and remedy, without their values."""
+"""Messages and remedies where a specimen's files cannot be read, without their values."""
 
 from __future__ import annotations
 
 from nptcs.language import translatable
 
-# the special ones come before those whose values could hold them
+# the more specific ones come before those whose placeholders would match them
 SENTENCES = (
     translatable("this raw file does not exist"),
     translatable("correct the file name in the specimen sheet, or copy the file into its folder"),

@@ -1,4 +1,4 @@
-"""Names of surfaces in the language of the page; tables and commands keep the English ones."""
+"""Names of surfaces in the language of the page; tables and commands use the English names."""
 
 from __future__ import annotations
 
@@ -29,7 +29,7 @@ def surface_words(name: str) -> str:
     """Write the name of a surface for a reader.
 
     The name is that of `nptcs.config.studies.surface.surface_name`. English names stay as they
-    are, because the configuration and ``nptcs design`` ask for them; a name of another form stays
+    are, because the configuration and ``nptcs design`` expect them; a name of another form stays
     as it is in every language.
 
     Examples

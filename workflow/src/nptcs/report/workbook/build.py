@@ -33,7 +33,7 @@ OWN_SHEETS = {
     ),
     CHARTS: translatable("Native charts of the main curves"),
     TERMS: translatable("What the predictor evaluates: coefficients, terms and covariances"),
-    DATA: translatable("The numbers that the charts draw"),
+    DATA: translatable("The numbers shown in the charts"),
     DICTIONARY: translatable("The meaning of each column of each table"),
 }
 """Sheets that are not tables of the run, in the order of the index."""
@@ -42,8 +42,8 @@ OWN_SHEETS = {
 def build_workbook(results: Results) -> bytes:
     """Write all results as one XLSX file.
 
-    Numbers are stored to 16 significant digits and shown with the digits that their unit and size
-    ask for. Titles, headings and sentences are in the language of the run; names of sheets, columns
+    Numbers are stored to 16 significant digits and shown with the digits that suit their unit and
+    size. Titles, headings and sentences are in the language of the run; names of sheets, columns
     and things are those of the CSV files. The same results give the same bytes.
 
     Parameters
@@ -91,7 +91,7 @@ def _written(results: Results) -> Workbook:
 def _write_dictionary(workbook: Workbook, results: Results) -> None:
     """Write the sheet that explains every column."""
     sheet = workbook.create_sheet(DICTIONARY)
-    heads = (tr("sheet"), tr("column"), tr("unit"), tr("column in the file"), tr("meaning"))
+    heads = (tr("worksheet"), tr("column"), tr("unit"), tr("column in the file"), tr("meaning"))
     write_row(sheet, 1, heads)
     table = dictionary_table(list(sheets_of(results).values()))
     for row, values in enumerate(table.itertuples(index=False), start=2):
@@ -125,7 +125,7 @@ def dated(content: bytes, date: datetime) -> bytes:
     content : bytes
         An XLSX file.
     date : datetime
-        When the run was made; with equal content it gives equal bytes.
+        When the run was made; equal content and date give equal bytes.
 
     Returns
     -------

@@ -27,11 +27,11 @@ FONT = "Calibri"
 LINK = Font(name=FONT, color="0B4F7A", underline="single")
 WRAPPED = Alignment(wrap_text=True, vertical="top")
 LONGEST_TEXT = 32767
-"""Characters that a cell can hold."""
+"""Most characters that a cell can have."""
 
 
 def write(cell: Cell, value: Any) -> None:
-    """Write one value: numbers as numbers, text as text (never as a formula), no value as none."""
+    """Write one value: a number as a number, text as text (never as a formula), NaN as nothing."""
     if value is None or value is pd.NA or (isinstance(value, float) and math.isnan(value)):
         return
     if isinstance(value, bool | np.bool_):
@@ -46,7 +46,7 @@ def write(cell: Cell, value: Any) -> None:
 
 
 def write_row(worksheet: Worksheet, row: int, values: Sequence[Any], first: int = 1) -> None:
-    """Write values into the cells of a row, from a column on."""
+    """Write values into the cells of a row, starting at a column."""
     for column, value in enumerate(values, start=first):
         write(worksheet.cell(row, column), value)
 

@@ -1,4 +1,4 @@
-"""What the workbook's charts draw: lines of the result tables and curves, thinned for the eye.
+"""Data of the workbook's charts: lines of the result tables and curves, thinned for drawing.
 
 Nothing is computed: each line is a selection of rows of a table or of a specimen's curve.
 """
@@ -26,12 +26,12 @@ MOST_POINTS = 120
 """Points of a line that a chart draws; a curve of a specimen has thousands."""
 
 MOST_LINES = 7
-"""Lines of a chart that colours tell apart."""
+"""Most lines of a chart that colours can tell apart."""
 
 
 @dataclass(frozen=True)
 class ChartLine:
-    """One line of a chart: its name, points of shape (m,) each, and whether it only guides."""
+    """One line of a chart: name, x and y of shape (m,), and whether it only guides the eye."""
 
     name: str
     x: Array
@@ -49,9 +49,9 @@ class ChartData:
         The axes with their units.
     lines : tuple of ChartLine
     source : str
-        File that the lines are rows of.
+        File from whose rows the lines are taken.
     points : bool
-        Marks only, without lines between them.
+        Whether only marks are drawn, without lines between them.
     synthetic : bool
         Whether it rests on synthetic specimens.
     """
@@ -213,7 +213,7 @@ def _neutral_lines(results: Results) -> Iterator[ChartData]:
 
 
 def _line(name: str, table: pd.DataFrame, x: str, y: str) -> ChartLine:
-    """Take two columns, rows without either left out, at most `MOST_POINTS` of them."""
+    """Take two columns, at most `MOST_POINTS` rows, without those that lack a value."""
     kept = table[[x, y]].dropna()
     if len(kept) > MOST_POINTS:
         places = np.unique(np.linspace(0, len(kept) - 1, MOST_POINTS).round().astype(int))

@@ -41,7 +41,7 @@ DATA_WIDTH = 14
 
 
 def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
-    """Write the sheet of charts and, for the last sheets, that of their data.
+    """Write the sheet of charts, and the sheet with their data.
 
     Parameters
     ----------
@@ -62,7 +62,7 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
         ],
     )
     lines = [tr("Two columns for each line: x and y.")]
-    write_title(data, tr("Numbers that the charts draw"), lines)
+    write_title(data, tr("Numbers shown in the charts"), lines)
     column = 1
     for number, chart in enumerate(charts):
         drawn = _chart(data, chart, column)
@@ -73,7 +73,7 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
     last = 4 + ROWS_EACH * ((len(charts) + 1) // 2)
     page_for_print(sheet, None, f"A1:{get_column_letter(2 * COLUMNS_EACH)}{last}")
     for row in range(3 + 2 * ROWS_EACH, last, 2 * ROWS_EACH):
-        sheet.row_breaks.append(Break(id=row - 1))  # the frame of a chart is on its own page
+        sheet.row_breaks.append(Break(id=row - 1))  # no chart is split between pages
     for place in range(1, column):
         data.column_dimensions[get_column_letter(place)].width = DATA_WIDTH
     data.freeze_panes = data.cell(HEADER_ROW + 2, 1)
@@ -81,7 +81,7 @@ def write_charts(workbook: Workbook, charts: Sequence[ChartData]) -> None:
 
 
 def _chart(data: Worksheet, chart: ChartData, column: int) -> ScatterChart:
-    """Write the data of a chart from a column on, and draw it."""
+    """Write the data of a chart, starting at a column, and draw it."""
     drawn = ScatterChart(scatterStyle="lineMarker")
     badge = f" ({tr('SYNTHETIC DATA')})" if chart.synthetic else ""
     drawn.width, drawn.height = SIZE_CM

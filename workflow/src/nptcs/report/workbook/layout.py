@@ -1,7 +1,8 @@
-"""Widths, frozen panes, filters and pages for print, the same on every sheet."""
+"""Widths, frozen panes, filters and print pages, the same on every sheet."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from math import ceil
 
 from openpyxl.cell import Cell
@@ -21,7 +22,7 @@ MOST_LINES = 27
 
 TOP = Alignment(vertical="top")
 PAGE_WIDTH = 330.0
-"""Characters across a page below which a table is still readable: about 5 points high."""
+"""Most characters across a page at which a table is still readable: about 5 points high."""
 
 
 def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
@@ -38,7 +39,7 @@ def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
 
 
 def fit_widths(worksheet: Worksheet, header: int) -> None:
-    """Make each column as wide as what it shows from its header on, and the header high enough."""
+    """Make each column as wide as its header and cells need, and the header high enough."""
     lines = 1
     for column, cells in enumerate(worksheet.iter_cols(min_row=header), start=1):
         widths = [_header_width(cells[0]), *map(_width, cells[1:])]
@@ -49,31 +50,35 @@ def fit_widths(worksheet: Worksheet, header: int) -> None:
 
 
 def wrap_long_texts(worksheet: Worksheet, first: int) -> None:
-    """Wrap the texts that are longer than the widest column, which print would cut off."""
-    for number, row in enumerate(worksheet.iter_rows(min_row=first), start=first):
+    """Wrap the texts that are longer than the widest column, which printing would cut off."""
+    for row in worksheet.iter_rows(min_row=first):
         long = [cell.data_type == "s" and text_width(str(cell.value)) > WIDEST for cell in row]
         if any(long):
             for cell, is_long in zip(row, long, strict=True):
                 cell.alignment = WRAPPED if is_long else TOP
-            fit_heights(worksheet, number, number)
+            _fit_height(worksheet, row)
 
 
 def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
-    """Make rows high enough for their wrapped cells; programs do it only when one is edited."""
+    """Make rows high enough for their wrapped cells; programs do so only when a cell is edited."""
     for row in worksheet.iter_rows(min_row=first, max_row=last):
-        lines = 1
-        for cell in row:
-            if cell.value is not None and cell.alignment.wrap_text:
-                width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
-                lines = max(lines, _lines(str(cell.value), width))
-        worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * min(lines, MOST_LINES)
+        _fit_height(worksheet, row)
+
+
+def _fit_height(worksheet: Worksheet, row: Sequence[Cell]) -> None:
+    lines = 1
+    for cell in row:
+        if cell.value is not None and cell.alignment.wrap_text:
+            width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
+            lines = max(lines, _lines(str(cell.value), width))
+    worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * min(lines, MOST_LINES)
 
 
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:
-    """Set the pages of a sheet: landscape, its header on each of them.
+    """Set up the pages of a sheet: landscape, with its header on each of them.
 
-    A sheet is as wide as one page; a table that would be too small to read on it is as wide as
-    several, with its first column on each.
+    A sheet is as wide as one page; a table that would be too small to read on one page is spread
+    over several, with its first column on each.
     """
     worksheet.print_area = area or worksheet.dimensions
     worksheet.page_setup.orientation = "landscape"

@@ -1,6 +1,6 @@
 """How numbers are shown: by the unit of the column, its kind, and the size of its values.
 
-A cell always holds the number to 16 digits; its format only says how many of them are seen.
+A cell always contains the number to 16 digits; its format only says how many of them are shown.
 """
 
 from __future__ import annotations
@@ -35,14 +35,14 @@ MOST_DECIMALS = {
     "bytes": 0,
     "kg": 4,
 }
-"""Decimals beyond which a value of this unit says nothing; other units have `MOST`."""
+"""Decimals beyond which a value in this unit has no meaning; other units have `MOST`."""
 
 MOST = 7
 SPREAD = 1e6
 """Values of one column that differ by more than this factor are shown in scientific notation."""
 
 BY_ROW = ("unit of the row", "unit of the factor")
-"""Units of columns in which each row has a unit of its own."""
+"""Units of columns in which each row has its own unit."""
 
 
 def format_of_column(unit: str, values: pd.Series[float]) -> str | None:
@@ -131,7 +131,7 @@ def _exponent(value: float) -> int:
 
 
 def _exact_decimals(sizes: np.ndarray[tuple[int, ...], np.dtype[np.float64]], most: int) -> int:
-    """Return the fewest decimals that show every value whole, `most` at the most."""
+    """Return the fewest decimals that show every value exactly, at most `most`."""
     for decimals in range(most):
         if (np.abs(np.round(sizes, decimals) - sizes) <= 1e-12 * sizes).all():
             return decimals

@@ -2,8 +2,8 @@
 
 The sheet `PREDICTOR` has the inputs and one row per polynomial; the sheet `TERMS` has one block per
 polynomial with all that it is evaluated from. A polynomial is Σ b_j Π c_i^e_ij in coded units
-c = (x - centre)/half range, as in `nptcs.surface.fit`; of log K or 1/K it is transformed back. Its
-prediction interval is t s √(1 + zᵀ(XᵀX)⁻¹z) to both sides, with the terms z at the point.
+c = (x - centre)/(half range), as in `nptcs.surface.fit`; one of log K or 1/K is transformed back.
+Its prediction interval is ± t s √(1 + zᵀ(XᵀX)⁻¹z), with the terms z at the point.
 """
 
 from __future__ import annotations
@@ -59,7 +59,7 @@ COLUMNS = (
     translatable("interval from"),
     translatable("interval to"),
     translatable("range of validity"),
-    translatable("what it takes and what its study holds"),
+    translatable("its inputs, and the values held by its study"),
     translatable("data"),
 )
 INPUT_COLUMNS = (
@@ -72,13 +72,13 @@ INPUT_COLUMNS = (
 )
 WIDTHS = (26, 16, 30, 13, 13, 26, 16, 16, 16, 30, 62, 17)
 PLACE = "\N{REPLACEMENT CHARACTER}"
-"""Stands for the number that a formula puts into a sentence."""
+"""Placeholder for the number that a formula inserts into a sentence."""
 
 LIGHT_RED = PatternFill("solid", start_color="FDD9C8", end_color="FDD9C8")
 
 
 def write_predictor(workbook: Workbook, results: Results) -> None:
-    """Write both sheets; a run without polynomials of the inputs has none."""
+    """Write both sheets; a run without polynomials of the inputs has neither."""
     models, others = predictor_models(results)
     if not models:
         return
@@ -161,7 +161,7 @@ def _write_plates(sheet: Worksheet, tyre: TyreGeometry) -> str:
 
 
 def _range_of(factor: str, models: Sequence[PredictorModel]) -> tuple[float | None, float | None]:
-    """Return the range of a factor in which at least one polynomial holds."""
+    """Return the range of a factor in which at least one polynomial is valid."""
     bounds = [
         (low, high)
         for model in models
@@ -174,7 +174,7 @@ def _range_of(factor: str, models: Sequence[PredictorModel]) -> tuple[float | No
 
 
 def first_row(workbook_row: int = 0) -> int:
-    """Return the row of the sheet with the first prediction, and those after it."""
+    """Return the row of a prediction in the sheet, counted from 0 for the first."""
     return PLATES_ROW + 8 + workbook_row
 
 
@@ -218,7 +218,7 @@ def _named(fitted: FittedSurface, study: Study) -> list[str]:
 
 
 def takes(model: PredictorModel) -> str:
-    """Say which inputs a polynomial takes, what its study holds, and what has no part in it."""
+    """Say which inputs a polynomial has, what its study holds fixed, and what has no effect."""
     taken = [
         tr("{symbol} with whole plates", symbol=INPUTS[name][0])
         if name == SPACING and model.snaps
@@ -231,9 +231,9 @@ def takes(model: PredictorModel) -> str:
         for name, (symbol, _, _) in INPUTS.items()
         if name not in {*model.fitted.factors, *model.fixed}
     ]
-    parts = [tr("takes {inputs}", inputs=", ".join(taken))]
+    parts = [tr("inputs {inputs}", inputs=", ".join(taken))]
     parts += [tr("its study holds {inputs}", inputs=", ".join(held))] if held else []
-    parts += [tr("without {inputs}", inputs=", ".join(absent))] if absent else []
+    parts += [tr("does not depend on {inputs}", inputs=", ".join(absent))] if absent else []
     return "; ".join(parts)
 
 
@@ -242,7 +242,7 @@ def _write_warning(sheet: Worksheet, count: int) -> None:
     row, last = PLATES_ROW + 5, first_row(count - 1)
     checks = f"J{first_row()}:J{last}"
     inside = f'COUNTIF({checks},"{tr(INSIDE)}")'
-    sound = tr("All {count} polynomials hold at these inputs.", count=count)
+    sound = tr("All {count} polynomials are valid at these inputs.", count=count)
     before, after = tr(
         "WARNING: {outside} of {count} polynomials are outside their range at these inputs; their "
         "rows are red and have no interval.",

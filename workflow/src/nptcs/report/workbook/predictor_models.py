@@ -41,7 +41,7 @@ class PredictorModel:
     inner : Surface
         The polynomial in coded units.
     link : str
-        What the polynomial is of: the response itself, its logarithm or its reciprocal.
+        What the polynomial describes: the response itself, its logarithm or its reciprocal.
     fixed : mapping of str to float
         Values that all cases of the study share.
     snaps : bool
@@ -108,10 +108,10 @@ def _number(level: Level, results: Results) -> float:
 
 
 def start_values(results: Results, models: Sequence[PredictorModel]) -> dict[str, float]:
-    """Choose the values that the inputs begin with.
+    """Choose the initial values of the inputs.
 
-    Those of the first study with a reference design and of what it holds; then what another study
-    holds, or the middle of the box of the first model with this factor.
+    The reference design of the first study that has one, and the values that it holds fixed; then
+    those of other studies, or the middle of the box of the first model with this factor.
     """
     found: dict[str, float] = {}
     studies = sorted(results.config.studies, key=lambda study: not study.reference)

@@ -54,7 +54,7 @@ class Block:
 def write_block(
     sheet: Worksheet, row: int, model: PredictorModel, cells: Mapping[str, str]
 ) -> Block:
-    """Write the block of a polynomial from a row on.
+    """Write the block of a polynomial, starting at a row.
 
     Parameters
     ----------
@@ -136,9 +136,9 @@ def _write_terms(sheet: Worksheet, first: int, model: PredictorModel, coded: Seq
 
 
 def term_formula(powers: Sequence[int], cells: Sequence[str]) -> str:
-    """Write a term of coded values; a factor that it does not have is not in it.
+    """Write a term of coded values; factors with the power 0 are left out.
 
-    A sheet has no value for 0^0, which every centre of a design would ask for.
+    A spreadsheet has no value for 0^0, which would occur at every centre of a design.
 
     Examples
     --------

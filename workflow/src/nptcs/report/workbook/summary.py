@@ -46,17 +46,17 @@ FINDING_HEAD = (
     translatable("table"),
 )
 ANSWER_HEAD = (
-    translatable("number"),
+    translatable("quantity"),
     translatable("in words"),
     translatable("value"),
     translatable("from"),
     translatable("to"),
     translatable("unit"),
-    translatable("what it rests on"),
+    translatable("basis"),
     translatable("table"),
 )
 INDEX_HEAD = (
-    translatable("sheet"),
+    translatable("worksheet"),
     translatable("what it says"),
     translatable("rows"),
     translatable("synthetic"),
@@ -71,7 +71,7 @@ REFERENCE = "reference"
 
 @dataclass(frozen=True)
 class Answer:
-    """One line of the answer; numbers stay numbers, and `table` names where they are from."""
+    """One line of the answer; numbers stay numbers, and `table` names where they come from."""
 
     question: str
     answer: str
@@ -149,8 +149,8 @@ def _decisions(results: Results) -> Iterator[Answer]:
             None,
             tr("probability"),
             tr(
-                "study {study}, solver {solver}; asked for {probability}; confirmation: "
-                "{confirmation}",
+                "study {study}, solver {solver}; required probability {probability}; "
+                "confirmation: {confirmation}",
                 study=row["study"],
                 solver=row["solver"],
                 probability=f"{row['with_probability']:g}",
@@ -207,7 +207,7 @@ def _trust(results: Results) -> Iterator[Answer]:
             tr("Origin of the data"),
             tr(
                 "{count} of {total} specimens are SYNTHETIC example data; sheets with an orange "
-                "header rest on them",
+                "header are based on them",
                 count=len(synthetic),
                 total=len(results.sheet),
             ),
@@ -216,7 +216,7 @@ def _trust(results: Results) -> Iterator[Answer]:
 
 
 def _outcome(status: DecisionStatus, text: str) -> str:
-    """Say what a decision came to: its design, the nearest one, or why it was refused."""
+    """State the outcome of a decision: its design, the nearest one, or why it was refused."""
     match status:
         case "feasible":
             return text
@@ -257,7 +257,7 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
     if identity is not None:
         made = {"run": identity.short, "date": identity.made_text}
         lines.append(tr("Run {run}, tables complete {date}", **made))
-    synthetic = tr("SYNTHETIC example data: sheets with an orange header rest on it.")
+    synthetic = tr("SYNTHETIC example data: sheets with an orange header are based on it.")
     if results.any_synthetic:
         lines.append(synthetic)
     lines.append(
@@ -341,7 +341,9 @@ def index_row(sheet: Sheet, name: str) -> IndexRow:
     if not sheet.in_workbook:
         file = next_to_workbook(entry.file)
         says = tr(
-            "{title} (not a sheet: the CSV file {file} next to this one)", title=says, file=file
+            "{title} (not a sheet: see the CSV file {file} next to this workbook)",
+            title=says,
+            file=file,
         )
     return IndexRow(
         name,

@@ -61,7 +61,7 @@ def write_table_sheet(worksheet: Worksheet, sheet: Sheet) -> None:
 
 
 def _comment_headings(worksheet: Worksheet, sheet: Sheet) -> None:
-    """Say of each column what it means, which rule made it and which values it holds."""
+    """Say for each column what it means, which rule made it and which values it has."""
     columns: Mapping[str, Any] = (
         {} if sheet.entry.contract is None else sheet.entry.contract.to_schema().columns
     )
@@ -80,7 +80,7 @@ def heading_comment(sheet: Sheet, column: str, contract: pa.Column | None) -> st
     column : str
         As in the file.
     contract : pandera Column, optional
-        What the contract of the table says of it.
+        What the contract of the table says about it.
     """
     lines = [tr(contract.description or "")] if contract is not None else []
     if contract is not None and (allowed := allowed_values(contract)):

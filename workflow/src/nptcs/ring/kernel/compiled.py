@@ -20,7 +20,7 @@ def compilable(function: Function) -> Function:
 
 
 def compiled_inline(function: Function) -> Function:
-    """Mark a function as `compilable` does, and have its code repeated wherever it is called."""
+    """Mark a function as `compilable` does, and have it inlined wherever it is called."""
     return _marked(function, forceinline=True)
 
 

@@ -1,4 +1,4 @@
-"""Energies of the ring's parts: residuals and tangents, written once for arrays and compiler.
+"""Energies of the ring's parts: residuals and tangents, written once for NumPy and for numba.
 
 Each function takes its unknowns by component: `m[3]` is ψ, a number where numba compiles the
 function and calls it element by element, an array over all elements where NumPy runs it. So no
@@ -6,7 +6,7 @@ branch may depend on a value. Results are added into `force` and `tangent`, firs
 unknowns.
 
 An element's variables are the means m = (u_x, u_y, θ, ψ, s) of its two nodes' unknowns and their
-differences by its length, d = (Δu_x, Δu_y, Δθ, Δψ, Δs)/L; force and tangent have ten components,
+differences over its length, d = (Δu_x, Δu_y, Δθ, Δψ, Δs)/L; force and tangent have ten components,
 m before d. θ and ψ turn the tangent t towards the outward normal n:
 
     t(ψ) = (cos α, sin α),  n(ψ) = (sin α, -cos α),  α = Θ - ψ,  Θ the element's angle.
@@ -33,7 +33,7 @@ HALF, SURFACE, FOOT, OUTER, AREA_PER_LENGTH = 0, 1, 2, 3, 4
 GROW_SECTION, GROW_FACE, GROW_SHEAR = 5, 6, 7
 STIFF, SMOOTH, SLIP_STIFF, FRICTION, COMPLIANCE = 8, 9, 10, 11, 12
 DIMENSIONS = 13
-# places of the core's constants behind the three of the wires' pull
+# places of the core's constants after the three of the wires' pull
 CORE_COMPLIANCE, WIRES_STIFF, CURVATURE = 3, 4, 5
 # tanh is 1 to rounding beyond this
 RATIO_CAP = 20.0
@@ -56,7 +56,7 @@ def band_strains(angle: Value, m: Value, d: Value) -> Value:
 def band_energy(
     c: Value, h: Value, core: Value, angle: Value, length: Value, m: Value, d: Value
 ) -> Value:
-    """Energy of an element, L (½ C_ij v_i v_j + ⅙ D_ijk v_i v_j v_k) less what the core takes."""
+    """Energy of an element, L (½ C_ij v_i v_j + ⅙ D_ijk v_i v_j v_k - ½ g D² of `core_give`)."""
     e, q, shear, _, _ = band_strains(angle, m, d)
     v = (e, d[2], d[3], d[4])
     total = c[4, 4] * q * q + c[5, 5] * shear * shear + c[6, 6] * m[4] * m[4]
@@ -72,13 +72,13 @@ def band_energy(
 
 @compilable
 def core_give(core: Value, e: Value, d: Value) -> Value:
-    """Pull of the wires on the core's thickness, and what the core gives to it.
+    """Pull of the wires on the core's thickness, and how far the core gives way to it.
 
     Where the ring is bent, the outer wires are in tension and the inner ones in compression by the
     same force, or the reverse: on a circle of curvature χ = 1/R - κf they press on the core, or
     pull it apart, by χ times their force. With D = N_outer - N_inner, k the wires' stiffness and a
-    the core's compliance its faces move by δ = -a χ D/(1 + a k χ²), which lowers the energy by
-    ½ g D², g = a χ²/(1 + a k χ²).
+    the core's compliance, the core's faces move by δ = -a χ D/(1 + a k χ²), which lowers the energy
+    by ½ g D², g = a χ²/(1 + a k χ²).
 
     Returns
     -------
@@ -98,7 +98,7 @@ def core_give(core: Value, e: Value, d: Value) -> Value:
 
 @compilable
 def add_core_give(core: Value, e: Value, d: Value, stress: Value, stiff: Value) -> None:
-    """Add the derivatives of -½ g D² to those by (e, κs, κf, s')."""
+    """Add the derivatives of -½ g D² with respect to (e, κs, κf, s')."""
     pull, give, slope, curve = core_give(core, e, d)
     for i in range(3):
         stress[i] += -give * pull * core[i]
@@ -112,9 +112,9 @@ def add_core_give(core: Value, e: Value, d: Value, stress: Value, stiff: Value) 
 
 @compilable
 def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: Value) -> None:
-    """Set the derivatives (4) and (4, 4) of the energy by (e, κs, κf, s'), per length.
+    """Set the derivatives (4) and (4, 4) of the energy per length with respect to (e, κs, κf, s').
 
-    c and h are symmetric under any exchange of their places.
+    c and h are symmetric under any exchange of their indices.
     """
     for i in range(ALONG):
         stress[i] = 0.0
@@ -135,25 +135,21 @@ def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: 
 @compilable
 def band(
     c: Value,
-    h: Value,
-    core: Value,
-    angle: Value,
     length: Value,
     m: Value,
-    d: Value,
-    force: Value,
-    tangent: Value,
+    strains: Value,
     stress: Value,
     stiff: Value,
+    force: Value,
+    tangent: Value,
 ) -> None:
     """Add residual and tangent of an element of band, wires and tread.
 
-    `stress` (4) and `stiff` (4, 4) are workspace.
+    `strains` are those of `band_strains`; `stress` (4) and `stiff` (4, 4) those of `along_tangent`
+    with `add_core_give`.
     """
-    e, q, shear, tx, ty = band_strains(angle, m, d)
+    e, q, shear, tx, ty = strains
     nx, ny = ty, -tx
-    along_tangent(c, h, e, d, stress, stiff)
-    add_core_give(core, e, d, stress, stiff)
     stretch = length * stress[0]
     sheared = length * c[5, 5] * shear
     # the core shears by q, too: its faces are the wires' axes, not their sections
@@ -292,7 +288,7 @@ def ground(
     anchor : number or array
         Place x at which the surface came to rest.
     by_x, by_y
-        Set to the derivatives of the surface's place by the ten variables.
+        Set to the derivatives of the surface's place with respect to the ten variables.
     tangent
         Added to.
 
@@ -364,7 +360,7 @@ def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Valu
     push : (3,)
         The spoke's forces on (u_r, u_θ, φ).
     by : (3, 5)
-        Set to the derivatives of (u_r, u_θ, φ) by u; it must be zero before.
+        Set to the derivatives of (u_r, u_θ, φ) with respect to u; it must be zero before the call.
     tangent : (5, 5)
         Added to.
     """
@@ -386,6 +382,54 @@ def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Valu
 
 
 @compilable
+def foot_share(
+    cos: Value, sin: Value, mean: Value, turn: Value, outward: Value, along: Value
+) -> tuple[Value, Value, Value]:
+    """Share of a node's motion in (u_r, u_θ, φ) of the wide foot that covers it.
+
+    Parameters
+    ----------
+    cos, sin
+        Of the node's angle from the foot's middle.
+    mean, turn
+        Shares of `ring.feet.WideFeet`.
+    outward, along
+        Of the band's face at the node, in the node's own directions; or their derivatives.
+    """
+    radial = cos * outward - sin * along
+    return mean * radial, mean * (sin * outward + cos * along), turn * radial
+
+
+@compilable
+def node_push(cos: Value, sin: Value, mean: Value, turn: Value, push: Value) -> tuple[Value, Value]:
+    """Give a node's forces, outward and along in its own directions, of a wide foot's three."""
+    radial, level = mean * push[0] + turn * push[2], mean * push[1]
+    return cos * radial + sin * level, cos * level - sin * radial
+
+
+@compilable
+def squeeze_step(
+    soft_r: Value, soft_turn: Value, stiff: Value, gap_r: Value, gap_turn: Value
+) -> tuple[Value, Value]:
+    """Solve (1 + C K) x = gap for u_r and φ; C has the squeeze of the band under a foot."""
+    a, b = 1.0 + soft_r * stiff[0, 0], soft_r * stiff[0, 2]
+    c, d = soft_turn * stiff[2, 0], 1.0 + soft_turn * stiff[2, 2]
+    inverse = 1.0 / (a * d - b * c)
+    return inverse * (d * gap_r - b * gap_turn), inverse * (a * gap_turn - c * gap_r)
+
+
+@compilable
+def squeezed_stiffness(soft_r: Value, soft_turn: Value, stiff: Value, hold: Value) -> None:
+    """Set `hold` (3, 3) to K (1 + C K)⁻¹, K the stiffness of a spoke."""
+    for j in range(3):
+        by_r, by_turn = squeeze_step(
+            soft_r, soft_turn, stiff, soft_r * stiff[0, j], soft_turn * stiff[2, j]
+        )
+        for i in range(3):
+            hold[i, j] = stiff[i, j] - stiff[i, 0] * by_r - stiff[i, 2] * by_turn
+
+
+@compilable
 def line_coordinates(
     height: Value, motion: Value
 ) -> tuple[Value, Value, Value, Value, Value, Value]:
@@ -400,7 +444,7 @@ def line_coordinates(
 def carry_to_motion(
     length: Value, cos: Value, sin: Value, first: Value, second: Value, push: Value, stiff: Value
 ) -> None:
-    """Carry E's derivatives by (s, β, φ), `first` (3) and `second` (3, 3), to the motion.
+    """Transform E's derivatives from (s, β, φ), `first` (3) and `second` (3, 3), to the motion.
 
     Sets `push` (3) and `stiff` (3, 3).
     """

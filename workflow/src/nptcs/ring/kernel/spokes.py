@@ -12,7 +12,7 @@ from nptcs.arrays import Array, Index
 from nptcs.fe.spoke.coordinates import unit_elongation
 from nptcs.fe.spoke.energy_table import NAMES, SpokeEnergyTable
 
-# places of the derivatives of E by the coordinates, and how often by each
+# derivatives of E in the order of `evaluate`: how often with respect to each coordinate
 ORDERS = (
     (0, 0, 0),
     (1, 0, 0),
@@ -38,7 +38,7 @@ class SpokePolynomial:
     low, high : arrays (3,)
         Range of s (mm), β and φ (rad) at s ≥ 0.
     narrowing : float
-        Part of the ranges of β and φ at the lowest s, linear from s = 0.
+        Fraction of the ranges of β and φ at the lowest s, linear from s = 0.
     coefficients : array (degrees of s, side terms)
         N mm.
     sides : array (side terms, 2)
@@ -71,6 +71,10 @@ class SpokePolynomial:
 
     def outside(self, coordinates: Array) -> str:
         """Say which coordinate (spokes, 3) is outside the range; empty if none is."""
+        low_box, high_box = self._always_inside
+        least, most = coordinates.min(axis=0), coordinates.max(axis=0)
+        if (least >= low_box).all() and (most <= high_box).all():
+            return ""
         part = 1.0 - (1.0 - self.narrowing) * np.clip(coordinates[:, 0] / self.low[0], 0.0, 1.0)
         shrink = np.stack([np.ones_like(part), part, part], axis=1)
         low, high = self.low * shrink, self.high * shrink
@@ -105,13 +109,19 @@ class SpokePolynomial:
         )
 
     @cached_property
+    def _always_inside(self) -> tuple[Array, Array]:
+        """Give the box that is inside the range at every s."""
+        shrink = np.array([1.0, min(self.narrowing, 1.0), min(self.narrowing, 1.0)])
+        return self.low * shrink, self.high * shrink
+
+    @cached_property
     def _scale(self) -> Array:
         scale: Array = 2.0 / (self.high - self.low)
         return scale
 
     @cached_property
     def _derivatives(self) -> list[Array]:
-        """What Chebyshev values of x, β and φ are multiplied by: arrays (degrees, 3 × terms).
+        """Matrices that multiply Chebyshev values of x, β and φ: arrays (degrees, 3 × terms).
 
         The three are the factor of each side term and its first two derivatives.
         """

@@ -1,4 +1,4 @@
-"""From the spokes of a study to their surrogate."""
+"""Fit a surrogate to the spokes of a study."""
 
 from __future__ import annotations
 
@@ -21,7 +21,7 @@ from nptcs.ring.surrogate.model import DESIGN, SpokeSurrogate
 
 SPOKE = ["spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa"]
 LEAST_RANGE = 0.75
-"""Part of the options' range in compression that a table must cover to be fitted."""
+"""Fraction of the options' range in compression that a table must cover to be fitted."""
 
 
 def fit_surrogate(
@@ -33,8 +33,8 @@ def fit_surrogate(
 ) -> SpokeSurrogate:
     """Fit the surrogate to all spokes of a design table.
 
-    Spokes that lose their stability early have tables too short for the others: they are not
-    fitted, and the surrogate refuses designs that are nearer to them than to any other.
+    Spokes that lose their stability early have tables too short to fit with the others: they are
+    left out, and the surrogate refuses designs that are nearer to them than to any other.
 
     Parameters
     ----------
@@ -45,7 +45,7 @@ def fit_surrogate(
     ply : mapping
         The nine constants of the plates' ply.
     folder : Path or None
-        Tables that are there are read, others computed and left there.
+        Tables found there are read, others are computed and stored there.
 
     Raises
     ------

@@ -1,8 +1,8 @@
-"""Energy tables of different ranges on one range, so that they can be interpolated.
+"""Energy tables of different ranges brought to one range, so that they can be interpolated.
 
 A spoke that loses its stability in compression has a shorter table. A polynomial on a shorter range
 is the same polynomial, since x(s) of one range is linear in that of another: its coefficients are
-carried over exactly.
+converted exactly.
 """
 
 from __future__ import annotations

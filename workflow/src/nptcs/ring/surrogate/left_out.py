@@ -1,4 +1,4 @@
-"""How well a surrogate predicts spokes that it has not seen, as the tyre's displacement."""
+"""How well a surrogate predicts spokes that it has not seen, judged by the tyre's displacement."""
 
 from __future__ import annotations
 
@@ -27,12 +27,13 @@ class LeftOutSpokes:
     Parameters
     ----------
     percent : ndarray
-        Displacement on the predicted spoke against that on the computed one; NaN where a spoke
-        leaves its table below the load.
+        Error of the displacement on the predicted spoke relative to that on the computed one; NaN
+        where a spoke leaves its table below the load.
     standard_errors : ndarray of shape (spokes,)
         Error at the last load in standard errors of the prediction.
     edge : ndarray of shape (spokes,)
-        Whether the spoke lies on a face of the box of the others: it is extrapolated to.
+        Whether the spoke is on a face of the box of the others or outside it, so that its
+        prediction is an extrapolation.
     """
 
     percent: Array
@@ -61,7 +62,7 @@ def left_out_spokes(
     band_c10_mpa: float = 5.0,
     seed: int = 0,
 ) -> LeftOutSpokes:
-    """Leave out a tenth of the spokes at a time; the kernels are kept, all else is fitted again."""
+    """Leave out a tenth of the spokes at a time; the kernels are kept, the rest is fitted again."""
     count = len(surrogate.tables)
     fold = np.random.default_rng(seed).permutation(np.arange(count) % FOLDS)
     percent = np.full((count, len(LOADS_N)), np.nan)

@@ -1,7 +1,7 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
 The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
-Gaussian process over `spoke_features`. A predicted table serves search and exploration; the
+Gaussian process over `spoke_features`. A predicted table is for search and exploration; the
 design that is chosen in the end is solved with a computed table.
 """
 
@@ -51,9 +51,9 @@ class SpokeSurrogate:
     designs : array (n, 4)
         `DESIGN` of each computed spoke.
     tables : sequence of SpokeEnergyTable
-        Theirs, of one section, one mesh and one range.
+        Their tables, all for one section, one mesh and one range.
     ply : mapping
-        Constants of the ply of all of them.
+        Constants of the ply, the same for all of them.
     kernels : sequence of kernels, optional
         Of an earlier fit; fitted by maximum likelihood if not given.
     unfitted : array (m, 4), optional
@@ -96,7 +96,7 @@ class SpokeSurrogate:
 
     @property
     def kernels(self) -> list[Kernel]:
-        """The fitted kernels, for a surrogate of other tables without another search."""
+        """The fitted kernels, to fit a surrogate to other tables without another search."""
         return [process.kernel_ for process in self._processes]
 
     def without(self, rows: Sequence[int]) -> SpokeSurrogate:
@@ -163,7 +163,7 @@ class SpokeSurrogate:
         return self.predict_anywhere(values)
 
     def predict_anywhere(self, design: Array) -> PredictedTable:
-        """Predict without a look at the box: for tests of spokes that were left out."""
+        """Predict without checking the box: for tests of spokes that were left out."""
         values = np.asarray(design, dtype=float)
         scores, errors = self._scores(values[None])
         coefficients = values[3] * (self.mean + scores[0] @ self.components)
@@ -185,9 +185,9 @@ class SpokeSurrogate:
         ----------
         importance : array (components,), optional
             Weight of each component's variance, for example the squares of a displacement's
-            derivatives by the components; 1 for all if not given.
+            derivatives with respect to the components; 1 for all if not given.
         candidates : int
-            Points of the box that are compared, and as many at which the variance is counted.
+            Points of the box that are compared; the variance is averaged over as many others.
         seed : int
 
         Returns

@@ -60,8 +60,8 @@ def displacement_error_mm(
 ) -> float:
     """Give the standard error of the last displacement from those of the table's components.
 
-    The displacement's derivatives by the components come from the adjoint; the components' errors
-    are independent.
+    The displacement's derivatives with respect to the components come from the adjoint; the
+    components' errors are independent.
 
     Parameters
     ----------

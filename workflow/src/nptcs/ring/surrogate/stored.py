@@ -67,7 +67,7 @@ def dump_surrogate(stored: StoredSurrogate) -> str:
 
 
 def read_surrogate(path: str | Path) -> StoredSurrogate:
-    """Read a file that holds what `dump_surrogate` has written.
+    """Read a file that contains what `dump_surrogate` wrote.
 
     Raises
     ------
@@ -78,7 +78,7 @@ def read_surrogate(path: str | Path) -> StoredSurrogate:
         content = open_object(read_stored(path, "surrogate of the spokes"), KIND)
     except BrokenSealError as error:
         remedy = "write it again: nptcs surrogate fit"
-        raise InputError(f"this surrogate is not sound: {error}", remedy, path) from None
+        raise InputError(f"this surrogate cannot be used: {error}", remedy, path) from None
     return StoredSurrogate(
         SpokeSurrogate(
             np.array(content["designs"]),

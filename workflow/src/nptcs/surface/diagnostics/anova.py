@@ -27,11 +27,11 @@ class Noise(StrEnum):
 MEANING = {
     Noise.REPLICATES: "the chance of an effect this large from noise alone, as long as the lack of "
     "fit is not significant",
-    Noise.EQUAL: "no chance: the results have no noise, and a small p says only that the term is "
-    "large compared with what the polynomial cannot follow",
-    Noise.UNKNOWN: "no chance where the results come from a deterministic solver, which has no "
-    "noise: a small p then says only that the term is large compared with what the polynomial "
-    "cannot follow",
+    Noise.EQUAL: "not a probability: the results have no noise, and a small p says only that the "
+    "term is large compared with what the polynomial cannot follow",
+    Noise.UNKNOWN: "not a probability where the results come from a deterministic solver, which "
+    "has no noise: a small p then says only that the term is large compared with what the "
+    "polynomial cannot follow",
 }
 """What a p-value means."""
 
@@ -81,9 +81,9 @@ def anova(surface: Surface, blocks: Sequence[str] = ()) -> list[AnovaRow]:
     Parameters
     ----------
     surface : Surface
-        As fitted.
+        The fitted polynomial.
     blocks : sequence of str
-        Factors that stand for blocks of cases; their linear terms are a group of their own.
+        Factors that stand for blocks of cases; their linear terms form a separate group.
     """
     matrix = surface.polynomial.matrix(surface.coded(surface.x))
     groups = _groups(surface, blocks)
@@ -155,6 +155,6 @@ def _group_name(degree: int, pure: int) -> str:
 
 
 def _f_test(squares: float, df: int, variance: float, rest_df: int) -> tuple[float, float]:
-    """F value and p-value; infinite and zero where nothing is left over."""
+    """F value and p-value; infinite and zero where there is no residual."""
     f_value = squares / df / variance if variance > 0 else np.inf
     return f_value, float(stats.f.sf(f_value, df, rest_df))

@@ -1,4 +1,4 @@
-"""How surfaces of every kind predict cases that they have not seen, tested in one way for all."""
+"""How surfaces of every kind predict cases that they have not seen, tested in the same way."""
 
 from __future__ import annotations
 
@@ -23,7 +23,7 @@ MOST_LEVELS = 10
 """A factor with more values than this has no levels to leave out."""
 
 MANY_CASES = 50
-"""Above so many cases a polynomial's left-out errors are taken from the leverages of one fit."""
+"""Number of cases above which a polynomial's left-out errors come from the leverages of one fit."""
 MOST_REFITS = 2000
 """Cases beyond which a surface is not fitted again without each of them."""
 
@@ -38,7 +38,7 @@ class LeftOut:
     Parameters
     ----------
     error : ndarray of shape (m,)
-        Prediction minus response; not a number where the rest could not carry the surface.
+        Prediction minus response; NaN where the surface could not be fitted to the other cases.
     covered : ndarray of shape (m,)
         Whether the response lies in the prediction interval.
     cpu_s : float
@@ -46,7 +46,7 @@ class LeftOut:
     assessed : bool
         False where there are more than `MOST_REFITS` cases.
     what : str
-        What was left out at a time.
+        What was left out each time.
     """
 
     error: Array
@@ -83,9 +83,9 @@ class LevelError:
     Parameters
     ----------
     largest : float
-        Not a number where none could be left out.
+        NaN where none could be left out.
     refused : str
-        Why the surface could not be fitted without a level; empty if it could, for all.
+        Why the surface could not be fitted without a level; empty if it could without each level.
     """
 
     largest: float
@@ -96,7 +96,7 @@ def leave_one_out(surface: ResponseSurface) -> LeftOut:
     """Fit the surface again without each group of cases, with all parameters, and predict them.
 
     A group is a single case, or all cases that the kind of surface says belong together
-    (`ResponseSurface.groups`): leaving one of them out would test nothing.
+    (`ResponseSurface.groups`): leaving out only one of them would test nothing.
     """
     start = time.process_time()
     if isinstance(surface, Surface | LinkedSurface) and len(surface.y) > MANY_CASES:
@@ -122,8 +122,8 @@ def leave_one_out(surface: ResponseSurface) -> LeftOut:
 def _by_leverage(surface: Surface | LinkedSurface) -> tuple[Array, Mask]:
     """Left-out errors and coverage of a polynomial from one fit: e/(1 - h), the same numbers.
 
-    The prediction interval of a left-out case has its response inside if the externally
-    studentised residual is below the quantile of t.
+    The response of a left-out case is inside its prediction interval if its externally
+    studentised residual is not above the quantile of t.
     """
     inner = surface.inner if isinstance(surface, LinkedSurface) else surface
     found = influence(inner)

@@ -14,13 +14,13 @@ def assess(surface: Surface) -> dict[str, float]:
     """Measure the fit of a polynomial to the cases that it was fitted to.
 
     Leave-one-out residuals are e/(1 - h) with the leverage h (PRESS); the ten folds are drawn
-    with a fixed seed. R² compares with the total sum of squares about the
-    mean, or, through the origin, with that about zero.
+    with a fixed seed. R² compares with the total sum of squares about the mean, or, through the
+    origin, with that about zero.
 
     Parameters
     ----------
     surface : Surface
-        As fitted.
+        The fitted polynomial.
 
     Returns
     -------

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import product
 from typing import Literal
 
 import numpy as np
 from scipy import optimize
 
-from nptcs.arrays import Array
+from nptcs.arrays import Array, Index
 from nptcs.surface.fit import Surface
 from nptcs.surface.response_surface import inside_box
 
@@ -18,7 +19,7 @@ FLAT = 1e-6
 """Share of the largest curvature below which a direction counts as flat."""
 
 SAME = 1e-6
-"""Distance in coded units within which two stationary points are one."""
+"""Distance in coded units within which two stationary points count as one."""
 
 STARTS_PER_AXIS = 5
 DIRECTIONS_TRIED = 2000
@@ -42,7 +43,7 @@ class StationaryPoint:
     axes : ndarray of shape (k, n)
         Their directions in coded units.
     kind : str
-        maximum, minimum, saddle, rising or falling ridge.
+        maximum, minimum, saddle, ridge of a maximum or ridge of a minimum.
     inside : bool
         Whether it lies in the box of the cases.
     """
@@ -58,7 +59,7 @@ class StationaryPoint:
 def stationary_points(surface: Surface) -> list[StationaryPoint]:
     """Find where the surface has no slope in the factors that it is curved in.
 
-    Factors with linear terms alone, as those that stand for blocks, are held: they move the
+    Factors with linear terms alone, such as those that stand for blocks, are held: they move the
     surface and not its stationary point. A second-order surface has one point, wherever it lies;
     of surfaces of higher order the points inside the box are found, from a grid of starts.
     """
@@ -81,7 +82,7 @@ def stationary_points(surface: Surface) -> list[StationaryPoint]:
 
 
 def curved_axes(surface: Surface) -> list[int]:
-    """Find the numbers of the factors that some term of second order or higher contains."""
+    """Find the columns of the factors that appear in a term of second order or higher."""
     curved = [powers for powers in surface.polynomial.exponents if sum(powers) > 1]
     return [axis for axis in range(len(surface.factors)) if any(powers[axis] for powers in curved)]
 
@@ -94,13 +95,13 @@ def ridge_path(
     Parameters
     ----------
     surface : Surface
-        As fitted.
+        The fitted polynomial.
     direction : str
         ``maximum`` or ``minimum``.
     radii : sequence of float
         Growing radii in coded units; 1 reaches the middle of the box's faces.
     held : sequence of str
-        Factors that stay at their middle, as those that stand for blocks.
+        Factors that stay at their middle, such as those that stand for blocks.
 
     Returns
     -------
@@ -192,19 +193,41 @@ def _whole(surface: Surface, coded: Array, axes: list[int]) -> Array:
 
 def _slope(surface: Surface, coded: Array) -> Array:
     """∂f/∂c at a coded point, shape (n,)."""
-    rows = [surface.polynomial.derivative_matrix(coded[None, :], name) for name in surface.factors]
-    return np.array([row[0] @ surface.coefficients_coded for row in rows])
+    first, _ = _derivatives(surface.polynomial.exponents)
+    slope: Array = _evaluated(first, coded) @ surface.coefficients_coded
+    return slope
 
 
 def _hessian(surface: Surface, coded: Array) -> Array:
     """∂²f/∂c∂c at a coded point, shape (n, n)."""
-    powers = np.array(surface.polynomial.exponents)
-    size = powers.shape[1]
-    hessian = np.empty((size, size))
-    for row, column in product(range(size), repeat=2):
-        units = np.eye(size, dtype=int)[row], np.eye(size, dtype=int)[column]
-        factor = powers[:, row] * (powers[:, column] - units[0][column])
-        lowered = np.maximum(powers - units[0] - units[1], 0)
-        terms = factor * np.prod(coded[None, :] ** lowered, axis=1)
-        hessian[row, column] = terms @ surface.coefficients_coded
+    _, second = _derivatives(surface.polynomial.exponents)
+    hessian: Array = _evaluated(second, coded) @ surface.coefficients_coded
     return hessian
+
+
+@dataclass(frozen=True)
+class _Derivatives:
+    """Derivatives of p terms: a factor of each, and the powers that are left, (..., p, n)."""
+
+    factors: Array
+    powers: Index
+
+
+@lru_cache(maxsize=32)
+def _derivatives(exponents: tuple[tuple[int, ...], ...]) -> tuple[_Derivatives, _Derivatives]:
+    """First derivatives of terms by each of n factors, (n, p), and second ones, (n, n, p)."""
+    powers = np.array(exponents)
+    unit = np.eye(powers.shape[1], dtype=int)
+    once = powers - unit[:, None, :]
+    twice = powers - unit[:, None, None, :] - unit[None, :, None, :]
+    first = powers.T.astype(float)
+    second = first[:, None, :] * (powers.T[None, :, :] - unit[:, :, None])
+    return (
+        _Derivatives(first, np.maximum(once, 0)),
+        _Derivatives(second, np.maximum(twice, 0)),
+    )
+
+
+def _evaluated(derivatives: _Derivatives, coded: Array) -> Array:
+    found: Array = derivatives.factors * np.prod(coded**derivatives.powers, axis=-1)
+    return found

@@ -113,7 +113,7 @@ def stationary_table(surfaces: Surfaces) -> pd.DataFrame:
 
 
 def selection_table(surfaces: Surfaces) -> pd.DataFrame:
-    """Make `SurfaceSelection`: what goes first by AICc and by PRESS."""
+    """Make `SurfaceSelection`: the order in which terms are dropped by AICc and by PRESS."""
     rows = []
     for key, surface in _each(surfaces):
         for criterion in CRITERIA:

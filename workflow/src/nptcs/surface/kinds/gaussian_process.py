@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 from scipy import stats
 from scipy.linalg import cho_solve, cholesky
-from sklearn.gaussian_process.kernels import ConstantKernel, Kernel, Matern, WhiteKernel
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
@@ -19,21 +18,27 @@ from nptcs.surface.fit import Surface, coding
 from nptcs.surface.kinds.lamination import Lamination
 from nptcs.surface.kinds.lengths import lengths_as_likely, restricted_variance
 from nptcs.surface.kinds.linked import LinkedSurface
-from nptcs.surface.kinds.matern import MaternLikelihood
+from nptcs.surface.kinds.matern import MaternLikelihood, covariance
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable, single_cases
 
 MeanSurface = Surface | LinkedSurface | Lamination
-"""Surfaces that can lie under a process: those that say their slopes by their coefficients."""
+"""Surfaces that can be the mean of a process: they have slopes with respect to coefficients."""
 
 NUGGET = 1e-8
-"""Variance added to the diagonal, as a share of the residuals' variance: rounding of results."""
+"""Variance added to the diagonal, as a share of the residuals' variance, for rounded results."""
 
 LENGTH_BOUNDS = (0.05, 50.0)
-"""Length scales, in half ranges of a factor. A length far below the gap between two levels is an
-answer, too: the mean carries the surface between them, and the interval has its whole variance."""
+"""Length scales, in half ranges of a factor. A length far below the gap between two levels is a
+valid answer: between them the surface follows its mean, and the interval has the full variance."""
 
 NOISE_BOUNDS = (1e-8, 10.0)
 VARIANCE_BOUNDS = (1e-3, 1e3)
+
+FIRST_NOISE = 1e-2
+"""From which the first search starts, as a variance; variance and lengths start from 1."""
+
+SAME_RESPONSE = 1e-6
+"""Difference of equal cases, in ranges of the response, up to which there is no noise."""
 
 RESTARTS = 3
 """Searches from random hyperparameters, besides the one from lengths of a half range."""
@@ -41,24 +46,23 @@ RESTARTS = 3
 
 @dataclass(frozen=True)
 class Component:
-    """A process with one choice of lengths; what a prediction is averaged over.
+    """A process with one choice of lengths; a prediction is the average over such components.
 
     Parameters
     ----------
     theta : ndarray of shape (h,)
-        Logarithms of its hyperparameters, its variance estimated without bias by the mean.
-    kernel : Kernel
+        Logarithms of its hyperparameters; the variance is not biased by the fitted mean.
     lower : ndarray of shape (m, m)
         Cholesky factor of the covariance of the cases.
     weights : ndarray of shape (m,)
         K⁻¹ of the scaled residuals.
     mean_covariance : ndarray of shape (p, p)
-        Of the mean's coefficients, which least squares have found from residuals that vary as the
-        process does: B K Bᵀ with the pseudo-inverse B of the mean's slopes, in units of `scale`.
+        Covariance of the mean's coefficients, found by least squares from residuals that vary as
+        the process does: B K Bᵀ with the pseudo-inverse B of the mean's slopes, in units of
+        `scale`.
     """
 
     theta: Array
-    kernel: Kernel
     lower: Array
     weights: Array
     mean_covariance: Array
@@ -66,7 +70,7 @@ class Component:
 
 @dataclass(frozen=True)
 class Weights:
-    """What a program needs that evaluates a process without this package.
+    """What a program needs to evaluate a process without this package.
 
     Parameters
     ----------
@@ -74,7 +78,7 @@ class Weights:
         Coding of the factors.
     components : tuple of Component
     scale : float
-        Of weights and variances, in the unit of the response.
+        Scale of weights and variances, in the unit of the response.
     factor : float
         Half width of the 95 % interval in standard deviations.
     """
@@ -91,7 +95,7 @@ class GaussianProcess:
     """A Matérn 5/2 process in coded units that follows the residuals of its mean.
 
     Its error has three parts: that of the process away from the cases, that of the mean's
-    coefficients, and that of lengths which the cases do not tell (`lengths`).
+    coefficients, and that of lengths that the cases do not determine (`lengths`).
 
     Parameters
     ----------
@@ -128,12 +132,12 @@ class GaussianProcess:
 
     def predict(self, x: Array) -> Array:
         """Evaluate the process at points of shape (m, n) → (m,)."""
-        coded = self._coded(x)
-        rise = [one.kernel(coded, self._points) @ one.weights for one in self._components]
+        coded, points = self._coded(x), self._points
+        rise = [covariance(one.theta, coded, points) @ one.weights for one in self._components]
         return self._scale * np.mean(rise, axis=0) + self._mean_at(x)
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
-        """Bounds of the prediction interval, at least as wide as left-out cases ask for."""
+        """Bounds of the prediction interval, at least as wide as left-out cases require."""
         coded, slopes = self._coded(x), self._slopes(x)
         found = [self._moments(one, coded, slopes) for one in self._components]
         means, variances = np.array([m for m, _ in found]), np.array([v for _, v in found])
@@ -143,9 +147,9 @@ class GaussianProcess:
         return middle - half, middle + half
 
     def refit(self, x: Array, y: Array) -> GaussianProcess:
-        """Fit mean and hyperparameters to other cases, from those found here.
+        """Fit mean and hyperparameters to other cases, starting from those found here.
 
-        Which lengths are not told, and how far they reach, is kept.
+        The set of undetermined lengths and their range are kept.
         """
         mean = None
         if self.mean is not None:
@@ -167,23 +171,24 @@ class GaussianProcess:
         }
 
     def regressor(self) -> Weights:
-        """Return what a program needs that evaluates the process without this package."""
+        """Return what a program needs to evaluate the process without this package."""
         return Weights(*coding(self.x), self._components, self._scale, self._factor(0.95))
 
     def _factor(self, confidence: float) -> float:
         """Half width of the interval in standard deviations.
 
-        Student's t, because the variance is known from the cases alone, times the factor that
-        left-out cases ask for.
+        Student's t, because the variance is estimated from the cases, times the factor that
+        left-out cases require.
         """
         freedom = len(self.y) - self.coefficients
         return float(stats.t.ppf(0.5 + confidence / 2, freedom)) * self._inflation
 
     def _moments(self, one: Component, coded: Array, slopes: Array) -> tuple[Array, Array]:
         """Mean and variance of a component over the mean surface, scaled, two of shape (m,)."""
-        near = one.kernel(coded, self._points)
+        near = covariance(one.theta, coded, self._points)
         solved = cho_solve((one.lower, True), near.T)
-        alone = np.maximum(one.kernel.diag(coded) - np.einsum("ij,ji->i", near, solved), 0.0)
+        own = np.exp(one.theta[0]) + self._noise(one.theta)
+        alone = np.maximum(own - np.einsum("ij,ji->i", near, solved), 0.0)
         lever = slopes - solved.T @ self._basis
         by_mean = np.einsum("ij,jk,ik->i", lever, one.mean_covariance, lever)
         return near @ one.weights, alone + np.maximum(by_mean, 0.0)
@@ -230,33 +235,36 @@ class GaussianProcess:
         return tuple(self._component(self.theta + shift) for shift in self.spread)
 
     def _component(self, theta: Array) -> Component:
-        kernel, residual = kernel_of(self.x, self.y), self._residual / self._scale
-        theta = np.clip(theta, kernel.bounds[:, 0], kernel.bounds[:, 1])
+        factors, residual = self.x.shape[1], self._residual / self._scale
+        theta = np.clip(theta, *bounds_of(factors, len(theta) > 1 + factors).T)
         theta = theta + np.log(
-            restricted_variance(self._lower(kernel, theta), self._basis, residual)
-        ) * _of_variance(theta, self.x.shape[1])
-        lower = self._lower(kernel, theta)
+            restricted_variance(self._lower(theta), self._basis, residual)
+        ) * _of_variance(theta, factors)
+        lower = self._lower(theta)
+        spread = self._basis_inverse @ lower
+        return Component(theta, lower, cho_solve((lower, True), residual), spread @ spread.T)
+
+    @cached_property
+    def _basis_inverse(self) -> Array:
+        """Pseudo-inverse of the mean's slopes, whose columns may differ in size."""
         sizes = np.linalg.norm(self._basis, axis=0)
         sizes[sizes == 0] = 1.0
-        inverse = np.linalg.pinv(self._basis / sizes, rcond=1e-12) / sizes[:, None]
-        spread = inverse @ lower
-        return Component(
-            theta,
-            kernel.clone_with_theta(theta),
-            lower,
-            cho_solve((lower, True), residual),
-            spread @ spread.T,
-        )
+        inverse: Array = np.linalg.pinv(self._basis / sizes, rcond=1e-12) / sizes[:, None]
+        return inverse
 
-    def _lower(self, kernel: Kernel, theta: Array) -> Array:
-        covariance = kernel.clone_with_theta(theta)(self._points)
-        covariance[np.diag_indices_from(covariance)] += NUGGET
-        lower: Array = cholesky(covariance, lower=True)
+    def _lower(self, theta: Array) -> Array:
+        spread = covariance(theta, self._points, self._points)
+        spread[np.diag_indices_from(spread)] += NUGGET + self._noise(theta)
+        lower: Array = cholesky(spread, lower=True)
         return lower
+
+    def _noise(self, theta: Array) -> float:
+        """Variance of a case's own noise; zero where there is none."""
+        return float(np.exp(theta[-1])) if len(theta) > 1 + self.x.shape[1] else 0.0
 
     @cached_property
     def _inflation(self) -> float:
-        """Factor of the standard error: what cases that are left out show of it, at least 1.
+        """Factor of the standard error that left-out cases require, at least 1.
 
         With the hyperparameters and the mean kept, the error at a left-out case in standard errors
         is (K⁻¹y)ᵢ/√(K⁻¹)ᵢᵢ (Rasmussen and Williams, 2006, section 5.4.2); its rms.
@@ -286,21 +294,29 @@ def fit_process(
     Raises
     ------
     InputError
-        When a factor has one level only or the response has gaps or does not vary, and as the
-        mean does.
+        When a factor has only one level, the response has gaps or does not vary, or the mean
+        cannot be fitted.
     """
     refuse_unusable(x, y, factors, x.shape[1] + 1)
     mean = fit_mean() if fit_mean is not None else None
     return _fitted(factors, x, y, mean)
 
 
-def kernel_of(x: Array, y: Array) -> Kernel:
-    """Matérn 5/2 with a length for each factor, and noise if equal cases differ in response."""
-    kernel = ConstantKernel(1.0, VARIANCE_BOUNDS) * Matern(np.ones(x.shape[1]), LENGTH_BOUNDS, 2.5)
-    places, place = np.unique(x, axis=0, return_inverse=True)
-    spread = [np.ptp(y[place.ravel() == number]) for number in range(len(places))]
-    noisy = max(spread) > 1e-6 * np.ptp(y)
-    return kernel + WhiteKernel(1e-2, NOISE_BOUNDS) if noisy else kernel
+def bounds_of(factors: int, noisy: bool) -> Array:
+    """Bounds of the logarithms of variance, a length for each factor and, if any, noise, (h, 2)."""
+    return np.log([VARIANCE_BOUNDS, *[LENGTH_BOUNDS] * factors, *[NOISE_BOUNDS] * noisy])
+
+
+def has_noise(x: Array, y: Array) -> bool:
+    """Tell whether equal cases, of shape (m, n), differ in their responses of shape (m,)."""
+    order = np.lexsort(x.T)
+    same = (np.diff(x[order], axis=0) == 0).all(axis=1)
+    if not same.any():
+        return False
+    starts = np.flatnonzero(np.concatenate([[True], ~same]))
+    values = y[order]
+    ranges = np.maximum.reduceat(values, starts) - np.minimum.reduceat(values, starts)
+    return bool(ranges.max() > SAME_RESPONSE * np.ptp(y))
 
 
 def _fitted(
@@ -311,26 +327,28 @@ def _fitted(
     theta: Array | None = None,
     spread: Array | None = None,
 ) -> GaussianProcess:
-    """Find the most likely hyperparameters from given ones, or from random ones (fixed seed)."""
-    kernel = kernel_of(x, y)
-    given = theta is not None and len(theta) == len(kernel.theta)
-    start = theta if theta is not None and given else kernel.theta
+    """Search for the most likely hyperparameters from given or random starts (fixed seed)."""
+    noisy = has_noise(x, y)
+    bounds = bounds_of(x.shape[1], noisy)
+    first = np.log([1.0] * (1 + x.shape[1]) + [FIRST_NOISE] * noisy)
+    given = theta is not None and len(theta) == len(first)
+    start = theta if theta is not None and given else first
     draft = GaussianProcess(factors, x, y, mean, start, np.zeros((1, len(start))))
     points, residual = draft._points, draft._residual / draft._scale
-    likelihood = MaternLikelihood(points, residual, NUGGET, noisy=len(start) > 1 + x.shape[1])
+    likelihood = MaternLikelihood(points, residual, NUGGET, noisy)
     generator = np.random.RandomState(0)
-    starts = [start]
+    starts: list[Array] = [start]
     if not given:
-        starts += [generator.uniform(*kernel.bounds.T) for _ in range(RESTARTS)]
+        starts += [np.asarray(generator.uniform(*bounds.T)) for _ in range(RESTARTS)]
     try:
-        found = [maximise(likelihood, one, kernel.bounds) for one in starts]
+        found = [maximise(likelihood, one, bounds) for one in starts]
     except SearchError as error:
         raise InputError(
             str(error), column="surfaces", remedy="leave this surface out, or change its mean"
         ) from None
     best = min(found, key=lambda one: one[1])[0]
     if spread is None or not given:
-        spread = lengths_as_likely(likelihood, best, kernel.bounds) - best
+        spread = lengths_as_likely(likelihood, best, bounds) - best
     return GaussianProcess(factors, x, y, mean, best, spread)
 
 

@@ -14,6 +14,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import combinations, product
 from typing import Any
 
@@ -32,7 +33,7 @@ REFERENCE_SPACING_MM = 15.0
 
 FIXED_SHAPE = ("n", "log_p")
 OPTIONAL_SHAPE = ("log_r", "log_a", "m")
-"""Shape parameters that forms with fewer than eight coefficients leave out, in part."""
+"""Shape parameters of which forms with fewer than eight coefficients leave out one or two."""
 
 ABSENT = {"log_r": -np.inf, "log_a": -np.inf, "m": 1.0}
 """Value of a shape parameter that is left out: nothing added, or a linear effect of S."""
@@ -46,8 +47,12 @@ BENDING = np.eye(6)[3]
 LARGEST_LOGARITHM = 50.0
 
 UNDETERMINED = 1e-9
-"""Smallest over largest singular value of the slopes (columns of unit length) up to which the cases
-do not determine a combination of the parameters."""
+"""Ratio of the smallest to the largest singular value of the slopes (columns of unit length) up to
+which the cases do not determine a combination of the parameters."""
+
+FITS_REMEMBERED = 512
+"""A form is fitted to the same cases as a surface and as the mean of a process, and again for both
+without each case."""
 
 STARTS = {"n": (0.2,), "log_p": (5.0, 8.0), "log_r": (8.0, 11.0), "log_a": (3.0, 6.0), "m": (1.0,)}
 """Shapes from which a first fit starts, all combined; moduli in N/mm and N mm."""
@@ -64,7 +69,7 @@ class Lamination:
     ply : mapping of str to float
         ``e1_mpa, e2_mpa, nu12, g12_mpa`` of the plates' ply.
     shape : tuple of str
-        Shape parameters that are fitted, of `FIXED_SHAPE` and `OPTIONAL_SHAPE`.
+        Fitted shape parameters, from `FIXED_SHAPE` and `OPTIONAL_SHAPE`.
     parameters : ndarray of shape (p,)
         c0 in mm/N, c1 in 1/N, c2 in 1/mm², then the shape parameters.
     covariance : ndarray of shape (p, p)
@@ -99,12 +104,12 @@ class Lamination:
     def predict_with(self, x: Array, ply: Mapping[str, float | Array]) -> Array:
         """Evaluate the stiffness with plates of another ply, shape (m, 3) → (m,), N/mm.
 
-        The fitted coefficients stay; a constant of the ply has one value or m.
+        The fitted coefficients are kept; a constant of the ply is one value or an array of m.
         """
         return _stiffness(self.parameters, self.shape, x, laminates(x, ply))
 
     def slopes(self, x: Array) -> Array:
-        """Differentiate the stiffness by the parameters, shape (m, 3) → (m, p)."""
+        """Differentiate the stiffness with respect to the parameters, shape (m, 3) → (m, p)."""
         return _jacobian(self.parameters, self.shape, x, laminates(x, self.ply))
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
@@ -155,7 +160,7 @@ def fit_lamination(
     ply : mapping of str to float or None
         Constants of the plates' ply.
     coefficients : int
-        6, 7 or 8. Of the forms with that number, the one with the smallest sum of squares.
+        6, 7 or 8. Of the forms with that number, the one with the smallest sum of squares is taken.
 
     Returns
     -------
@@ -165,7 +170,7 @@ def fit_lamination(
     ------
     InputError
         For other factors, a ply that is missing, a response that is not positive, or cases that
-        do not determine so many coefficients.
+        do not determine that number of coefficients.
     """
     if sorted(factors) != sorted(FACTORS):
         raise InputError(
@@ -207,10 +212,29 @@ def _best(
     x: Array, y: Array, ply: Mapping[str, float], starts: Mapping[tuple[str, ...], list[Array]]
 ) -> Lamination:
     """Fit each form from each of its starts and keep the one with the smallest sum of squares."""
+    from_starts = [
+        (shape, tuple(start.tobytes() for start in given)) for shape, given in starts.items()
+    ]
+    return _best_of(x.tobytes(), y.tobytes(), tuple(ply.items()), tuple(from_starts))
+
+
+@lru_cache(maxsize=FITS_REMEMBERED)
+def _best_of(
+    x_bytes: bytes,
+    y_bytes: bytes,
+    constants: tuple[tuple[str, float], ...],
+    starts: tuple[tuple[tuple[str, ...], tuple[bytes, ...]], ...],
+) -> Lamination:
+    """Fit what `_best` describes, unless it was fitted to the same numbers before."""
+    x, y = np.frombuffer(x_bytes).reshape(-1, len(FACTORS)), np.frombuffer(y_bytes)
+    ply = dict(constants)
     stiffness = laminates(x, ply)
     rivals = {
-        shape: min((_fitted(start, shape, x, y, stiffness) for start in given), key=lambda f: f[0])
-        for shape, given in starts.items()
+        shape: min(
+            (_fitted(np.frombuffer(start), shape, x, y, stiffness) for start in given),
+            key=lambda f: f[0],
+        )
+        for shape, given in starts
     }
     shape = min(rivals, key=lambda name: rivals[name][0])
     sum_of_squares, parameters = rivals[shape]
@@ -236,8 +260,8 @@ def _best(
 def _undetermined(coefficients: int, x: Array) -> InputError:
     """Say that K stays the same along a combination of the parameters, and which values there are.
 
-    Two spacings, for example, do not determine an exponent of the spacing: the parameters would be
-    those of the start.
+    Two spacings, for example, do not determine an exponent of the spacing: the parameters would
+    depend on the start.
     """
     levels = [f"{len(np.unique(c))} of {name}" for name, c in zip(FACTORS, x.T, strict=True)]
     return InputError(
@@ -277,7 +301,7 @@ def _starts(shape: tuple[str, ...], x: Array, y: Array, stiffness: Array) -> lis
 
 @dataclass(frozen=True)
 class _Terms:
-    """Factors of c1 and c2 at each case, and slopes of c2's by the rubber's log moduli, (m,)."""
+    """Factors of c1 and c2 at each case; slopes of c2's with respect to log rubber moduli, (m,)."""
 
     spacing: Array
     plates: Array
@@ -304,12 +328,12 @@ def _terms(values: Array, shape: tuple[str, ...], x: Array, stiffness: Array) ->
 
 
 def _modulus(logarithm: float) -> float:
-    """Stiffness that the rubber adds, N/mm or N mm; above e⁵⁰ the plate is rigid anyhow."""
+    """Stiffness that the rubber adds, N/mm or N mm; above e⁵⁰ the plate is rigid anyway."""
     return float(np.exp(min(logarithm, LARGEST_LOGARITHM)))
 
 
 def _modulus_slope(logarithm: float) -> float:
-    """Slope of `_modulus` by its logarithm."""
+    """Slope of `_modulus` with respect to the logarithm."""
     return _modulus(logarithm) if logarithm < LARGEST_LOGARITHM else 0.0
 
 
@@ -319,7 +343,7 @@ def _stiffness(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: A
 
 
 def _jacobian(parameters: Array, shape: tuple[str, ...], x: Array, stiffness: Array) -> Array:
-    """Differentiate K by each parameter, shape (m, p): ∂K = -K² ∂(1/K)."""
+    """Differentiate K with respect to each parameter, shape (m, p): ∂K = -K² ∂(1/K)."""
     terms = _terms(parameters[3:], shape, x, stiffness)
     c0, c1, c2 = parameters[:3]
     by_spacing = np.log(x[:, 0] / REFERENCE_SPACING_MM)

@@ -1,8 +1,8 @@
-"""Length scales that the cases do not tell, and a process's variance without bias.
+"""Length scales that the cases do not determine, and the unbiased variance of a process.
 
-Cases at three levels of a factor hardly say how far a process reaches from one level to the next:
-lengths that differ tenfold can be equally likely, and each promises another interval between the
-levels. Predictions are then averaged over both ends of these lengths.
+Cases at three levels of a factor hardly show how far a process reaches from one level to the next:
+lengths that differ tenfold can be equally likely, and each gives a different interval between the
+levels. Predictions are then averaged over both ends of the range of such lengths.
 """
 
 from __future__ import annotations
@@ -17,20 +17,20 @@ from nptcs.arrays import Array
 from nptcs.surface.kinds.matern import MaternLikelihood
 
 AS_LIKELY = 0.5
-"""Fall of the log likelihood that is not evidence: that of one standard error of a length."""
+"""Fall of the log likelihood that does not rule a length out: that of one standard error."""
 
 
 def lengths_as_likely(likelihood: MaternLikelihood, best: Array, bounds: Array) -> Array:
-    """Return the hyperparameters that a prediction is averaged over, (c, h); one row mostly.
+    """Return the hyperparameters that a prediction is averaged over, (c, h); mostly one row.
 
-    A length is not told where its lower bound, with which the process reaches no other level, is
-    as likely as the best length. It is then taken at both ends of what is as likely (`AS_LIKELY`),
-    in all combinations with the other such lengths, with equal weights.
+    A length is undetermined where its lower bound, at which the process reaches no other level, is
+    as likely as the best length. It is then taken at both ends of the range that is as likely
+    (`AS_LIKELY`), in all combinations with the other such lengths, with equal weights.
 
     Parameters
     ----------
     likelihood : MaternLikelihood
-        Of the cases in coded units, and of what the process follows, scaled.
+        Likelihood of the scaled values that the process follows, at the cases in coded units.
     best : ndarray of shape (h,)
         The most likely hyperparameters: variance, n lengths, and what follows them.
     bounds : ndarray of shape (h, 2)
@@ -54,9 +54,9 @@ def lengths_as_likely(likelihood: MaternLikelihood, best: Array, bounds: Array) 
 
 
 def restricted_variance(lower: Array, basis: Array, residual: Array) -> float:
-    """Factor of a process's covariance that the residuals of its mean ask for.
+    """Factor that fits a process's covariance to the residuals of its mean.
 
-    Sum of squares of what the mean's coefficients cannot take up, over m - p: without bias by their
+    Sum of squares of what the mean's coefficients cannot fit, over m - p: not biased by their
     number (Patterson and Thompson, Biometrika 58, 1971, 545).
 
     Parameters
@@ -64,7 +64,7 @@ def restricted_variance(lower: Array, basis: Array, residual: Array) -> float:
     lower : ndarray of shape (m, m)
         Cholesky factor of the covariance.
     basis : ndarray of shape (m, p)
-        Slopes of the mean by its coefficients.
+        Slopes of the mean with respect to its coefficients.
     residual : ndarray of shape (m,)
     """
     white = solve_triangular(lower, np.column_stack([residual, basis]), lower=True)

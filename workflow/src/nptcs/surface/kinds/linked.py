@@ -1,4 +1,4 @@
-"""A polynomial of a function of the response: log K or 1/K."""
+"""A polynomial fitted to a function of the response: log K or 1/K."""
 
 from __future__ import annotations
 
@@ -59,7 +59,7 @@ class LinkedSurface:
         return INVERSES[self.link](self.inner.predict(x))
 
     def slopes(self, x: Array) -> Array:
-        """Differentiate the response by the coefficients of the polynomial, (m, n) → (m, p)."""
+        """Differentiate the response with respect to the coefficients, shape (m, n) → (m, p)."""
         value = self.predict(x)
         by_polynomial = value if self.link == "log" else -(value**2)
         return by_polynomial[:, None] * self.inner.slopes(x)

@@ -1,4 +1,4 @@
-"""From the configuration of a surface to the surface."""
+"""Fit the surface that a configuration describes."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ from nptcs.surface.response_surface import ResponseSurface
 from nptcs.terms import parse
 
 MOST_PROCESS_CASES = 2000
-"""Cases of the largest Gaussian process."""
+"""Most cases that a Gaussian process is fitted to."""
 
 
 @dataclass(frozen=True)
@@ -65,7 +65,7 @@ def fit_surface(model: SurfaceModel, cases: FitCases) -> ResponseSurface:
     Raises
     ------
     InputError
-        When these cases cannot carry it; see the kinds of surfaces.
+        When it cannot be fitted to these cases; see the kinds of surfaces.
     """
     match model:
         case PolynomialModel():

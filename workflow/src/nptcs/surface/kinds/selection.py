@@ -1,4 +1,4 @@
-"""Terms of a polynomial chosen among those given, hierarchy kept."""
+"""Terms of a polynomial chosen from those given, with hierarchy kept."""
 
 from __future__ import annotations
 
@@ -19,14 +19,14 @@ Powers = tuple[int, ...]
 
 @dataclass(frozen=True)
 class SelectionStep:
-    """One polynomial on the way of the choice.
+    """One polynomial of the backward selection.
 
     Parameters
     ----------
     exponents : tuple of tuple of int
         Its terms.
     dropped : str
-        The term that it lacks and the polynomial before it had; empty for the first.
+        The term dropped from the polynomial before it; empty for the first.
     aicc : float
         Corrected Akaike criterion, m log(SSE/m) + 2k + 2k(k+1)/(m-k-1) with k = p + 1.
     press : float
@@ -50,10 +50,10 @@ def chosen_terms(polynomial: Polynomial, x: Array, y: Array, model: PolynomialMo
 def backward_steps(
     polynomial: Polynomial, x: Array, y: Array, choose: Choice, through_origin: bool = False
 ) -> list[SelectionStep]:
-    """Drop one term after the other, always the one whose loss makes the criterion smallest.
+    """Drop one term after another, always the one whose removal makes the criterion smallest.
 
-    Only a term that no remaining one needs as its lower-order relative can go, so that every
-    polynomial on the way is one surface in any units; the intercept stays.
+    Only a term that no remaining one needs as its lower-order relative can be dropped, so every
+    polynomial on the way is the same surface in any units; the intercept is kept.
 
     Parameters
     ----------

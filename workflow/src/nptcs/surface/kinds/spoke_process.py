@@ -1,11 +1,10 @@
 """A surface for spokes that carry several rings: polynomials of the ring, processes of the spoke.
 
-A study in which each spoke is solved with several rubbers of the band has cases in groups. On one
-spoke the logarithm of a response is a polynomial of low degree in the logarithms of the other
-factors (the band's C10); its coefficients, in principal components, are Gaussian processes over the
-spoke's `spoke_features`, in which its stiffness is smooth. Exact in the ring and honest in the
-spoke: its error is that of spokes that were not solved, and it is tested by leaving whole spokes
-out.
+A study in which each spoke is solved with several rubbers of the shear band has cases in groups. On
+one spoke the logarithm of a response is a polynomial of low degree in the logarithms of the other
+factors (the shear band's C10); its coefficients, in principal components, are Gaussian processes
+over the spoke's `spoke_features`, in which its stiffness is smooth. The stated error covers spokes
+that were not solved, and the surface is tested by leaving out whole spokes.
 """
 
 from __future__ import annotations
@@ -50,7 +49,7 @@ class ComponentWeights:
     Parameters
     ----------
     weights : ndarray of shape (g,)
-        Of the covariance with each spoke, in units of `spread`.
+        Weights of the covariance with each spoke, in units of `spread`.
     middle, spread : float
         Mean and standard deviation of the component over the spokes.
     inflation : float
@@ -79,7 +78,7 @@ class SpokeParts:
     low, high : ndarray
         Logarithms that are coded to -1 and 1.
     mean, directions : ndarray of shape (k,) and (c, k)
-        Of the coefficients on one spoke.
+        Mean and principal directions of the coefficients on one spoke.
     misfit : float
         Root mean square misfit on the spokes.
     middle, spread : ndarray of shape (f,)
@@ -176,7 +175,7 @@ class SpokeProcess:
         }
 
     def checked(self) -> SpokeProcess:
-        """Return the surface itself, or refuse cases that cannot carry it.
+        """Return the surface itself, or refuse cases to which it cannot be fitted.
 
         Raises
         ------
@@ -203,12 +202,12 @@ class SpokeProcess:
                     column="surfaces",
                     specimen=values,
                     remedy="solve more cases on each spoke, lower the degree, or narrow the range "
-                    "of the factors until none fails",
+                    "of the factors until no case fails",
                 )
         return self
 
     def parts(self) -> SpokeParts:
-        """Return what a program needs that evaluates the surface without this package."""
+        """Return what a program needs to evaluate the surface without this package."""
         logarithms = np.log(self.x[:, self._ring_columns])
         mean, directions = self._components
         middle, spread = self._scaling
@@ -321,7 +320,7 @@ class SpokeProcess:
 
     @cached_property
     def _inflation(self) -> list[float]:
-        """Factor of each process's standard error: what spokes that are left out show of it."""
+        """Factor of each process's standard error that left-out spokes require."""
         return [left_out_inflation(process) for process in self._processes]
 
     def _moments(self, x: Array, errors: bool) -> tuple[Array, Array]:
@@ -357,13 +356,13 @@ def fit_spoke_process(
     ply : mapping of str to float or None
         Constants of the plates' ply.
     degree : int
-        Of the polynomial on one spoke.
+        Degree of the polynomial on one spoke.
 
     Raises
     ------
     InputError
-        For other factors, a ply that is missing, values that are not positive, or cases that
-        cannot carry it.
+        For other factors, a ply that is missing, values that are not positive, or cases to which
+        it cannot be fitted.
     """
     others = [name for name in factors if name not in SPOKE]
     if not set(SPOKE) <= set(factors) or not others:

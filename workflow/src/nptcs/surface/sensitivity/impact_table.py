@@ -66,7 +66,7 @@ def impact_table(
 def _with_basis(
     table: pd.DataFrame, surface: Surface, design: pd.DataFrame, failed: int
 ) -> pd.DataFrame:
-    """Add which values the index is computed in, and on how many cases it rests."""
+    """Add which values the index is computed in, and on how many cases it is based."""
     used = [
         np.isin(surface.x[:, axis].round(9), design[factor].to_numpy(float).round(9)).all()
         for axis, factor in enumerate(surface.factors)

@@ -8,18 +8,16 @@ from functools import lru_cache
 from typing import Any, assert_never
 
 import numpy as np
-from SALib.analyze import sobol as sobol_analysis
 from SALib.sample import sobol as sobol_sample
 from scipy import stats
 
 from nptcs.arrays import Array
 from nptcs.config.studies.sensitivity import Distribution, NormalFactor, Sobol, UniformFactor
 from nptcs.errors import InputError
+from nptcs.surface.sensitivity.saltelli import Estimates, estimates
 
 EFFECT_POINTS = 11
 """Values of a factor at which its main effect is given."""
-
-RESAMPLES = 200
 
 
 @dataclass(frozen=True)
@@ -49,28 +47,17 @@ class FactorDistribution:
 
 
 @dataclass(frozen=True)
-class Indices:
-    """Sobol indices of n factors.
+class Indices(Estimates):
+    """Sobol indices of a response, whose intervals are those of a bootstrap.
 
     Parameters
     ----------
-    first, total, first_confidence, total_confidence : ndarray of shape (n,)
-        Indices, and the half widths of their confidence intervals.
-    second, second_confidence : ndarray of shape (n, n)
-        Interactions, in the upper triangle; not a number elsewhere, and where they were not
-        asked for.
     sd : float
         Standard deviation of the response over the inputs.
     samples : int
         Evaluations of the surface.
     """
 
-    first: Array
-    first_confidence: Array
-    total: Array
-    total_confidence: Array
-    second: Array
-    second_confidence: Array
     sd: float
     samples: int
 
@@ -131,7 +118,7 @@ def sobol_indices(
     settings : Sobol
         Points, confidence and seed.
     interactions : bool
-        Whether second-order indices are wanted, which cost as much again.
+        Whether to estimate second-order indices, which cost as much again.
 
     Returns
     -------
@@ -150,25 +137,8 @@ def sobol_indices(
             value=float(response.min()),
             remedy="look at surface_comparison.csv",
         )
-    found = sobol_analysis.analyze(
-        _problem(given),
-        response,
-        calc_second_order=interactions,
-        num_resamples=RESAMPLES,
-        conf_level=settings.confidence,
-        seed=settings.seed,
-    )
-    none = np.full((len(given), len(given)), np.nan)
-    return Indices(
-        first=found["S1"],
-        first_confidence=found["S1_conf"],
-        total=found["ST"],
-        total_confidence=found["ST_conf"],
-        second=found.get("S2", none),
-        second_confidence=found.get("S2_conf", none),
-        sd=float(np.std(response)),
-        samples=len(response),
-    )
+    found = estimates(response, len(given), interactions, settings.confidence, settings.seed)
+    return Indices(**vars(found), sd=float(np.std(response)), samples=len(response))
 
 
 def main_effect(
@@ -177,7 +147,7 @@ def main_effect(
     axis: int,
     settings: Sobol,
 ) -> tuple[Array, Array]:
-    """Mean of the response over all other factors at values of one, less its overall mean.
+    """Mean of the response over all other factors at values of one, minus its overall mean.
 
     Returns
     -------

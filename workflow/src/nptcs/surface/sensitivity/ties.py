@@ -13,8 +13,8 @@ def near_ties(
 ) -> pd.Series:
     """Name for each row the factors that are a near tie with its factor.
 
-    Two factors are one where the smaller is at least `ratio` of the larger in some ranking, or
-    where rankings disagree on their order.
+    Two factors are a near tie where, in some ranking, the smaller effect is at least `ratio` times
+    the larger, or where rankings disagree on their order.
 
     Parameters
     ----------

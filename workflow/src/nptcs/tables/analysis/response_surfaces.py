@@ -42,7 +42,7 @@ class ResponseSurfaces(pa.DataFrameModel):
         ge=0, le=100, nullable=True, description="Left-out cases in the 95 % prediction interval"
     )
     outside_the_box: Series[str] = pa.Field(
-        isin=["refused", "flagged"], description="What becomes of a prediction there"
+        isin=["refused", "flagged"], description="What happens to a prediction there"
     )
 
     class Config:

@@ -39,7 +39,7 @@ class SurfaceQuality(pa.DataFrameModel):
         ge=0, description="Cases left out because the solver made the same tyre for another case"
     )
     realised_factors: Series[str] = pa.Field(
-        description="Factors in the values that the solver really used, not in the given ones"
+        description="Factors in the values that the solver actually used, not in the given ones"
     )
     terms: Series[int] = pa.Field(gt=0)
     r_squared: Series[float] = pa.Field(le=1)
@@ -100,7 +100,7 @@ class SurfaceComparison(pa.DataFrameModel):
         description="Factors for which a level cannot be left out"
     )
     outside_the_box: Series[str] = pa.Field(
-        isin=["refused", "flagged"], description="What becomes of a prediction there"
+        isin=["refused", "flagged"], description="What happens to a prediction there"
     )
     fit_cpu_s: Series[float] = pa.Field(ge=0, description="Processor time of one fit")
     leave_one_out_cpu_s: Series[float] = pa.Field(ge=0, description="Processor time of all refits")

@@ -104,7 +104,7 @@ class StiffnessByLevel(pa.DataFrameModel):
 
 
 class StiffnessExponents(pa.DataFrameModel):
-    """Exponents of the stiffness by each modulus, d ln K / d ln C10, computed and published.
+    """Exponents d ln K / d ln C10 of the stiffness with respect to each modulus.
 
     One row over all levels of the factor, by least squares, and one for each step between two
     levels, at each combination of the other factors. For a tyre made only of rubbers the exponents

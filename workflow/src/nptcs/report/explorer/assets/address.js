@@ -15,7 +15,7 @@ function stateText() {
   return parts.map(([key, value]) => `${key}=${encodeURIComponent(value)}`).join("&");
 }
 
-// Take what can be taken from the address; anything that does not exist here is left out.
+// Take what is valid from the address; anything that does not exist here is left out.
 function readState(text) {
   if (!text.includes("=")) return false;
   const given = new Map(
@@ -90,7 +90,7 @@ function chooseStudy(name) {
   state.band = study.band ?? defaultBand();
 }
 
-// The solver with most responses comes first; the published archive has the stiffness alone.
+// The solver with the most responses comes first; the published archive has only the stiffness.
 function bestSolver(study) {
   return study.solvers.reduce((best, one) => (one.responses.length > best.responses.length ? one : best));
 }
@@ -104,7 +104,7 @@ function chooseSolver(name) {
   settleShown();
 }
 
-// The plane shows a response that there is: with another load, the stiffness at that load.
+// The plane shows a response that exists: at another load, the stiffness at that load.
 function settleShown() {
   const rows = rowsOf().filter((row) => row.response);
   if (!rows.some((row) => row.key === state.shown)) state.shown = rows[0].key;
@@ -123,7 +123,7 @@ function referenceOf(study, name) {
   return Number(((low[column] + high[column]) / 2).toPrecision(4));
 }
 
-// Two per cent about the stiffness of the reference design.
+// Two per cent to each side of the stiffness of the reference design.
 function defaultBand() {
   const study = studyOf();
   const solver = solverOf();

@@ -28,7 +28,7 @@ function digits(value, half) {
   return Number(value.toPrecision(Math.min(5, Math.max(3, count)))).toString();
 }
 
-// An interval in words; of one narrower than the digits shown it is said that it is.
+// An interval in words; one narrower than the digits shown is written as "± <" the last digit.
 function intervalText(found, half) {
   if (found.low === undefined) return "–";
   if (half <= 1e-9 * Math.abs(found.value)) return say("exact");
@@ -56,7 +56,7 @@ function fillSelect(select, options, value) {
   select.value = value;
 }
 
-// One factor: label, slider, number, and what is known of it.
+// One factor: label, slider, number, and what is known about it.
 function factorControl(factor) {
   const label = factor.label;
   const slide = (event) => (setValue(factor.name, Number(event.target.value)), changed());

@@ -154,7 +154,7 @@ function pointsFor(kappa2, angle) {
   return hard <= 0.5 ? 8 : hard <= 1.25 ? 16 : hard <= 13 ? 40 : 64;
 }
 
-// Contact states by the columns m, h, δ, one.
+// Contact states; their columns belong to m, h, δ and the constant.
 function solveContact(epsilon, kappa2, angle) {
   const rule = spectralRule(pointsFor(kappa2, angle));
   const theta = rule.nodes.map((node) => angle * node);

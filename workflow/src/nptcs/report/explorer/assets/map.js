@@ -1,6 +1,6 @@
 // The contour map of a plane, with the region inside the target band.
 
-// A scale from dark blue over green to yellow, even in lightness.
+// A scale from dark blue through green to yellow, in even steps of lightness.
 const RAMP = [[68, 1, 84], [71, 44, 122], [59, 81, 139], [44, 113, 142], [33, 144, 141], [39, 173, 129], [92, 200, 99], [170, 220, 50], [253, 231, 37]];
 
 function rampColour(share) {
@@ -145,7 +145,7 @@ function contour(context, grid, x, y, quantity, level, label) {
   if (!label || !place) return;
   const wide = context.measureText(label).width + 4;
   const room = middle.map((centre, k) => Math.abs(centre - [x(grid.xRange[0]), y(grid.yRange[0])][k]) - Math.abs(place[k] - centre));
-  // a label that would lie over the edge of the map is left out
+  // a label that would reach over the edge of the map is left out
   if (room[0] < wide / 2 || room[1] < 7) return;
   context.save();
   context.textAlign = "center";

@@ -1,10 +1,10 @@
-// The state of the explorer and what the stored surfaces say of it. No document here.
+// The state of the explorer and what the stored surfaces say about it. No access to the document.
 
 const DATA = JSON.parse(document.getElementById("explorer-data").textContent);
 restoreCovariances(DATA.studies, DATA.covariances);
 const WORDS = DATA.words;
 
-// A text with its values put in.
+// A text with its values inserted.
 function say(key, values = {}) {
   return WORDS[key].replace(/\{(\w+)\}/g, (whole, name) => (name in values ? values[name] : whole));
 }
@@ -58,7 +58,7 @@ function pointOf(study, solver, changes = {}) {
   });
 }
 
-// Surfaces are made when they are first asked for.
+// Surfaces are made when they are first needed.
 
 const MADE = new Map();
 
@@ -93,7 +93,7 @@ function strayOf(study, solver, response, point) {
     });
 }
 
-// What one surface says of a point: {status, value, low, high}.
+// What one surface says about a point: {status, value, low, high}.
 function evaluate(study, solver, response, surface, point, withInterval = true) {
   const outside = strayOf(study, solver, response, point).length > 0;
   if (outside && surface.outside === "refused") return { status: "refused" };
@@ -125,8 +125,8 @@ function asDisplacement(found, load) {
   return turned;
 }
 
-// Where the published value lies if blind cases differ from it as they do: for the stiffness at
-// the study's load, and what follows from it.
+// Where the published value would be if it differed as at the blind cases: for the stiffness at
+// the study's load, and the displacement that follows from it.
 function biasBand(study, solver, row, value) {
   const bias = solver.bias;
   if (!bias || value === undefined || row.response?.name !== "secant_stiffness") return null;
@@ -151,7 +151,7 @@ function rowsOf(study = studyOf(), solver = solverOf()) {
   return rows;
 }
 
-// What the chosen model says of a row at a point.
+// What the chosen model says about a row at a point.
 function rowAt(row, point, study = studyOf(), solver = solverOf(), withInterval = true) {
   const surface = chosenSurface(row.response);
   if (!surface) return { status: "absent" };

@@ -40,7 +40,7 @@ function showCurve(point, study, solver) {
   axisLabels(context, frame, { xLabel: `${say("displacement")} [mm]`, yLabel: `${say("load")} [N]` }, height);
 }
 
-// Values that a study holds and that are not those of this design.
+// Values that a study holds fixed and that differ from this design.
 function otherConditions(study) {
   return Object.entries(study.fixed).filter(([name, value]) => {
     const here = valueOf(name);

@@ -24,7 +24,7 @@ function show() {
 
 let waiting = false;
 
-// Draw at the next frame, however many changes there are until then, and keep the state.
+// Draw at the next frame, however many changes come before it, and keep the state in the address.
 function changed() {
   if (waiting) return;
   waiting = true;

@@ -51,7 +51,7 @@ function gridOf(point, study, solver) {
 
 let kept = { key: "", grid: null };
 
-// The grid of the last plane as long as nothing changes on which it depends.
+// The grid of the last plane, as long as nothing that it depends on has changed.
 function keptGrid(point, study, solver) {
   const others = point.filter((_, i) => ![state.across, state.up].includes(study.factors[i]));
   const { model, load, band, across, up, shown } = state;

@@ -1,6 +1,6 @@
 // Profiles: each response against each factor, with the cases near that slice.
 
-// How near a case is to the slice: 1 on it, 0 from a share of the half ranges on.
+// How near a case is to the slice: 1 on it, 0 at NEAR half ranges and beyond.
 function nearness(study, solver, response, row, point, free) {
   const { low, high } = boxOf(solver, response);
   let far = 0;
@@ -50,7 +50,7 @@ function buildProfiles(rows, study, wanted) {
   parts.profiles.dataset.rows = wanted;
 }
 
-// The range of a row's axis: its cases, and the target band where it is near.
+// The range of a row's axis: that of its cases, with a margin.
 function rangeOf(row) {
   const turn = (value) => (row.kind === "displacement" ? state.load / value : value);
   const values = row.response.values.map(turn);

@@ -32,7 +32,7 @@ function quadratic(matrix, x) {
   return sum;
 }
 
-// Solve A x = b for one or several right-hand sides (rows of b), by elimination with row exchange.
+// Solve A x = b for one or several right-hand sides (columns of b), by elimination with row exchange.
 function solveLinear(matrix, right) {
   const size = matrix.length;
   const rows = matrix.map((row, i) => Float64Array.from([...row, ...right[i]]));
@@ -283,7 +283,7 @@ function gaussianProcess(plain, cases) {
   const predict = (point) =>
     average(processes.map((one) => one.mean(coded(point)))) * plain.scale + meanAt(point);
   let basis = null;
-  // what the error of the mean's coefficients adds: the cases take a part of it up
+  // what the error of the mean's coefficients adds: the cases take up a part of it
   const meanVariance = (one, slopes, shares) => {
     const lever = slopes.map((slope, j) => {
       let sum = slope;

@@ -18,7 +18,7 @@ from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS
 
 
 def level_facts(results: Results) -> list[Fact]:
-    """Say how the signed difference runs with each factor, and which steps go the other way."""
+    """Say how the signed difference changes with each factor, and which steps are reversed."""
     facts = []
     for study in results.config.studies:
         labels = factor_labels(study)
@@ -97,8 +97,8 @@ def _trend(levels: pd.DataFrame) -> str:
     )
     if opposite:
         return tr(
-            "{change}; steps in the other direction than published: {names}",
+            "{change}; steps in the opposite direction to the published ones: {names}",
             change=change,
             names=joined(opposite),
         )
-    return tr("{change}; every step has the published direction", change=change)
+    return tr("{change}; every step goes in the published direction", change=change)

@@ -34,7 +34,7 @@ def line_blocks(results: Results) -> list[PageBlock]:
 
 
 def _line_cases(results: Results) -> list[str]:
-    """Name the cases whose neutral lines the configuration asks for."""
+    """Name the cases whose neutral lines the configuration requests."""
     return [
         str(row.case_id)
         for study in results.config.studies
@@ -66,11 +66,11 @@ def _drawn_lines(results: Results) -> list[PageBlock]:
     return [
         Plots(
             tr(
-                "Displacement of the band's neutral line relative to the rim (figure 14 "
-                "of the paper), by every solver that computes it. Finite elements: the "
-                "middle between the wire layers, radius {middle:g} mm, all spokes lean "
-                "the same way, so that the two sides differ; load-bearing model: the "
-                "ring of radius {band_radius_mm:g} mm, the same on both sides.",
+                "Displacement of the band's neutral line relative to the rim (figure 14 of the "
+                "paper), by every solver that computes it. Finite elements: the middle between "
+                "the wire layers, radius {middle:g} mm, all spokes lean the same way, so the two "
+                "sides differ; load-bearing model: the ring of radius {band_radius_mm:g} mm, the "
+                "same on both sides.",
                 middle=middle,
                 band_radius_mm=tyre.band_radius_mm,
             ),

@@ -1,4 +1,4 @@
-"""What the paper's ring and a converged one say, and what is known of the rest of table 7."""
+"""Results of the paper's ring and of a converged one, and the remaining difference in table 7."""
 
 from __future__ import annotations
 
@@ -15,33 +15,33 @@ from nptcs.tables.published.stiffness import StiffnessErrors, StiffnessExponents
 
 RINGS: Mapping[str, str] = {
     "fe_tyre_paper": translatable(
-        "the ring as the paper meshed it: 270 × 4 elements of four nodes with "
-        "one pressure each, wires as membranes, which wrinkle on finer meshes. "
-        "It predicts the paper's model and is for nothing else"
+        "the ring as meshed in the paper: 270 × 4 elements of four nodes with one pressure each, "
+        "wires as membranes, which wrinkle on finer meshes. It predicts the paper's model and is "
+        "meant for nothing else"
     ),
     "fe_tyre": translatable(
-        "a converged ring: wires that bend, half of every length of its mesh "
-        "changes the stiffness by less than 0.3 %. It is the one for a tyre that "
-        "is to be built"
+        "a converged ring: wires that bend; halving every length of its mesh changes the "
+        "stiffness by less than 0.3 %. It is the one to use for a tyre that is to be built"
     ),
 }
-"""Solvers of finite element tyres and what their rings are for."""
+"""Solvers of finite element tyres, and the purpose of their rings."""
 
 BAND, SPOKES = "shear_band_c10_mpa", "spoke_c10_mpa"
 
 EXCLUDED = (
     translatable("stiffness of the contact"),
-    translatable("phase of the spokes to the contact"),
+    translatable("phase of the spokes relative to the contact"),
     translatable("number of elements around the ring"),
     translatable("a rim that moves"),
     translatable(
-        "the spokes' stiffness to the side: nothing supports the 1.5 times that it would take"
+        "the lateral stiffness of the spokes: nothing supports the factor of 1.5 that would "
+        "be needed"
     ),
-    translatable("the wires' modulus: another one breaks tables 5 and 10"),
+    translatable("the wires' modulus: with another value tables 5 and 10 no longer agree"),
     translatable("the convention of R²: the uncentred one fits all ten values of table 10"),
     translatable("locking of the paper's host bricks: it would show in table 10"),
 )
-"""What cannot explain the rest, each changed in an experiment of its own."""
+"""What cannot explain the remaining difference; each was changed in a separate experiment."""
 
 OPEN_CLUE = translatable(
     "The open clue is the shape of the load curve. The errors that the paper "
@@ -62,9 +62,9 @@ def ring_blocks(results: Results) -> list[PageBlock]:
         blocks.append(
             Text(
                 tr(
-                    "Both rings are shown: what the paper's mesh does, and what a converged "
-                    "one says. Each has the section of the spoke that was calibrated with "
-                    "it, on table 10 and five cases of table 5; no number of table 7 entered."
+                    "Both rings are shown: the paper's mesh and a converged one. Each uses the "
+                    "spoke section that was calibrated with it, on table 10 and five cases of "
+                    "table 5; no number of table 7 was used."
                 )
             )
         )
@@ -96,7 +96,7 @@ def _ring(errors: pd.DataFrame, solver: str) -> str:
 
 
 def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
-    """Say what is known of the difference in a study of both rubbers."""
+    """Say what is known about the difference in a study of both rubbers."""
     mine = exponents[exponents["solver"].isin(solvers)]
     both = mine.groupby("study", sort=False)["factor"].agg(set)
     studies = [study for study, factors in both.items() if {BAND, SPOKES} <= factors]
@@ -105,7 +105,8 @@ def _rest(exponents: pd.DataFrame, solvers: list[str]) -> list[PageBlock]:
         return []
     return [
         Facts(
-            tr("What is known of the difference from the published rubbers' table"), tuple(facts)
+            tr("What is known about the difference from the published table of rubbers"),
+            tuple(facts),
         ),
         Listing(
             tr("Excluded, each by an experiment with the model outside this run"),
@@ -150,10 +151,10 @@ def _study(rows: pd.DataFrame) -> list[Fact]:
     if len(spans) > 1:
         facts.append(
             Fact(
-                tr("The published table's own scatter"),
+                tr("Scatter within the published table"),
                 tr(
-                    "its exponent of the band's C10 is {names}, by the spokes' C10 in rising "
-                    "order; one law would give the same numbers",
+                    "its exponent of the band's C10 is {names}, in order of rising spoke C10; a "
+                    "single law would give equal numbers",
                     names=joined(spans),
                 ),
                 "stiffness_exponents.csv",
