@@ -74,8 +74,9 @@ def wide_feet(nodes: RingNodes, radius_mm: float, width_mm: float) -> WideFeet:
     own = own[np.argsort(nodes.feet[own])]
     place = np.full(len(nodes.feet), -1, dtype=np.int64)
     place[own] = np.arange(len(own))
-    mean, turn = _shares(offsets * step, half, radius_mm)
-    return WideFeet(place, covered[own], offsets * step, mean, turn)
+    angle: Array = step * offsets.astype(float)
+    mean, turn = _shares(angle, half, radius_mm)
+    return WideFeet(place, covered[own], angle, mean, turn)
 
 
 def _shares(angle: Array, half: float, radius_mm: float) -> tuple[Array, Array]:

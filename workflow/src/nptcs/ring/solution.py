@@ -18,8 +18,8 @@ CALM_ITERATIONS = 6
 LARGEST_STEP_MM = 6.0
 SMALLEST_STEP_N = 2.0
 FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
-# an iteration whose step is below this leaves an error of about ten times its square in mm
-TOLERANCE_MM = 1e-4
+# an iteration whose step is below this leaves an error of about the step's square
+TOLERANCE_MM = 1e-5
 BACKTRACKS = 6
 
 
