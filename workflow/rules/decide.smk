@@ -27,6 +27,14 @@ def confirming_options(study_name, solver_name):
     return {key: value for key, value in options.items() if key not in words}
 
 
+def decide_cores():
+    """Cores of the designs that are solved to confirm a choice: one after the other."""
+    solved = [one for one in CONFIG.decisions if one.confirm]
+    return max(
+        [1, *(solver_of(one.study, one.solver).cores_per_case() for one in solved)]
+    )
+
+
 def decide_job():
     settings = plain(CONFIG)
     asked = sorted({(one.study, one.solver) for one in CONFIG.decisions})
@@ -85,7 +93,7 @@ rule decide:
         problems="results/7_decide/problems.csv",
     log:
         "results/logs/decide.log",
-    threads: CONFIG.campaign.cores_per_batch
+    threads: decide_cores()
     resources:
         licence_tokens=decide_tokens,
         mem_mb=decide_memory_mb,

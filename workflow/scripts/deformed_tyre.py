@@ -20,9 +20,8 @@ def draw(job: dict[str, Any], store: str, outlines: str, **files: Any) -> None:
         config, records = read_config(files["config"]), read_records(files["records"])
         design = read_table(files["design"][0], DesignTable)
         ply = read_model(files["ply"][0], PlyCard).values()
-        rows = outlines_of_study(
-            config, job["study"], job["solver"], records, design, ply, Path(store)
-        )
+        case = job["study"], job["solver"]
+        rows = outlines_of_study(config, *case, records, design, ply, Path(store))
     write_table(outlines, rows, DeformedTyre)
 
 

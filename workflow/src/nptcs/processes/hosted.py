@@ -25,6 +25,9 @@ HOST = Path(__file__).with_name("script_host.py")
 GRACE_S = 2.0
 """Time that the host has to end."""
 
+IMPORT, HASH = "import", "hash"
+"""What a host does in advance (`nptcs.processes.script_host.TASKS`)."""
+
 SPECIAL = ("conda_env", "container_img", "env_modules", "bench_record", "shadow_dir")
 """What Snakemake's scripts may need that a fork cannot give."""
 
@@ -57,11 +60,21 @@ class ScriptHost:
         threading.Thread(target=self._listen, daemon=True).start()
         atexit.register(self.close)
 
-    def prepare(self, scripts: Iterable[str | Path]) -> None:
-        """Let the host import, when it has nothing else to do, what scripts import."""
+    def prepare(self, scripts: Iterable[str | Path], hashed: Iterable[str] = ()) -> None:
+        """Let the host do, when it has nothing else to do, what several scripts would do again.
+
+        Parameters
+        ----------
+        scripts : iterable of str or Path
+            What they import is imported.
+        hashed : iterable of str
+            Modules of this package, or files, whose code is hashed (`nptcs.provenance.code_hash`).
+        """
+        tasks = [(IMPORT, str(script)) for script in scripts]
+        tasks += [(HASH, module) for module in hashed]
         with suppress(OSError), self._lock:
-            for script in scripts:
-                self._channel.send((None, str(script), {}))
+            for task in tasks:
+                self._channel.send((None, task, {}))
 
     def run(self, script: str, environment: Mapping[str, str]) -> int:
         """Run a script and wait for its end.

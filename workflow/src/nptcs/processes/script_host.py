@@ -2,11 +2,12 @@
 
 Run as a script: ``script_host.py DESCRIPTOR``. Through the connection of that number come
 ``(number, script, environment)``; back go ``(number, exit code)``. With a number of None nothing is
-run: what the script imports is imported when there is nothing else to do. The host ends, and its
-jobs with it, when it gets None or the connection closes (`nptcs.processes.hosted.ScriptHost`).
+run: one of `TASKS`, which is in the script's place, is done when there is nothing else to do. The
+host ends, and its jobs with it, when it gets None or the connection closes
+(`nptcs.processes.hosted.ScriptHost`).
 
 Starting Python with pandas, pandera and SciPy takes more processor time than most jobs need for
-their work; a fork takes a few milliseconds. The host has one thread and computes nothing, so that a
+their work; a fork takes a few milliseconds. The host has one thread and holds no results, so that a
 fork of it is as good as a new interpreter.
 """
 
@@ -24,7 +25,7 @@ import tempfile
 import threading
 import time
 from collections import deque
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from contextlib import suppress
 from multiprocessing.connection import Connection, wait
 from multiprocessing.context import ForkProcess
@@ -51,10 +52,10 @@ write it, and to read what Snakemake gives a script. Otherwise each fork would i
 def serve(channel: Connection) -> None:
     """Run scripts until told to end; then end those that are still running."""
     jobs: dict[int, ForkProcess] = {}
-    to_import: deque[str] = deque()
+    tasks: deque[tuple[str, str]] = deque()
     while True:
         ended = {process.sentinel: number for number, process in jobs.items()}
-        ready = wait([channel, *ended], timeout=0 if to_import else None)
+        ready = wait([channel, *ended], timeout=0 if tasks else None)
         for sentinel in ended.keys() & set(ready):
             process = jobs.pop(ended[sentinel])
             process.join()
@@ -69,11 +70,12 @@ def serve(channel: Connection) -> None:
                 return
             number, script, environment = message
             if number is None:
-                to_import.append(script)
+                tasks.append(script)
             else:
                 jobs[number] = start(script, environment)
         elif not ready:
-            import_for(to_import.popleft())
+            task, name = tasks.popleft()
+            TASKS[task](name)
 
 
 def receive(channel: Connection) -> Any:
@@ -106,6 +108,17 @@ def import_for(script: str) -> None:
             for module in modules:
                 with suppress(ImportError):
                     importlib.import_module(module)
+
+
+def hash_code(module: str) -> None:
+    """Hash the code of a module and of what it imports; the forks find it in memory."""
+    from nptcs.provenance import code_hash
+
+    with suppress(Exception):  # what cannot be read is for the job to say
+        code_hash(module)
+
+
+TASKS: Mapping[str, Callable[[str], None]] = {"import": import_for, "hash": hash_code}
 
 
 def run(script: str, environment: Mapping[str, str]) -> None:
