@@ -38,7 +38,7 @@ FOLLOWED = load("test_how_to").PAGES
 NOT_RUN = {
     "abaqus job=tyre input=tyre.inp datacheck interactive": "Abaqus needs a licence",
     "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
-    "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "an hour of finite elements",
+    "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "takes long",
     "snakemake --workflow-profile profiles/slurm": "needs Slurm: tests/slurm/cluster.py runs it",
 }
 

@@ -87,7 +87,7 @@ def test_a_machine_is_set_up_without_fetching_anything(april):
     assert "already satisfied: nptcs[slurm]" in here
     assert "does not provide the extra" not in here
     shell(april, "pip install snakemake-executor-plugin-cluster-generic")
-    shell(april, "pip install pre-commit", "pre-commit install")
+    shell(april, "pre-commit install")
     assert (april / ".git/hooks/pre-commit").is_file()
     assert "7 passed" in shell(april, "make test")
 
@@ -129,7 +129,7 @@ def test_a_queue_solves_a_new_study(april):
 
 def test_the_joint_study_runs_on_top(april):
     printed = shell(april, "nptcs run --cores 4 --configfile config/joint.yaml")
-    assert "joint/ring 24/24" in printed
+    assert "joint/ring 6/6" in printed
     assert "Nothing to be done" in shell(april, "make joint")
 
 
@@ -165,7 +165,7 @@ def test_two_runs_are_compared(april):
     printed = shell(april, "nptcs compare ../march .", code=1)
     assert "rubber" in printed
     shutil.copy2(april / "study.zip", april / "march.zip")
-    shell(april, "nptcs archive april.zip --config config/config.yaml")
+    shell(april, "nptcs archive april.zip")
     shell(
         april,
         "nptcs compare march.zip april.zip --page changes.html --workbook changes.xlsx",

@@ -28,7 +28,8 @@ def faulty_file(faulty, tmp_path_factory):
     return path
 
 
-@pytest.mark.parametrize(("scheme", "width"), [("light", 1280), ("dark", 1280), ("light", 390)])
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+@pytest.mark.parametrize("width", [1280, 390])
 @pytest.mark.parametrize("name", ["file", "faulty_file"])
 def test_axe_finds_no_barrier(browser, request, name, scheme, width):
     with opened(browser, request.getfixturevalue(name), scheme, width) as (page, said):

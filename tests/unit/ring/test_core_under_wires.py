@@ -11,6 +11,7 @@ from nptcs.ring.section import ring_section
 
 TYRE = TyreGeometry()
 BAND, TREAD = Rubber(4.0, 10.0), Rubber(3.0, 10.0)
+FOOT_MM = 16.0
 
 
 def wires_n(tyre):
@@ -83,7 +84,7 @@ def bending_of_ring(section, gives):
 
 @pytest.mark.parametrize(("band", "tread"), [(BAND, TREAD), (Rubber(4.0, 3.0), TREAD)])
 def test_the_band_bends_as_its_layers_do(band, tread):
-    section = ring_section(TYRE, band, tread, 0.0)
+    section = ring_section(TYRE, band, tread, 0.0, FOOT_MM)
     exact = bending_of_layers(band, tread)
     assert bending_of_ring(section, True) == pytest.approx(exact, rel=0.003)
     # a core that keeps its thickness is several per cent too stiff
@@ -92,14 +93,14 @@ def test_the_band_bends_as_its_layers_do(band, tread):
 
 def test_incompressible_rubber_keeps_the_thickness():
     hard = Rubber(4.0, np.inf)
-    section = ring_section(TYRE, hard, hard, 0.0)
+    section = ring_section(TYRE, hard, hard, 0.0, FOOT_MM)
     assert section.core[3] == 0.0
     nearly = Rubber(4.0, 1e4)
     assert bending_of_ring(section, True) == pytest.approx(bending_of_layers(nearly, nearly), 0.003)
 
 
 def test_energy_and_its_derivatives():
-    section = ring_section(TYRE, BAND, TREAD, 0.05)
+    section = ring_section(TYRE, BAND, TREAD, 0.05, FOOT_MM)
     e, d = 2e-4, np.array([0.0, 0.0, 3e-4, 1e-3, 0.0])
     stress, stiff = np.zeros(4), np.zeros((4, 4))
     elementwise.add_core_give(section.core, e, d, stress, stiff)

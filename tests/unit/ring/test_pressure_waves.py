@@ -12,6 +12,7 @@ from nptcs.ring.pressure_waves import (
     RubberLayer,
     WireSheet,
     drift,
+    foot_squeeze,
     matched_thickening,
     missing_drift,
     settlement,
@@ -20,6 +21,7 @@ from nptcs.ring.rubber import Rubber
 
 WAVE = np.pi / np.array([10.0, 25.0, 80.0])
 RIGID = WireSheet(1e12, 1e18, 0.0)
+FOOT_MM = 16.0
 
 
 @pytest.mark.parametrize("ratio", [10.0, np.inf])
@@ -77,7 +79,7 @@ def flat_ring(ratio, thickening=None):
 
     with pytest.MonkeyPatch.context() as patch:
         patch.setattr(section, "matched_thickening", keep)
-        section.ring_section(TyreGeometry(), Rubber(5.0, ratio), Rubber(5.0, ratio), 0.05)
+        section.ring_section(TyreGeometry(), Rubber(5.0, ratio), Rubber(5.0, ratio), 0.05, FOOT_MM)
     return caught["ring"], caught["layers"], caught["depth"]
 
 
@@ -96,6 +98,39 @@ def test_free_edges_settle_too_much_without_the_match():
     assert np.abs(after).max() < 0.5 * np.abs(before).max()
     near = [np.sum(misfit(ring, layers, depth, change + d) ** 2) for d in (-0.01, 0.0, 0.01)]
     assert near[1] < min(near[0], near[2])
+
+
+class HeldRing:
+    """A ring that does not move."""
+
+    width_mm = 200.0
+
+    def inner_settlement(self, wave):
+        return 0.0 * wave
+
+
+@pytest.mark.parametrize("moved", [False, True])
+def test_a_wide_foot_squeezes_a_held_layer_as_a_confined_one(moved):
+    """80 layers wide: the edges count for little, and F and M press what is under the foot."""
+    rubber, depth, width = Rubber(5.0, 10.0), 1.0, 80.0
+    ring = HeldRing()
+    soft = depth * rubber.through_compliance_per_mpa / ring.width_mm
+    ring.inner_settlement = lambda wave: (0.4 if moved else 0.0) * soft * ring.width_mm + 0.0 * wave
+    # the wires are the ground: nothing moves on the other side of the layer
+    found = foot_squeeze(ring, [RubberLayer(rubber, depth), RIGID], 500.0, width)
+    part = 0.6 if moved else 1.0
+    assert found[0] == pytest.approx(part * soft / width, rel=0.03)
+    assert found[1] == pytest.approx(part * soft / (width**3 / 12), rel=0.1)
+
+
+def test_the_band_under_a_foot_gives_more_than_its_confined_core():
+    ring, layers, depth = flat_ring(10.0)
+    rubber = Rubber(5.0, 10.0)
+    found = foot_squeeze(ring, layers, depth, FOOT_MM)
+    # from the inner face to the mean of a core that is pulled at its inner face, and the cover
+    confined = (2 / 3 * ring.half_distance_mm + 0.75) * rubber.through_compliance_per_mpa
+    assert 1.0 < found[0] * ring.width_mm * FOOT_MM / confined < 2.0
+    assert foot_squeeze(ring, layers, depth, 2 * FOOT_MM)[0] < found[0]
 
 
 def test_incompressible_rubber_needs_next_to_no_match():

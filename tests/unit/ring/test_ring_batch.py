@@ -75,7 +75,7 @@ def test_columns_reach_the_tyre(named):
         ({"shear_band_c10_mpa": "five"}, "bad_input", "not a number"),
         ({"load_n": None}, "bad_input", "empty"),
         ({"wire_layers": 1}, "bad_input", "wire_layers"),
-        ({"rim_diameter_mm": 400.0}, "bad_input", "room"),
+        ({"rim_diameter_mm": 400.0}, "bad_input", "distance between rim and band"),
         ({"load_n": 1e5}, "beyond_table", "outside the table's range"),
     ],
 )

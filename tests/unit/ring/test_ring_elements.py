@@ -9,6 +9,7 @@ from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.kernel import elementwise, numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.kernel.cyclic_elimination import eliminate
+from nptcs.ring.kernel.system import NO_FEET
 from nptcs.ring.tyre import ring_tyre
 
 COARSE = RingOptions(
@@ -150,7 +151,8 @@ def test_cyclic_solutions_agree_with_a_dense_one(count):
     expected = np.linalg.solve(dense(system), rhs.reshape(-1, 2)).reshape(rhs.shape)
     np.testing.assert_allclose(numpy_kernel.solve(diagonal, upper, lower, rhs), expected, rtol=1e-9)
     found = rhs.copy()
-    eliminate(diagonal.copy(), upper, lower, found)
+    none = NO_FEET
+    eliminate(diagonal.copy(), upper, lower, found, none.nodes, none.lever, none.hold)
     np.testing.assert_allclose(found, expected, rtol=1e-9)
 
 

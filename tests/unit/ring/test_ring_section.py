@@ -9,6 +9,7 @@ from nptcs.ring.section import ring_section
 
 SOFT_WIRES = TyreGeometry(wire_modulus_mpa=1e-9)
 BAND = Rubber(5.0, np.inf)
+FOOT_MM = 16.0
 
 
 def test_rubber_moduli_are_those_of_plane_strain():
@@ -26,7 +27,7 @@ def test_rubber_moduli_are_those_of_plane_strain():
 
 @pytest.mark.parametrize("row_mm", [0.0, 0.05, 1.2])
 def test_without_wires_and_shear_it_is_a_curved_bar_of_rubber(row_mm):
-    section = ring_section(SOFT_WIRES, BAND, BAND, row_mm)
+    section = ring_section(SOFT_WIRES, BAND, BAND, row_mm, FOOT_MM)
     inner, outer = 300.0, 646.8 / 2
     modulus = 8 * 5.0 * 215.0
     c, radius = section.stiffness, section.radius_mm
@@ -41,22 +42,22 @@ def test_without_wires_and_shear_it_is_a_curved_bar_of_rubber(row_mm):
 
 def test_wires_carry_the_section_s_bending():
     tyre = TyreGeometry()
-    section = ring_section(tyre, BAND, BAND, 0.05)
+    section = ring_section(tyre, BAND, BAND, 0.05, FOOT_MM)
     wires = tyre.wire_modulus_mpa * np.pi / 4 * 215.0 / 2.0 * 2.0
     assert section.stiffness[1, 1] == pytest.approx(2 * wires * 6.25**2, rel=0.01)
     assert section.stiffness[5, 5] == pytest.approx(2 * 5.0 * 215.0 * 12.5, rel=0.005)
 
 
 def test_hardening_is_the_third_derivative_of_neo_hooke():
-    section = ring_section(SOFT_WIRES, BAND, BAND, 0.0)
+    section = ring_section(SOFT_WIRES, BAND, BAND, 0.0, FOOT_MM)
     # W = C10 (λ² + 1/λ² - 2) has the third derivative -24 C10 at rest; J ε = e
     log = 0.5 * (1 / 300.0 - 2 / 646.8) * 2 * section.radius_mm**2
     assert section.hardening[0, 0, 0] == pytest.approx(-24 * 5.0 * 215.0 * log, rel=1e-9)
 
 
 def test_a_second_rubber_for_the_tread_changes_the_tread_only():
-    both = ring_section(TyreGeometry(), BAND, Rubber(2.0, np.inf), 0.05)
-    same = ring_section(TyreGeometry(), BAND, BAND, 0.05)
+    both = ring_section(TyreGeometry(), BAND, Rubber(2.0, np.inf), 0.05, FOOT_MM)
+    same = ring_section(TyreGeometry(), BAND, BAND, 0.05, FOOT_MM)
     assert both.stiffness[5, 5] == pytest.approx(same.stiffness[5, 5], rel=1e-12)
     assert 0.3 < both.stiffness[6, 6] / same.stiffness[6, 6] < 0.6
 
@@ -71,4 +72,4 @@ def test_a_second_rubber_for_the_tread_changes_the_tread_only():
 )
 def test_dimensions_that_contradict_each_other_are_refused(tyre, row_mm, word):
     with pytest.raises(ValueError, match=word):
-        ring_section(tyre, BAND, BAND, row_mm)
+        ring_section(tyre, BAND, BAND, row_mm, FOOT_MM)

@@ -77,7 +77,7 @@ def write_energy_table(path: Path, key: str, table: SpokeEnergyTable) -> None:
 
 
 def read_energy_table(path: Path, key: str) -> SpokeEnergyTable | None:
-    """Read what `write_energy_table` wrote; None if there is no sound table under this key."""
+    """Read what `write_energy_table` wrote; None if there is no intact table under this key."""
     data = read_arrays(path, f"{KIND} {key}")
     if data is None:
         return None

@@ -1,6 +1,6 @@
 """Outlines of loaded tyres, stored under a hash of everything that they depend on.
 
-Drawing one solves the tyre again, and each of its spokes: what was drawn once is read.
+Drawing one solves the tyre and each of its spokes again, so outlines drawn before are read.
 """
 
 from __future__ import annotations
@@ -33,7 +33,7 @@ class SolvedTyre:
     Parameters
     ----------
     key : str
-        Of its record: a hash of all that decides its result, the solver's code included.
+        Of its record: a hash of everything that decides its result, including the solver's code.
     values : mapping of str to float
         Factors of the case.
     load_n : float
@@ -52,15 +52,15 @@ class SolvedTyre:
 
 
 def shared_outlines(case: SolvedTyre, folder: Path, spokes: Path | None) -> pd.DataFrame:
-    """Read the outlines of a loaded tyre from the folder, or draw them and leave them there.
+    """Read the outlines of a loaded tyre from the folder, or draw them and store them there.
 
     Parameters
     ----------
     case : SolvedTyre
     folder : Path
-        Files are written whole under a name made from the key of what they depend on.
+        Files are written atomically under the key of everything they depend on.
     spokes : Path or None
-        Folder of spoke tables; None computes without keeping.
+        Folder of spoke tables; None computes them without storing them.
 
     Returns
     -------
@@ -70,7 +70,7 @@ def shared_outlines(case: SolvedTyre, folder: Path, spokes: Path | None) -> pd.D
     Raises
     ------
     SpokeError, TyreError
-        If the tyre or a spoke finds no equilibrium.
+        If the tyre or a spoke has no equilibrium.
     """
     key = sha256_of_text(f"{case.key} {code_hash(__name__)}")
     path = folder / f"{key}.npz"
@@ -97,7 +97,7 @@ def write_outlines(path: Path, key: str, rows: pd.DataFrame) -> None:
 
 
 def read_outlines(path: Path, key: str) -> pd.DataFrame | None:
-    """Read what `write_outlines` wrote; None if there are no sound outlines under this key."""
+    """Read what `write_outlines` wrote; None if there are no intact outlines under this key."""
     data = read_arrays(path, f"{KIND} {key}")
     if data is None:
         return None

@@ -39,7 +39,8 @@ class RunHandler(LogHandlerBase):
     def __post_init__(self) -> None:
         """Choose between our own lines and Snakemake's.
 
-        Nothing of ours runs earlier in Snakemake's process, and it has no temporary folder yet.
+        No other code of ours runs earlier in Snakemake's process, and Snakemake has no temporary
+        folder yet.
         """
         hold_temporary_files()
         settings = self.common_settings

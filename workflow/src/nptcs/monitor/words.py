@@ -16,7 +16,7 @@ from nptcs.runs.identity import RunIdentity
 PAGES = ("results/report.html", "results/workbook.xlsx")
 IDENTITY = "results/identity.json"
 RECORDS = ".snakemake/metadata"
-"""Where Snakemake notes from what it made each file, under the file's name in base64."""
+"""Where Snakemake records what it made each file from, under the file's name in base64."""
 
 CHATTER = re.compile(
     r"^(RuleException|CalledProcessError|Error in rule|Error in group|Exiting because|"
@@ -108,7 +108,7 @@ def page_lines(pages: Sequence[str] = PAGES) -> list[str]:
 
 
 def unrecorded_lines(pages: Sequence[str] = PAGES, records: str = RECORDS) -> list[str]:
-    """Say that nothing tells how a page was made, whose changes Snakemake then cannot see."""
+    """Name the pages without a record of how they were made: Snakemake sees no change of theirs."""
     folder = Path(records)
     unrecorded = [
         page

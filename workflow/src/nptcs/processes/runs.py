@@ -28,7 +28,7 @@ def begin_run(folder: Path, temporary: Path | None = None) -> bool:
         after it has read the Snakefile.
     temporary : Path, optional
         Temporary folder of this run of Snakemake, which the next run removes if this one is killed:
-        for a run without our logger, which would have put it where it goes by itself
+        for a run without our logger, which would have put the folder where it is removed anyway
         (`nptcs.processes.scratch.hold_temporary_files`).
 
     Returns

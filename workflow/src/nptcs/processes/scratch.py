@@ -47,7 +47,7 @@ def socket_folder() -> Path:
 
 
 def hold_temporary_files() -> None:
-    """Let the temporary files of this process go to its scratch folder, as long as it says so.
+    """Put the temporary files of this process into its scratch folder, until they are released.
 
     Snakemake makes its temporary folder before it reads the Snakefile, and a process that is killed
     removes nothing. The scratch folder is removed whatever happens.
@@ -60,7 +60,7 @@ def hold_temporary_files() -> None:
 
 
 def release_temporary_files() -> None:
-    """Let further temporary files, and those of jobs, go where the system says."""
+    """Put further temporary files, and those of jobs, where the system says."""
     tempfile.tempdir = None
 
 
@@ -107,8 +107,8 @@ def _abandoned(folder: Path) -> bool:
 def _start_warden(folder: Path) -> None:
     """Start the warden; the pipe to its input stays open as long as this process lives.
 
-    It is in a session or group of its own from its first moment, so that no signal to the group of
-    this process ends it as well.
+    It has its own session or group from the start, so that no signal to the group of this process
+    ends it as well.
     """
     for_warden, _ours = os.pipe()
     command = [sys.executable, str(Path(__file__).with_name(WARDEN)), str(folder), str(os.getpid())]

@@ -125,7 +125,7 @@ def _adjoint(
 ) -> tuple[Array, float]:
     """Multipliers λ (nodes, 5) of the residual and µ of the load."""
     rhs = np.stack([by_u, system.row], axis=2)
-    solved = tyre.kernel.solve(*system.transposed(), rhs)
+    solved = tyre.kernel.solve(*system.transposed(), rhs, system.feet)
     own, follow = solved[:, :, 0], solved[:, :, 1]
     if held:
         return own, 0.0

@@ -1,4 +1,7 @@
-"""Nodes of the ring: each pitch in equal parts, with more of them near the contact."""
+"""Nodes of the ring: each pitch in equal parts, with more of them near the contact.
+
+They are numbered from opposite the contact, so that no foot near it reaches over the last node.
+"""
 
 from __future__ import annotations
 
@@ -18,7 +21,7 @@ class RingNodes:
     Parameters
     ----------
     theta : array (nodes,)
-        Angle of each node before the load, rad; 0 is down, positive anticlockwise.
+        Angle of each node before the load, rad, rising; 0 is down, positive anticlockwise.
     middle : array (nodes,)
         Angle of each element's middle, rad.
     length_mm : array (nodes,)
@@ -46,7 +49,9 @@ def ring_nodes(mesh: RingElements, section: RingSection, spoke_count: int) -> Ri
     start = np.radians(mesh.first_spoke_deg)
     theta: list[Array] = []
     feet: list[int] = []
-    for spoke in range(spoke_count):
+    # the spoke that is farthest behind θ = 0, and those after it
+    first = int(np.ceil((-np.pi - start) / pitch - 1e-9))
+    for spoke in range(first, first + spoke_count):
         low = start + spoke * pitch
         # the smallest |θ| in the pitch
         off = np.abs(np.angle(np.exp(1j * (low + 0.5 * pitch)))) - 0.5 * pitch
@@ -54,11 +59,16 @@ def ring_nodes(mesh: RingElements, section: RingSection, spoke_count: int) -> Ri
         count = mesh.elements_per_pitch * (mesh.refinement if near else 1)
         feet.append(sum(map(len, theta)))
         theta.append(low + pitch * np.arange(count) / count)
-    angle = np.concatenate(theta)
+    # what the first foot covers lies behind the first node
+    behind = 2 * len(theta[-1]) // 5
+    back = theta.pop()
+    angle = np.concatenate(
+        [back[len(back) - behind :] - 2.0 * np.pi, *theta, back[: len(back) - behind]]
+    )
     step = np.diff(np.append(angle, angle[0] + 2.0 * np.pi))
     return RingNodes(
         theta=angle,
         middle=angle + 0.5 * step,
         length_mm=2.0 * section.radius_mm * np.sin(0.5 * step),
-        feet=np.array(feet, dtype=np.int64),
+        feet=np.roll(np.array(feet, dtype=np.int64) + behind, first),
     )

@@ -32,6 +32,8 @@ from nptcs.ring.rubber import Rubber
 STATES = 4
 # half waves, as multiples of the depth from the inner wires to the surface
 HALF_WAVES = np.geomspace(0.7, 6.0, 9)
+# of a foot's pull: longest half wave in the same depths, and q w of the shortest
+LONGEST_HALF_WAVE, SHORTEST_WAVE, FOOT_WAVES = 12.0, 60.0, 96
 # Gauss–Newton steps for a smooth function of one variable
 ITERATIONS = 6
 
@@ -159,6 +161,16 @@ class FlatRing:
         both = self.width_mm * lift.swapaxes(1, 2) @ np.linalg.solve(self._stiffness(wave), lift)
         return both[:, 0, 0] + self.compliance_mm_per_mpa, 2.0 * both[:, 0, 1], both[:, 1, 1]
 
+    def inner_settlement(self, wave: Array) -> Array:
+        """Displacement (waves,) of the ring under a pull cos(qx) on it, mm per MPa.
+
+        The ring's core keeps its thickness: its inner face moves as its middle does.
+        """
+        lift = np.zeros((len(wave), 5, 1))
+        lift[:, 0, 0] = 1.0
+        solved = np.linalg.solve(self._stiffness(wave), lift)[:, 0, 0]
+        return np.asarray(self.width_mm * solved, dtype=float)
+
     def drift(self, wave: Array) -> Array:
         """Displacement (waves,) of the surface along itself under a shear sin(qx), mm per MPa.
 
@@ -196,6 +208,42 @@ def missing_drift(
     """
     wave = np.pi / (HALF_WAVES * depth_mm)
     return float(np.mean(drift(layers, wave) - ring.drift(wave)))
+
+
+def foot_squeeze(
+    ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float, width_mm: float
+) -> Array:
+    """Find what the layers give way under a foot more than the ring does.
+
+    A foot of width w pulls evenly by its force F, and linearly by its moment M; its motion is the
+    mean over w, and the turn ∫ x u dx / ∫ x² dx. Over all waves of the pull, b the axial width,
+
+        u/F = 1/(π b) ∫ (sin X/X)² c dq,  φ/M = 1/(π b) ∫ (3 q (sin X - X cos X)/X³)² c dq,
+
+    X = q w/2, with c(q) the settlement of the layers' inner face less that of the ring. Waves
+    longer than 24 depths, which both carry alike, are left out.
+
+    Parameters
+    ----------
+    ring, layers, depth_mm
+        As in `matched_thickening`.
+    width_mm : float
+        w.
+
+    Returns
+    -------
+    array (2,)
+        u/F in mm/N, φ/M in 1/(N mm).
+    """
+    low, high = np.pi / (LONGEST_HALF_WAVE * depth_mm), SHORTEST_WAVE / width_mm
+    points, weights = np.polynomial.legendre.leggauss(FOOT_WAVES)
+    wave = 0.5 * (low + high) + 0.5 * (high - low) * points
+    missing = settlement(layers[::-1], wave) - ring.inner_settlement(wave)
+    x = 0.5 * wave * width_mm
+    even = np.sin(x) / x
+    linear = 3.0 * wave * (np.sin(x) - x * np.cos(x)) / x**3
+    scale = 0.5 * (high - low) * weights * missing / (np.pi * ring.width_mm)
+    return np.array([scale @ even**2, scale @ linear**2])
 
 
 def matched_thickening(

@@ -25,6 +25,7 @@ from nptcs.ring.pressure_waves import (
     FlatRing,
     RubberLayer,
     WireSheet,
+    foot_squeeze,
     matched_thickening,
     missing_drift,
 )
@@ -67,6 +68,9 @@ class RingSection:
         Thinning of tread and band under the pressure of the ground; 0 for incompressible rubber.
     shear_compliance_mm_per_mpa : float
         Movement of the tread's surface per shear of the ground, beyond that of the shape f.
+    foot_squeeze : array (2,)
+        Compliance of the band's layers under a spoke's foot beyond that of the ring: displacement
+        per force (mm/N) and turn per moment (1/(N mm)).
     """
 
     radius_mm: float
@@ -80,6 +84,7 @@ class RingSection:
     thickening: Array
     compliance_mm_per_mpa: float
     shear_compliance_mm_per_mpa: float
+    foot_squeeze: Array
 
     @property
     def outer_radius_mm(self) -> float:
@@ -88,7 +93,7 @@ class RingSection:
 
 
 def ring_section(
-    tyre: TyreGeometry, band: Rubber, tread: Rubber, row_depth_mm: float
+    tyre: TyreGeometry, band: Rubber, tread: Rubber, row_depth_mm: float, foot_width_mm: float
 ) -> RingSection:
     """Section of a tyre: two layers of wires in rubber, the tread outside.
 
@@ -100,6 +105,8 @@ def ring_section(
     tread : Rubber
     row_depth_mm : float
         Depth of rubber around each layer of wires that turns with them and does not shear.
+    foot_width_mm : float
+        Of a spoke's foot along the circumference.
 
     Raises
     ------
@@ -149,6 +156,7 @@ def ring_section(
         thickening=thickening,
         compliance_mm_per_mpa=squeezed,
         shear_compliance_mm_per_mpa=missing_drift(flat_ring, strip, 2.0 * half + surface),
+        foot_squeeze=foot_squeeze(flat_ring, strip, 2.0 * half + surface, foot_width_mm),
     )
 
 

@@ -9,7 +9,6 @@ import numpy as np
 
 from nptcs.arrays import Array
 from nptcs.ring.kernel.elementwise import UNKNOWNS
-from nptcs.ring.kernel.numpy_kernel import spoke_coordinates
 from nptcs.ring.kernel.system import System
 from nptcs.ring.tyre import RingTyre
 
@@ -22,8 +21,6 @@ FIRST_RISE_MM, SMALLEST_RISE_MM = 0.2, 0.01
 # an iteration whose step is below this leaves an error of about the step's square
 TOLERANCE_MM = 1e-5
 BACKTRACKS = 6
-# unknowns of a node that are lengths: u_x, u_y, s
-LENGTHS = [0, 1, 4]
 
 
 class RingError(RuntimeError):
@@ -166,11 +163,10 @@ def _equilibrium(
 ) -> RingState:
     """Newton's method at a given load, or at the given rise if `load_n` is None."""
     count = 0
+    # the spokes were inside their table before the last step, which is below the tolerance
     for moved, moved_rise in _iterates(tyre, last, u, rise, load_n):
         u, rise = moved, moved_rise
         count += 1
-    if outside := tyre.spokes.outside(spoke_coordinates(tyre.ring, u)):
-        raise _NoEquilibrium(outside, outside=True)
     force = load_n
     if force is None:
         pressure = tyre.traction(u, rise, last.anchor)[1]
@@ -194,7 +190,8 @@ def _iterates(
             u, rise = 0.5 * (u + inside[0]), 0.5 * (rise + inside[1])
             continue
         step, change = _newton_step(tyre, system, load_n)
-        largest = float(np.abs(step[:, LENGTHS]).max())
+        # of lengths and of turns, which are smaller by what the ring measures in mm
+        largest = float(np.abs(step).max())
         if not np.isfinite(largest):
             raise _NoEquilibrium("the iteration has left the range of numbers")
         if count >= CALM_ITERATIONS:
@@ -211,16 +208,17 @@ def _iterates(
 
 
 def _newton_step(tyre: RingTyre, system: System, load_n: float | None) -> tuple[Array, float]:
-    rhs = np.stack([system.force, system.slope], axis=2)
+    rhs = np.empty((*system.force.shape, 2))
+    rhs[:, :, 0], rhs[:, :, 1] = system.force, system.slope
     try:
-        solved = tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)
+        solved = tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs, system.feet)
     except (FloatingPointError, np.linalg.LinAlgError) as error:
         raise _NoEquilibrium(str(error)) from error
     step, follow = -solved[:, :, 0], -solved[:, :, 1]
     if load_n is None:
         return step, 0.0
-    missing = load_n - system.reaction_n - float(np.sum(system.row * step))
-    change = missing / (system.reaction_slope + float(np.sum(system.row * follow)))
+    missing = load_n - system.reaction_n - float(np.vdot(system.row, step))
+    change = missing / (system.reaction_slope + float(np.vdot(system.row, follow)))
     return step + change * follow, change
 
 
@@ -228,5 +226,6 @@ def tangent_stiffness(tyre: RingTyre, state: RingState) -> float:
     """dF/dδ at a state, N/mm, with the anchors of the ground's shear from the state before."""
     system = tyre.kernel.assemble(tyre.ring, state.u, state.rise_mm, state.anchor_before)
     rhs = system.slope[:, :, None]
-    follow = -tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs)[:, :, 0]
+    solved = tyre.kernel.solve(system.diagonal, system.upper, system.lower, rhs, system.feet)
+    follow = -solved[:, :, 0]
     return system.reaction_slope + float(np.sum(system.row * follow))

@@ -12,6 +12,7 @@ from nptcs.config.solvers.fe import GroundContact
 from nptcs.config.solvers.ring import RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
+from nptcs.ring.feet import WideFeet, wide_feet
 from nptcs.ring.kernel import elementwise, numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA, Kernel
 from nptcs.ring.kernel.spokes import SpokePolynomial
@@ -76,19 +77,15 @@ class RingTyre:
 
         Off the ground this is the surface's own place.
         """
-        x, pressure, shear = self.traction(u, rise_mm, anchor)
-        rest = np.where(pressure > 0.0, shear / self.ring.dimensions[elementwise.SLIP_STIFF], 0.0)
-        placed: Array = x - rest
+        placed: Array = self.kernel.anchors(self.ring, u, rise_mm, anchor)
         return placed
 
     def spoke_motion(self, u: Array) -> Array:
         """(u_r, u_θ, φ) of each spoke's foot, array (spokes, 3)."""
-        feet = self.ring.feet
-        motion = elementwise.foot_motion(self.ring.dimensions, self.ring.theta[feet], u[feet].T)
-        return np.stack(motion, axis=1)
+        return numpy_kernel.spoke_states(self.ring, u).motion.T
 
     def energy(self, u: Array) -> dict[str, float]:
-        """Energy of band (with wires and tread) and spokes, N mm."""
+        """Energy of band (with wires and tread) and spokes (with the band's squeeze), N mm."""
         mean, difference = numpy_kernel.element_variables(self.ring, u)
         band = elementwise.band_energy(
             self.ring.stiffness,
@@ -99,11 +96,8 @@ class RingTyre:
             mean,
             difference,
         )
-        coordinates = numpy_kernel.spoke_coordinates(self.ring, u)
-        return {
-            "band": float(np.sum(band)),
-            "spokes": float(np.sum(numpy_kernel.spoke_derivatives(self.ring, coordinates)[0])),
-        }
+        spokes = numpy_kernel.spoke_states(self.ring, u)
+        return {"band": float(np.sum(band)), "spokes": float(np.sum(spokes.energy))}
 
 
 def ring_tyre(
@@ -141,17 +135,23 @@ def ring_tyre(
     ratio = options.band_bulk_to_shear()
     tread = band_c10_mpa if tread_c10_mpa is None else tread_c10_mpa
     section = ring_section(
-        tyre, Rubber(band_c10_mpa, ratio), Rubber(tread, ratio), options.wire_row_mm
+        tyre,
+        Rubber(band_c10_mpa, ratio),
+        Rubber(tread, ratio),
+        options.wire_row_mm,
+        options.foot_width_mm(),
     )
     _check_spokes(tyre, section, table)
     nodes = ring_nodes(options.mesh, section, tyre.spoke_count)
+    inner = section.radius_mm - section.half_distance_mm - section.foot_mm
+    feet = wide_feet(nodes, inner, options.foot_width_mm())
     spokes = SpokePolynomial.of_table(table, spoke_factor)
     return RingTyre(
         section,
         nodes,
         spokes,
         options.contact,
-        _arrays(section, nodes, spokes, options.contact),
+        _arrays(section, nodes, feet, spokes, options.contact),
         _kernel(kernel),
     )
 
@@ -176,7 +176,11 @@ def _kernel(name: Kernel | None) -> ModuleType:
 
 
 def _arrays(
-    section: RingSection, nodes: RingNodes, spokes: SpokePolynomial, contact: GroundContact
+    section: RingSection,
+    nodes: RingNodes,
+    feet: WideFeet,
+    spokes: SpokePolynomial,
+    contact: GroundContact,
 ) -> Ring:
     w = np.zeros(elementwise.DIMENSIONS)
     w[elementwise.HALF] = section.half_distance_mm
@@ -202,6 +206,8 @@ def _arrays(
         middle=nodes.middle,
         length_mm=nodes.length_mm,
         feet=nodes.feet,
+        wide=feet,
+        squeeze=section.foot_squeeze,
         height_mm=spokes.height_mm,
         straight_mm=spokes.straight_mm,
         narrowing=spokes.narrowing,

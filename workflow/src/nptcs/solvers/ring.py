@@ -142,7 +142,7 @@ def _neutral_line(tyre: RingTyre, state: RingState) -> dict[str, list[float]]:
 
 SOLVER = Solver(
     name="ring",
-    version="5",
+    version="6",
     solve=solve,
     factors=TYRE_FACTORS,
     required=TYRE_FACTORS,

@@ -10,6 +10,7 @@ from pydantic import Field
 from nptcs.config.base import Strict
 from nptcs.config.solvers.fe import (
     AXIAL_BULK_TO_SHEAR,
+    SECTIONS,
     AxialFreedom,
     EnergyTableOptions,
     FeSpokeModel,
@@ -49,6 +50,10 @@ class RingOptions(Strict):
         "shear, as in the mesh of `fe_tyre`",
     )
 
+    def foot_width_mm(self) -> float:
+        """Return the width of a spoke's foot along the circumference."""
+        return SECTIONS["converged"].foot_width_mm()
+
     def band_bulk_to_shear(self) -> float:
         """Return κ/2C10 of band and tread."""
         match self.axial:
@@ -70,6 +75,10 @@ class RingModel(FeSpokeModel, RingOptions):
         default_factory=EnergyTableOptions, description="Energy table of the spoke"
     )
     load_steps: int = Field(10, ge=2, description="Load steps to the load of the case")
+
+    def foot_width_mm(self) -> float:
+        """Return the width of a spoke's foot along the circumference, that of the section."""
+        return self.geometry.foot_width_mm()
 
     @classmethod
     def spoke_parts(cls) -> tuple[str, ...]:

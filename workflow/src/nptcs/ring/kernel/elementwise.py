@@ -135,25 +135,21 @@ def along_tangent(c: Value, h: Value, e: Value, d: Value, stress: Value, stiff: 
 @compilable
 def band(
     c: Value,
-    h: Value,
-    core: Value,
-    angle: Value,
     length: Value,
     m: Value,
-    d: Value,
-    force: Value,
-    tangent: Value,
+    strains: Value,
     stress: Value,
     stiff: Value,
+    force: Value,
+    tangent: Value,
 ) -> None:
     """Add residual and tangent of an element of band, wires and tread.
 
-    `stress` (4) and `stiff` (4, 4) are workspace.
+    `strains` are those of `band_strains`; `stress` (4) and `stiff` (4, 4) those of `along_tangent`
+    with `add_core_give`.
     """
-    e, q, shear, tx, ty = band_strains(angle, m, d)
+    e, q, shear, tx, ty = strains
     nx, ny = ty, -tx
-    along_tangent(c, h, e, d, stress, stiff)
-    add_core_give(core, e, d, stress, stiff)
     stretch = length * stress[0]
     sheared = length * c[5, 5] * shear
     # the core shears by q, too: its faces are the wires' axes, not their sections
@@ -383,6 +379,54 @@ def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Valu
     tangent[3, 3] += push[0] * ((deep - half) * cos_face + shift * sin_face)
     tangent[3, 3] += push[1] * ((half - deep) * sin_face + shift * cos_face)
     tangent[3, 3] += -push[2] * sin_face
+
+
+@compilable
+def foot_share(
+    cos: Value, sin: Value, mean: Value, turn: Value, outward: Value, along: Value
+) -> tuple[Value, Value, Value]:
+    """Share of a node's motion in (u_r, u_θ, φ) of the wide foot that covers it.
+
+    Parameters
+    ----------
+    cos, sin
+        Of the node's angle from the foot's middle.
+    mean, turn
+        Shares of `ring.feet.WideFeet`.
+    outward, along
+        Of the band's face at the node, in the node's own directions; or their derivatives.
+    """
+    radial = cos * outward - sin * along
+    return mean * radial, mean * (sin * outward + cos * along), turn * radial
+
+
+@compilable
+def node_push(cos: Value, sin: Value, mean: Value, turn: Value, push: Value) -> tuple[Value, Value]:
+    """Give a node's forces, outward and along in its own directions, of a wide foot's three."""
+    radial, level = mean * push[0] + turn * push[2], mean * push[1]
+    return cos * radial + sin * level, cos * level - sin * radial
+
+
+@compilable
+def squeeze_step(
+    soft_r: Value, soft_turn: Value, stiff: Value, gap_r: Value, gap_turn: Value
+) -> tuple[Value, Value]:
+    """Solve (1 + C K) x = gap for u_r and φ; C has the squeeze of the band under a foot."""
+    a, b = 1.0 + soft_r * stiff[0, 0], soft_r * stiff[0, 2]
+    c, d = soft_turn * stiff[2, 0], 1.0 + soft_turn * stiff[2, 2]
+    inverse = 1.0 / (a * d - b * c)
+    return inverse * (d * gap_r - b * gap_turn), inverse * (a * gap_turn - c * gap_r)
+
+
+@compilable
+def squeezed_stiffness(soft_r: Value, soft_turn: Value, stiff: Value, hold: Value) -> None:
+    """Set `hold` (3, 3) to K (1 + C K)⁻¹, K the stiffness of a spoke."""
+    for j in range(3):
+        by_r, by_turn = squeeze_step(
+            soft_r, soft_turn, stiff, soft_r * stiff[0, j], soft_turn * stiff[2, j]
+        )
+        for i in range(3):
+            hold[i, j] = stiff[i, j] - stiff[i, 0] * by_r - stiff[i, 2] * by_turn
 
 
 @compilable

@@ -12,8 +12,8 @@ from nptcs.arrays import Array
 from nptcs.provenance import code_hash
 from nptcs.ring.kernel import elementwise
 from nptcs.ring.kernel.cyclic_elimination import eliminate
-from nptcs.ring.kernel.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
-from nptcs.ring.kernel.system import Ring, System, empty_system
+from nptcs.ring.kernel.elementwise import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.system import NO_FEET, FootTangent, Ring, System, empty_system
 
 OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 
@@ -34,6 +34,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
         by_x, by_y = np.empty(VARIABLES), np.empty(VARIABLES)
         slope, row = np.empty(VARIABLES), np.empty(VARIABLES)
+        force, tangent = np.empty(VARIABLES), np.empty((VARIABLES, VARIABLES))
         stress, stiff = np.empty(ALONG), np.empty((ALONG, ALONG))
         reaction, reaction_slope = 0.0, 0.0
         for i in range(count):
@@ -42,21 +43,12 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             for a in range(UNKNOWNS):
                 m[a] = 0.5 * (u[i, a] + u[after, a])
                 d[a] = (u[after, a] - u[i, a]) * by
-            force = np.zeros(VARIABLES)
-            tangent = np.zeros((VARIABLES, VARIABLES))
-            elementwise.band(
-                stiffness,
-                hardening,
-                core,
-                middle[i],
-                length[i],
-                m,
-                d,
-                force,
-                tangent,
-                stress,
-                stiff,
-            )
+            force[:] = 0.0
+            tangent[:] = 0.0
+            strains = elementwise.band_strains(middle[i], m, d)
+            elementwise.along_tangent(stiffness, hardening, strains[0], d, stress, stiff)
+            elementwise.add_core_give(core, strains[0], d, stress, stiff)
+            elementwise.band(stiffness, length[i], m, strains, stress, stiff, force, tangent)
             y = elementwise.surface_point(w, middle[i], length[i], m, d)[1]
             if rise - w[OUTER] - y > 0.0:
                 push, drag, steep, slide, cross = elementwise.ground(
@@ -93,83 +85,150 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         return reaction, reaction_slope
 
     @njit(**OPTIONS)
-    def spokes(ring, u, coordinates, diagonal, force):  # type: ignore[no-untyped-def]
+    def spoke(table, chains, radial, motion, point, push, stiff):  # type: ignore[no-untyped-def]
+        """Set (s, β, φ), forces and stiffness of a spoke at a motion."""
+        assert formulas != ""
+        height, straight, low, high, coefficients, sides, degrees = table
+        limits = (low[0], high[0])
+        count, terms = coefficients.shape
+        first, second = np.zeros(3), np.zeros((3, 3))
+        s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
+        point[0], point[1], point[2] = s, beta, phi
+        for axis in range(3):
+            scale = 2.0 / (high[axis] - low[axis])
+            x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
+            if axis == 0:
+                # the formula is written for arrays and also takes numbers
+                x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
+            value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
+            value[0], value[1] = 1.0, x
+            once[0], once[1] = 0.0, scale
+            twice[0], twice[1] = 0.0, bend
+            for i in range(2, degrees[axis]):
+                value[i] = 2.0 * x * value[i - 1] - value[i - 2]
+                once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
+                twice[i] = (
+                    2.0 * bend * value[i - 1]
+                    + 4.0 * scale * once[i - 1]
+                    + 2.0 * x * twice[i - 1]
+                    - twice[i - 2]
+                )
+        radial[:] = 0.0
+        for i in range(count):
+            for order in range(3):
+                for term in range(terms):
+                    radial[order, term] += coefficients[i, term] * chains[0, order, i]
+        for term in range(terms):
+            r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
+            j, n = sides[term]
+            b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
+            p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
+            first[0] += r1 * b0 * p0
+            first[1] += r0 * b1 * p0
+            first[2] += r0 * b0 * p1
+            second[0, 0] += r2 * b0 * p0
+            second[1, 1] += r0 * b2 * p0
+            second[2, 2] += r0 * b0 * p2
+            second[0, 1] += r1 * b1 * p0
+            second[1, 2] += r0 * b1 * p1
+            second[0, 2] += r1 * b0 * p1
+        second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
+        elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
+
+    @njit(**OPTIONS)
+    def spokes(ring, wide, u, coordinates, diagonal, force, lever, hold):  # type: ignore[no-untyped-def]
         """Add all spokes."""
         assert formulas != ""
         w, theta, feet, height, straight, low, high, coefficients, sides = ring
-        limits = (low[0], high[0])
+        place, covered, angle, mean, turn, squeeze = wide
         count, terms = coefficients.shape
+        degrees = (count, sides[:, 0].max() + 1, sides[:, 1].max() + 1)
+        table = height, straight, low, high, coefficients, sides, degrees
         chains = np.zeros((3, 3, max(count, sides.max() + 1)))
-        first, push = np.empty(3), np.empty(3)
-        second, stiff = np.empty((3, 3)), np.empty((3, 3))
-        point, radial = np.empty(3), np.empty((3, terms))
+        radial = np.empty((3, terms))
+        push, face = np.empty(3), np.empty(3)
+        stiff = np.empty((3, 3))
         by = np.zeros((3, UNKNOWNS))
         for k in range(len(feet)):
-            node = feet[k]
-            motion = elementwise.foot_motion(w, theta[node], u[node])
-            s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
-            point[0], point[1], point[2] = s, beta, phi
-            coordinates[k] = point
-            for axis in range(3):
-                scale = 2.0 / (high[axis] - low[axis])
-                x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
-                if axis == 0:
-                    # the formula is written for arrays and also takes numbers
-                    x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
-                value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
-                value[0], value[1] = 1.0, x
-                once[0], once[1] = 0.0, scale
-                twice[0], twice[1] = 0.0, bend
-                for i in range(2, count if axis == 0 else sides[:, axis - 1].max() + 1):
-                    value[i] = 2.0 * x * value[i - 1] - value[i - 2]
-                    once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
-                    twice[i] = (
-                        2.0 * bend * value[i - 1]
-                        + 4.0 * scale * once[i - 1]
-                        + 2.0 * x * twice[i - 1]
-                        - twice[i - 2]
-                    )
-            first[:] = 0.0
-            second[:] = 0.0
-            radial[:] = 0.0
-            for i in range(count):
-                for order in range(3):
-                    for term in range(terms):
-                        radial[order, term] += coefficients[i, term] * chains[0, order, i]
-            for term in range(terms):
-                r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
-                j, n = sides[term]
-                b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
-                p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
-                first[0] += r1 * b0 * p0
-                first[1] += r0 * b1 * p0
-                first[2] += r0 * b0 * p1
-                second[0, 0] += r2 * b0 * p0
-                second[1, 1] += r0 * b2 * p0
-                second[2, 2] += r0 * b0 * p2
-                second[0, 1] += r1 * b1 * p0
-                second[1, 2] += r0 * b1 * p1
-                second[0, 2] += r1 * b0 * p1
-            second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
-            elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
-            elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
+            point = coordinates[k]
+            if place[k] < 0:
+                node = feet[k]
+                motion = elementwise.foot_motion(w, theta[node], u[node])
+                spoke(table, chains, radial, motion, point, push, stiff)
+                elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
+                for a in range(UNKNOWNS):
+                    for i in range(3):
+                        force[node, a] += push[i] * by[i, a]
+                        for j in range(3):
+                            for b in range(UNKNOWNS):
+                                diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
+                continue
+            own = place[k]
+            radial_felt, along_felt, turn_felt = 0.0, 0.0, 0.0
+            for p in range(len(angle)):
+                node = covered[own, p]
+                outward, along, _ = elementwise.foot_motion(w, theta[node], u[node])
+                one, two, three = elementwise.foot_share(
+                    np.cos(angle[p]), np.sin(angle[p]), mean[p], turn[p], outward, along
+                )
+                radial_felt += one
+                along_felt += two
+                turn_felt += three
+            # the spoke under the squeeze: as in `numpy_kernel.spoke_states`
+            soft_r, soft_turn = squeeze
+            motion = (radial_felt, along_felt, turn_felt)
+            spoke(table, chains, radial, motion, point, push, stiff)
+            by_r, by_turn = elementwise.squeeze_step(
+                soft_r, soft_turn, stiff, soft_r * push[0], soft_turn * push[2]
+            )
+            motion = (radial_felt - by_r, along_felt, turn_felt - by_turn)
+            spoke(table, chains, radial, motion, point, push, stiff)
+            by_r, by_turn = elementwise.squeeze_step(
+                soft_r, soft_turn, stiff, soft_r * push[0] - by_r, soft_turn * push[2] - by_turn
+            )
+            for i in range(3):
+                push[i] -= stiff[i, 0] * by_r + stiff[i, 2] * by_turn
+            elementwise.squeezed_stiffness(soft_r, soft_turn, stiff, hold[own])
+            for p in range(len(angle)):
+                node = covered[own, p]
+                cos, sin = np.cos(angle[p]), np.sin(angle[p])
+                face[0], face[1] = elementwise.node_push(cos, sin, mean[p], turn[p], push)
+                face[2] = 0.0
+                elementwise.foot(w, theta[node], u[node], face, by, diagonal[node])
+                for a in range(UNKNOWNS):
+                    force[node, a] += face[0] * by[0, a] + face[1] * by[1, a]
+                    share = elementwise.foot_share(cos, sin, mean[p], turn[p], by[0, a], by[1, a])
+                    lever[own, p, 0, a], lever[own, p, 1, a], lever[own, p, 2, a] = share
+
+    @njit(**OPTIONS)
+    def rest(w, middle, length, u, rise, anchor):  # type: ignore[no-untyped-def]
+        """Place at which each element's surface rests."""
+        assert formulas != ""
+        count = len(u)
+        m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
+        placed = np.empty(count)
+        for i in range(count):
+            after = i + 1 if i + 1 < count else 0
             for a in range(UNKNOWNS):
-                for i in range(3):
-                    force[node, a] += push[i] * by[i, a]
-                    for j in range(3):
-                        for b in range(UNKNOWNS):
-                            diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
+                m[a] = 0.5 * (u[i, a] + u[after, a])
+                d[a] = (u[after, a] - u[i, a]) / length[i]
+            x, y, _, _ = elementwise.surface_point(w, middle[i], length[i], m, d)
+            placed[i] = x
+            depth = rise - w[OUTER] - y
+            if depth > 0.0:
+                placed[i] -= elementwise.traction(w, depth, x - anchor[i])[2] / w[SLIP_STIFF]
+        return placed
 
-    return elements, spokes
+    return elements, spokes, rest
 
 
-_elements, _spokes = _loops(code_hash(elementwise.__name__))
+_elements, _spokes, _rest = _loops(code_hash(elementwise.__name__))
 _eliminate = njit(**OPTIONS)(eliminate)
 
 
 def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
-    system = empty_system(len(u), len(ring.feet))
+    system = empty_system(ring)
     out = (
         system.diagonal,
         system.upper,
@@ -202,11 +261,29 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
             ring.coefficients,
             ring.sides,
         )
-        _spokes(spokes, u, system.coordinates, system.diagonal, system.force)
+        wide = ring.wide
+        _spokes(
+            spokes,
+            (wide.place, wide.nodes, wide.angle, wide.mean, wide.turn, ring.squeeze),
+            u,
+            system.coordinates,
+            system.diagonal,
+            system.force,
+            system.feet.lever,
+            system.feet.hold,
+        )
     return system
 
 
-def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
+def anchors(ring: Ring, u: Array, rise: float, anchor: Array) -> Array:
+    """Place (nodes,) at which each element's surface rests; off the ground it is where it is."""
+    placed: Array = _rest(ring.dimensions, ring.middle, ring.length_mm, u, rise, anchor)
+    return placed
+
+
+def solve(
+    diagonal: Array, upper: Array, lower: Array, rhs: Array, feet: FootTangent = NO_FEET
+) -> Array:
     """Solve the cyclic system for one or two right-hand sides (nodes, 5, n).
 
     Raises
@@ -216,7 +293,7 @@ def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
     """
     found = np.zeros((len(rhs), UNKNOWNS, 2))
     found[:, :, : rhs.shape[2]] = rhs
-    _eliminate(diagonal.copy(), upper, lower, found)
+    _eliminate(diagonal.copy(), upper, lower, found, feet.nodes, feet.lever, feet.hold)
     if not np.isfinite(found).all():
         raise FloatingPointError("the tangent is singular")
     return found[:, :, : rhs.shape[2]]

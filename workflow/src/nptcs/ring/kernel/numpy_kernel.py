@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.linalg.lapack import dgbsv
 
 from nptcs.arrays import Array, Index
 from nptcs.fe.matrices.cyclic import folded_order
 from nptcs.ring.kernel import elementwise
-from nptcs.ring.kernel.elementwise import ALONG, OUTER, UNKNOWNS, VARIABLES
-from nptcs.ring.kernel.system import Ring, System, empty_system
+from nptcs.ring.kernel.elementwise import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.system import NO_FEET, FootTangent, Ring, System, empty_system
 
 # neighbours in folded order are two nodes apart
 BAND = 3 * UNKNOWNS - 1
@@ -18,33 +20,42 @@ BAND = 3 * UNKNOWNS - 1
 def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
     count = len(u)
-    system = empty_system(count, len(ring.feet))
+    system = empty_system(ring)
     mean, difference = element_variables(ring, u)
     force = np.zeros((VARIABLES, count))
     tangent = np.zeros((VARIABLES, VARIABLES, count))
-    elementwise.band(
-        ring.stiffness,
-        ring.hardening,
-        ring.core,
-        ring.middle,
-        ring.length_mm,
-        mean,
-        difference,
-        force,
-        tangent,
-        np.empty((ALONG, count)),
-        np.empty((ALONG, ALONG, count)),
-    )
+    strains = elementwise.band_strains(ring.middle, mean, difference)
+    stress, stiff = _along_tangent(ring, strains[0], difference)
+    elementwise.add_core_give(ring.core, strains[0], difference, stress, stiff)
+    elementwise.band(ring.stiffness, ring.length_mm, mean, strains, stress, stiff, force, tangent)
     _add_ground(ring, mean, difference, rise, anchor, force, tangent, system)
     _scatter(ring, force, tangent, system)
     _add_spokes(ring, u, system)
     return system
 
 
+def anchors(ring: Ring, u: Array, rise: float, anchor: Array) -> Array:
+    """Place (nodes,) at which each element's surface rests; off the ground it is where it is."""
+    w = ring.dimensions
+    mean, difference = element_variables(ring, u)
+    x, y, _, _ = elementwise.surface_point(w, ring.middle, ring.length_mm, mean, difference)
+    pressure, _, shear, _, _ = elementwise.traction(w, rise - w[OUTER] - y, x - anchor)
+    placed: Array = x - np.where(pressure > 0.0, shear / w[SLIP_STIFF], 0.0)
+    return placed
+
+
 def element_variables(ring: Ring, u: Array) -> tuple[Array, Array]:
     """Means m (5, elements) and differences d (5, elements) of the elements."""
     after = np.roll(u, -1, axis=0)
     return 0.5 * (u + after).T, ((after - u) / ring.length_mm[:, None]).T
+
+
+def _along_tangent(ring: Ring, e: Array, difference: Array) -> tuple[Array, Array]:
+    """Give derivatives (4, elements), (4, 4, elements) as `elementwise.along_tangent` sets them."""
+    strains = np.concatenate([e[None], difference[2:]])
+    c, h = ring.stiffness[:ALONG, :ALONG, None], ring.hardening.reshape(ALONG**2, ALONG)
+    by_stretch = (h @ strains).reshape(ALONG, ALONG, -1)
+    return np.einsum("ijn,jn->in", c + 0.5 * by_stretch, strains), c + by_stretch
 
 
 def _add_ground(
@@ -105,42 +116,122 @@ def _scatter(ring: Ring, force: Array, tangent: Array, system: System) -> None:
     system.lower += np.moveaxis(both - mixed + turned - ends, 2, 0)
 
 
-def spoke_coordinates(ring: Ring, u: Array) -> Array:
-    """(s, β, φ) of all spokes, array (spokes, 3)."""
-    motion = elementwise.foot_motion(ring.dimensions, ring.theta[ring.feet], u[ring.feet].T)
-    return np.stack(elementwise.line_coordinates(ring.height_mm, motion)[:3], axis=1)
+@dataclass(frozen=True)
+class SpokeStates:
+    """Motions (3, spokes), (s, β, φ), energies, forces (3, spokes) and stiffness (3, 3, spokes)."""
+
+    motion: Array
+    coordinates: Array
+    energy: Array
+    push: Array
+    stiff: Array
+
+    @classmethod
+    def of(cls, ring: Ring, motion: Array) -> SpokeStates:
+        """Evaluate the spokes' energy."""
+        s, beta, phi, length, cos, sin = elementwise.line_coordinates(ring.height_mm, motion)
+        coordinates = np.stack([s, beta, phi], axis=1)
+        values = ring.polynomial.evaluate(coordinates)
+        second = values[[[4, 7, 9], [7, 5, 8], [9, 8, 6]]]
+        push, stiff = np.zeros((3, len(s))), np.zeros((3, 3, len(s)))
+        elementwise.carry_to_motion(length, cos, sin, values[1:4], second, push, stiff)
+        return cls(motion, coordinates, values[0], push, stiff)
 
 
-def spoke_derivatives(ring: Ring, coordinates: Array) -> Array:
-    """Energy and derivatives (10, spokes) as `SpokePolynomial.evaluate` gives them."""
-    return ring.polynomial.evaluate(coordinates)
+def spoke_states(ring: Ring, u: Array) -> SpokeStates:
+    """Evaluate all spokes; the motions of wide feet are those of the spokes under the squeeze.
+
+    The spoke's motion is z = m - C E'(z), m the foot's: one step of Newton's method from m, which
+    leaves a millionth of the squeeze, and the same linear step for the forces.
+    """
+    motion = np.stack(
+        elementwise.foot_motion(ring.dimensions, ring.theta[ring.feet], u[ring.feet].T)
+    )
+    wide = ring.wide
+    own = np.flatnonzero(wide.place >= 0)
+    if not len(own):
+        return SpokeStates.of(ring, motion)
+    own = own[np.argsort(wide.place[own])]
+    face = elementwise.foot_motion(
+        ring.dimensions, ring.theta[wide.nodes], np.moveaxis(u[wide.nodes], 2, 0)
+    )
+    shares = elementwise.foot_share(
+        np.cos(wide.angle), np.sin(wide.angle), wide.mean, wide.turn, face[0], face[1]
+    )
+    felt = np.stack([share.sum(axis=1) for share in shares])
+    soft_r, soft_turn = ring.squeeze
+    first = SpokeStates.of(ring, felt)
+    moved = felt.copy()
+    by_r, by_turn = elementwise.squeeze_step(
+        soft_r, soft_turn, first.stiff, soft_r * first.push[0], soft_turn * first.push[2]
+    )
+    moved[0] -= by_r
+    moved[2] -= by_turn
+    motion[:, own] = moved
+    found = SpokeStates.of(ring, motion)
+    stiff, push = found.stiff[:, :, own], found.push[:, own]
+    by_r, by_turn = elementwise.squeeze_step(
+        soft_r,
+        soft_turn,
+        stiff,
+        moved[0] - felt[0] + soft_r * push[0],
+        moved[2] - felt[2] + soft_turn * push[2],
+    )
+    found.push[:, own] = push - stiff[:, 0] * by_r - stiff[:, 2] * by_turn
+    hold = np.zeros_like(stiff)
+    elementwise.squeezed_stiffness(soft_r, soft_turn, stiff, hold)
+    found.stiff[:, :, own] = hold
+    found.energy[own] += 0.5 * (soft_r * push[0] ** 2 + soft_turn * push[2] ** 2)
+    return found
 
 
 def _add_spokes(ring: Ring, u: Array, system: System) -> None:
     if not len(ring.feet):
         return
-    angle, own = ring.theta[ring.feet], u[ring.feet].T
-    motion = elementwise.foot_motion(ring.dimensions, angle, own)
-    s, beta, phi, length, cos, sin = elementwise.line_coordinates(ring.height_mm, motion)
-    system.coordinates[:] = np.stack([s, beta, phi], axis=1)
-    values = spoke_derivatives(ring, system.coordinates)
-    second = np.array(
-        [
-            [values[4], values[7], values[9]],
-            [values[7], values[5], values[8]],
-            [values[9], values[8], values[6]],
-        ]
-    )
-    push, stiff = np.zeros((3, len(s))), np.zeros((3, 3, len(s)))
-    elementwise.carry_to_motion(length, cos, sin, values[1:4], second, push, stiff)
-    by = np.zeros((3, UNKNOWNS, len(s)))
-    tangent = np.zeros((UNKNOWNS, UNKNOWNS, len(s)))
-    elementwise.foot(ring.dimensions, angle, own, push, by, tangent)
-    lever = np.moveaxis(by, 2, 0)
+    spokes = spoke_states(ring, u)
+    system.coordinates[:] = spokes.coordinates
+    single = np.flatnonzero(ring.wide.place < 0)
+    feet, push = ring.feet[single], spokes.push[:, single]
+    lever, curvature = _levers(ring, u, feet, push)
     lift = lever.swapaxes(1, 2)
-    system.force[ring.feet] += (lift @ push.T[:, :, None])[:, :, 0]
-    curvature = np.moveaxis(tangent, 2, 0)
-    system.diagonal[ring.feet] += curvature + lift @ np.moveaxis(stiff, 2, 0) @ lever
+    system.force[feet] += (lift @ push.T[:, :, None])[:, :, 0]
+    stiff = np.moveaxis(spokes.stiff[:, :, single], 2, 0)
+    system.diagonal[feet] += curvature + lift @ stiff @ lever
+    if len(single) < len(ring.feet):
+        _add_wide_feet(ring, u, spokes, system)
+
+
+def _add_wide_feet(ring: Ring, u: Array, spokes: SpokeStates, system: System) -> None:
+    wide = ring.wide
+    count, reach = wide.nodes.shape
+    own = np.flatnonzero(wide.place >= 0)
+    own = own[np.argsort(wide.place[own])]
+    nodes, push = wide.nodes.ravel(), spokes.push[:, own]
+    cos, sin = np.cos(wide.angle), np.sin(wide.angle)
+    forces = elementwise.node_push(cos, sin, wide.mean, wide.turn, push[:, :, None])
+    face = np.stack([*forces, 0.0 * forces[0]]).reshape(3, -1)
+    by, curvature = _levers(ring, u, nodes, face)
+    system.force[nodes] += (by.swapaxes(1, 2) @ face.T[:, :, None])[:, :, 0]
+    system.diagonal[nodes] += curvature
+    by = by.reshape(count, reach, 3, UNKNOWNS)
+    shares = elementwise.foot_share(
+        cos[:, None],
+        sin[:, None],
+        wide.mean[:, None],
+        wide.turn[:, None],
+        by[:, :, 0],
+        by[:, :, 1],
+    )
+    system.feet.lever[:] = np.stack(shares, axis=2)
+    system.feet.hold[:] = np.moveaxis(spokes.stiff[:, :, own], 2, 0)
+
+
+def _levers(ring: Ring, u: Array, nodes: Index, push: Array) -> tuple[Array, Array]:
+    """Give derivatives (n, 3, 5) of the face at nodes, and their curvature (n, 5, 5) by `push`."""
+    by = np.zeros((3, UNKNOWNS, len(nodes)))
+    tangent = np.zeros((UNKNOWNS, UNKNOWNS, len(nodes)))
+    elementwise.foot(ring.dimensions, ring.theta[nodes], u[nodes].T, push, by, tangent)
+    return np.moveaxis(by, 2, 0), np.moveaxis(tangent, 2, 0)
 
 
 _PLACES: dict[int, tuple[Index, Index]] = {}
@@ -161,14 +252,35 @@ def _places(count: int) -> tuple[Index, Index]:
     return _PLACES[count]
 
 
-def solve(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
+def solve(
+    diagonal: Array, upper: Array, lower: Array, rhs: Array, feet: FootTangent = NO_FEET
+) -> Array:
     """Solve the cyclic system for right-hand sides (nodes, 5, n).
+
+    The wide feet are a change of low rank: with B their levers and S what holds them,
+    (A + B S Bᵀ)⁻¹ = A⁻¹ - A⁻¹ B (1 + S Bᵀ A⁻¹ B)⁻¹ S Bᵀ A⁻¹.
 
     Raises
     ------
     FloatingPointError
         If the matrix is singular.
     """
+    wide = len(feet.nodes)
+    if wide:
+        sides = rhs.shape[2]
+        levers = np.zeros((*rhs.shape[:2], 3 * wide))
+        for own, (nodes, lever) in enumerate(zip(feet.nodes, feet.lever, strict=True)):
+            levers[nodes, :, 3 * own : 3 * own + 3] = lever.swapaxes(1, 2)
+        both = _solve_blocks(diagonal, upper, lower, np.concatenate([rhs, levers], axis=2))
+        felt = np.einsum("wpia,wpas->wis", feet.lever, both[feet.nodes])
+        held = (feet.hold @ felt).reshape(3 * wide, -1)
+        forces = np.linalg.solve(np.eye(3 * wide) + held[:, sides:], held[:, :sides])
+        found: Array = both[:, :, :sides] - both[:, :, sides:] @ forces
+        return found
+    return _solve_blocks(diagonal, upper, lower, rhs)
+
+
+def _solve_blocks(diagonal: Array, upper: Array, lower: Array, rhs: Array) -> Array:
     count = len(diagonal)
     order, place = _places(count)
     band = np.zeros((3 * BAND + 1) * count * UNKNOWNS)

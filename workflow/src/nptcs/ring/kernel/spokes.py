@@ -71,6 +71,10 @@ class SpokePolynomial:
 
     def outside(self, coordinates: Array) -> str:
         """Say which coordinate (spokes, 3) is outside the range; empty if none is."""
+        low_box, high_box = self._always_inside
+        least, most = coordinates.min(axis=0), coordinates.max(axis=0)
+        if (least >= low_box).all() and (most <= high_box).all():
+            return ""
         part = 1.0 - (1.0 - self.narrowing) * np.clip(coordinates[:, 0] / self.low[0], 0.0, 1.0)
         shrink = np.stack([np.ones_like(part), part, part], axis=1)
         low, high = self.low * shrink, self.high * shrink
@@ -103,6 +107,12 @@ class SpokePolynomial:
         return np.stack(
             [np.einsum("nt,nt,nt->n", s[:, i], beta[:, j], phi[:, k]) for i, j, k in ORDERS]
         )
+
+    @cached_property
+    def _always_inside(self) -> tuple[Array, Array]:
+        """Give the box that is inside the range at every s."""
+        shrink = np.array([1.0, min(self.narrowing, 1.0), min(self.narrowing, 1.0)])
+        return self.low * shrink, self.high * shrink
 
     @cached_property
     def _scale(self) -> Array:

@@ -8,8 +8,32 @@ from functools import cached_property
 import numpy as np
 
 from nptcs.arrays import Array, Index
+from nptcs.ring.feet import WideFeet
 from nptcs.ring.kernel.elementwise import UNKNOWNS
 from nptcs.ring.kernel.spokes import SpokePolynomial
+
+
+@dataclass(frozen=True)
+class FootTangent:
+    """Tangent of the wide feet, lever^T hold lever over the nodes of each.
+
+    Parameters
+    ----------
+    nodes : array (feet, nodes of a foot)
+    lever : array (feet, nodes of a foot, 3, 5)
+        Derivatives of (u_r, u_θ, φ) by the nodes' unknowns.
+    hold : array (feet, 3, 3)
+        Symmetric.
+    """
+
+    nodes: Index
+    lever: Array
+    hold: Array
+
+
+NO_FEET = FootTangent(
+    np.zeros((0, 1), dtype=np.int64), np.zeros((0, 1, 3, UNKNOWNS)), np.zeros((0, 3, 3))
+)
 
 
 @dataclass(frozen=True)
@@ -30,6 +54,10 @@ class Ring:
     theta, middle, length_mm : arrays (nodes,)
     feet : array (spokes,)
         Node of each spoke.
+    wide : WideFeet
+        Feet that act over their width.
+    squeeze : array (2,)
+        Compliance of the band under a wide foot: u_r per force (mm/N), φ per moment (1/(N mm)).
     height_mm, straight_mm, narrowing : float
         Of the spokes' table.
     low, high : arrays (3,)
@@ -45,6 +73,8 @@ class Ring:
     middle: Array
     length_mm: Array
     feet: Index
+    wide: WideFeet
+    squeeze: Array
     height_mm: float
     straight_mm: float
     narrowing: float
@@ -85,6 +115,8 @@ class System:
         Vertical force on the ground and its derivative with respect to the rise.
     coordinates : array (spokes, 3)
         (s, β, φ) of the spokes.
+    feet : FootTangent
+        Of the wide feet, which the blocks do not hold.
     """
 
     diagonal: Array
@@ -96,6 +128,7 @@ class System:
     reaction_n: float
     reaction_slope: float
     coordinates: Array
+    feet: FootTangent
 
     def transposed(self) -> tuple[Array, Array, Array]:
         """Blocks of the transposed matrix: diagonal, upper, lower."""
@@ -106,8 +139,11 @@ class System:
         return diagonal, upper, lower
 
 
-def empty_system(nodes: int, spokes: int) -> System:
+def empty_system(ring: Ring) -> System:
     """Return a system of zeros."""
+    nodes, wide = len(ring.theta), ring.wide.nodes
     diagonal, upper, lower = (np.zeros((nodes, UNKNOWNS, UNKNOWNS)) for _ in range(3))
     force, slope, row = (np.zeros((nodes, UNKNOWNS)) for _ in range(3))
-    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, np.zeros((spokes, 3)))
+    coordinates = np.zeros((len(ring.feet), 3))
+    feet = FootTangent(wide, np.zeros((*wide.shape, 3, UNKNOWNS)), np.zeros((len(wide), 3, 3)))
+    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, coordinates, feet)
