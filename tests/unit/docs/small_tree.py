@@ -48,8 +48,8 @@ def shorten(tree: Path) -> None:
     write(tree / "config/config.yaml", config)
     joint = read(ROOT / "config/joint.yaml")
     study = joint["further_studies"][0]
-    study["design"] |= {"whole_plots": 6, "cases_per_plot": 4, "corners": False}
-    study |= {"terms": study["terms"][:6], "surfaces": [], "responses": []}
+    study["design"] |= {"whole_plots": 3, "cases_per_plot": 2, "corners": False}
+    study |= {"terms": study["terms"][:2], "surfaces": [], "responses": []}
     coarse = small["solvers"]["fe_tyre"]
     merge(
         joint["solvers"]["ring"],

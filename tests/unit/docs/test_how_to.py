@@ -129,7 +129,7 @@ def test_a_queue_solves_a_new_study(april):
 
 def test_the_joint_study_runs_on_top(april):
     printed = shell(april, "nptcs run --cores 4 --configfile config/joint.yaml")
-    assert "joint/ring 24/24" in printed
+    assert "joint/ring 6/6" in printed
     assert "Nothing to be done" in shell(april, "make joint")
 
 

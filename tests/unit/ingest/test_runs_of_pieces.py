@@ -41,7 +41,7 @@ def test_runs_of_a_piece_share_its_name_and_its_dimensions(lab, profiles, tmp_pa
     proposal = propose_sheet(folder, profiles)
     assert [row["piece"] for row in proposal.rows] == ["UD1", "UD1", "UD2", "UD2"]
     assert [row["width_mm"] for row in proposal.rows] == ["10", "10", "11", "11"]
-    assert all("name in properties what counts" in row["remarks"] for row in proposal.rows)
+    assert all("state in properties what counts" in row["remarks"] for row in proposal.rows)
     assert list(proposal.open_series()) == ["UD"]
 
 

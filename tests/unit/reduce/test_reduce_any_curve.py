@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pandas as pd
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 import nptcs.reduce
@@ -40,6 +40,10 @@ NAMES = {
 strains = st.one_of(st.just(float("nan")), st.floats(-0.02, 0.02), st.floats(-0.5, 3.0))
 rows = st.tuples(st.floats(-2000.0, 2000.0), strains, strains, strains)
 
+NAN = float("nan")
+ONLY_A_PEAK = [(0.0, NAN, NAN, NAN), (-1.0, NAN, NAN, NAN), (1.0, 0.0, NAN, NAN)]
+"""A strain at the largest force only, in a loading after the one that is reduced."""
+
 
 @pytest.mark.parametrize("test", TESTS)
 @settings(deadline=None, max_examples=60, suppress_health_check=PURE_FIXTURES)
@@ -48,6 +52,7 @@ rows = st.tuples(st.floats(-2000.0, 2000.0), strains, strains, strains)
     method=st.sampled_from(["nearest_points", "interpolated", "least_squares"]),
     with_time=st.booleans(),
 )
+@example(readings=ONLY_A_PEAK, method="nearest_points", with_time=False)
 def test_any_curve(
     test: str,
     readings: Any,

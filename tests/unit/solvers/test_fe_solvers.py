@@ -84,7 +84,7 @@ def test_fe_tyre_goes_on_to_a_displacement_and_says_where_it_ends(tmp_path):
 def test_the_stiffness_at_25_mm_is_that_of_a_tyre_solved_there(tmp_path):
     """The curve goes on from the load of the case; tyres are then solved at loads around 25 mm."""
     soft = {**VALUES, "spoke_c10_mpa": 1.0}
-    deep = EnergyTableOptions(elongation_mm=(-32.0, 8.0), inclination_rad=0.24)
+    deep = EnergyTableOptions(elongation_mm=(-32.0, 8.0), inclination_rad=0.22, narrowing=0.6)
     options = {
         "spoke_mesh": COARSE_SPOKE,
         "table": deep,

@@ -168,8 +168,8 @@ class FlatRing:
         """
         lift = np.zeros((len(wave), 5, 1))
         lift[:, 0, 0] = 1.0
-        solved = np.linalg.solve(self._stiffness(wave), lift)
-        return np.asarray(self.width_mm * solved[:, 0, 0], dtype=float)
+        solved = np.linalg.solve(self._stiffness(wave), lift)[:, 0, 0]
+        return np.asarray(self.width_mm * solved, dtype=float)
 
     def drift(self, wave: Array) -> Array:
         """Displacement (waves,) of the surface along itself under a shear sin(qx), mm per MPa.

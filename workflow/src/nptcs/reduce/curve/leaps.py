@@ -36,6 +36,8 @@ def leap_within(
     str
         The reason not to take a slope; empty where nothing leaps.
     """
+    if len(strain) < FEWEST:
+        return ""
     stop = int(np.argmax(strain >= high)) + 1 if strain.max(initial=0) >= high else len(strain)
     begin = int(np.argmax(strain >= low)) if strain.max(initial=0) >= low else stop
     x, y = strain[begin:stop], stress[begin:stop]

@@ -1,8 +1,9 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
 The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
-Gaussian process over `spoke_features`, with cos 2A for the angle and a quadratic trend. A predicted table is for search and exploration; the
-design that is chosen in the end is solved with a computed table.
+Gaussian process over `spoke_features`, with cos 2A for the angle and a quadratic trend. A predicted
+table is for search and exploration; the design that is chosen in the end is solved with a computed
+table.
 """
 
 from __future__ import annotations
