@@ -7,7 +7,7 @@ import pandas as pd
 import pytest
 
 from nptcs.fe import outline_cache
-from nptcs.fe.outline_cache import SolvedTyre, read_outlines, shared_outlines, write_outlines
+from nptcs.fe.outline_cache import DrawnCase, read_outlines, shared_outlines, write_outlines
 
 ROWS = pd.DataFrame(
     {
@@ -19,7 +19,7 @@ ROWS = pd.DataFrame(
         "y_undeformed_mm": [1.5, 2.5, 3.5, -200.0],
     }
 )
-CASE = SolvedTyre("a" * 64, {"shear_band_c10_mpa": 4.0}, 5000.0, None, None, {})
+CASE = DrawnCase("a" * 64, {"shear_band_c10_mpa": 4.0}, 5000.0, None, None, {})
 
 
 @pytest.fixture

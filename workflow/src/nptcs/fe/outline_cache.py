@@ -27,7 +27,7 @@ KIND = "outlines of a tyre 1"
 
 
 @dataclass(frozen=True)
-class SolvedTyre:
+class DrawnCase:
     """A case that was solved, and what its solver was given.
 
     Parameters
@@ -51,12 +51,12 @@ class SolvedTyre:
     ply: Mapping[str, float]
 
 
-def shared_outlines(case: SolvedTyre, folder: Path, spokes: Path | None) -> pd.DataFrame:
+def shared_outlines(case: DrawnCase, folder: Path, spokes: Path | None) -> pd.DataFrame:
     """Read the outlines of a loaded tyre from the folder, or draw them and store them there.
 
     Parameters
     ----------
-    case : SolvedTyre
+    case : DrawnCase
     folder : Path
         Files are written atomically under the key of everything they depend on.
     spokes : Path or None

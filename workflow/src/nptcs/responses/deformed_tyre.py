@@ -11,7 +11,7 @@ import pandas as pd
 from nptcs.campaign.record import CaseRecord
 from nptcs.config.root import Config
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.fe.outline_cache import SolvedTyre, shared_outlines
+from nptcs.fe.outline_cache import DrawnCase, shared_outlines
 from nptcs.fe.spoke.equilibrium import SpokeError
 from nptcs.fe.tyre.equilibrium import TyreError
 from nptcs.solvers.contract import SolverOptions
@@ -102,7 +102,7 @@ def deformed_tyre(
         return pd.DataFrame(columns=columns)
     record = named[0]
     load_n = float(record.load_n or 0.0)
-    case = SolvedTyre(record.key, record.values, load_n, options, tyre, ply)
+    case = DrawnCase(record.key, record.values, load_n, options, tyre, ply)
     try:
         rows = shared_outlines(case, store, options.spoke_cache)
     except (SpokeError, TyreError):

@@ -59,7 +59,8 @@ class SpokeStiffnessTable:
                 "needs at least two rows", remedy="give the stiffness at two values of C10"
             )
         table = np.array(
-            [[_number(row, name, i) for name in COLUMNS] for i, row in enumerate(rows)]
+            # the first line of a file names the columns
+            [[_number(row, name, line) for name in COLUMNS] for line, row in enumerate(rows, 2)]
         )
         table = table[np.argsort(table[:, 0])]
         if np.any(np.diff(table[:, 0]) == 0):
@@ -108,5 +109,9 @@ def _number(row: Mapping[Any, Any], column: str, line: int) -> float:
             column=column,
             value=row.get(column),
         ) from error
-    require_positive(column, value)
+    try:
+        require_positive(column, value)
+    except InputError as error:
+        error.line = line
+        raise
     return value
