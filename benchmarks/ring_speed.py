@@ -49,21 +49,31 @@ def spoke_tables(count: int) -> dict[str, SpokeEnergyTable]:
     }
 
 
+def reference_loop_s() -> float:
+    """CPU time of a loop of plain Python, by which the speeds of machines and of hours compare."""
+    start = time.process_time()
+    total = 0.0
+    for number in range(100_000):
+        total += 0.5 * number
+    return time.process_time() - start
+
+
 def time_curves(table: SpokeEnergyTable) -> None:
     """Print the time of a curve with each kernel."""
     loads = np.linspace(0.0, LOAD_N, POINTS + 1)[1:].tolist()
     for kernel in ("numpy", "numba") if HAS_NUMBA else ("numpy",):
         tyre = ring_tyre(TYRE, table, 5.0, RingOptions(), kernel=kernel)
         press_through_loads(tyre, loads)
-        times = []
+        times, reference = [], []
         for _ in range(10):
             start = time.process_time()
             states = press_through_loads(tyre, loads)
             times.append(time.process_time() - start)
+            reference.append(reference_loop_s())
         count = sum(state.iterations for state in states)
         print(
             f"{kernel:6s} {POINTS} points, {len(tyre.nodes.theta)} nodes: {1000 * min(times):.1f} "
-            f"ms CPU, {count} iterations"
+            f"ms CPU, {min(times) / min(reference):.2f} reference loops, {count} iterations"
         )
 
 

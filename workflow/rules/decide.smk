@@ -27,14 +27,6 @@ def confirming_options(study_name, solver_name):
     return {key: value for key, value in options.items() if key not in words}
 
 
-def decide_cores():
-    """Cores of the designs that are solved to confirm a choice: one after the other."""
-    solved = [one for one in CONFIG.decisions if one.confirm]
-    return max(
-        [1, *(solver_of(one.study, one.solver).cores_per_case() for one in solved)]
-    )
-
-
 def decide_job():
     settings = plain(CONFIG)
     asked = sorted({(one.study, one.solver) for one in CONFIG.decisions})
@@ -56,6 +48,11 @@ def confirming_solvers():
         for one in CONFIG.decisions
         if one.confirm
     ]
+
+
+def decide_cores(wildcards):
+    # designs are solved one after the other
+    return max((one.cores_per_case() for one, _ in confirming_solvers()), default=1)
 
 
 def decide_tokens(wildcards):
@@ -93,7 +90,7 @@ rule decide:
         problems="results/7_decide/problems.csv",
     log:
         "results/logs/decide.log",
-    threads: decide_cores()
+    threads: decide_cores
     resources:
         licence_tokens=decide_tokens,
         mem_mb=decide_memory_mb,

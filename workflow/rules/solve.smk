@@ -82,7 +82,7 @@ rule solve:
         records="results/5_solve/{study}/{solver}/batch_{batch}.jsonl",
     log:
         "results/logs/solve/{study}_{solver}_{batch}.log",
-    priority: 1  # surfaces wait for cases; little waits for what else is ready by then
+    priority: 3  # a surface on one core would keep batches on two from starting
     threads: solve_cores
     resources:
         licence_tokens=solve_tokens,
@@ -105,7 +105,7 @@ rule solve_bulk:
         results="results/5_solve/{study}/{solver}/bulk_{batch}.npz",
     log:
         "results/logs/solve/{study}_{solver}_bulk_{batch}.log",
-    priority: 1  # surfaces wait for cases; little waits for what else is ready by then
+    priority: 3  # a surface on one core would keep batches on two from starting
     threads: solve_cores
     resources:
         licence_tokens=solve_tokens,

@@ -150,8 +150,8 @@ def test_the_plan_counts_what_is_known_and_what_it_took(archive, tmp_path):
     config = configuration(archive)
     assert plan_lines(config, tmp_path)[:2] == [
         "study plate: 9 cases (full_factorial) by published",
-        "  published: 0 known, 9 to solve; about 4.5 s with 2 at a time, 300 MB of memory (as the "
-        "solver states; no case of it is stored)",
+        "  published: 0 known, 9 to solve; about 4.5 s with 2 at a time, 300 MB of memory (stated "
+        "by the solver; none of its cases is stored)",
     ]
     study = config.studies[0]
     job = {
@@ -218,7 +218,7 @@ def test_levels_that_stay_apart_are_a_note_of_the_plan(archive, tmp_path):
     config = by_fe(archive, [10, 15, 20])
     assert study_faults(config) == []
     lines = plan_lines(config, tmp_path)
-    (note,) = [line for line in lines if "it rounds" in line]
+    (note,) = [line for line in lines if "rounded: " in line]
     assert "spacing_mm 10 → 9.773, spacing_mm 15 → 14.33" in note
 
 

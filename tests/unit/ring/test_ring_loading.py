@@ -37,8 +37,7 @@ def test_spokes_carry_the_load(table, loaded):
         angle = tyre.nodes.theta[tyre.nodes.feet]
         # forces on the feet, outward and along θ, summed along the vertical
         lift = np.sum(-force[:, 0] * np.cos(angle) + force[:, 1] * np.sin(angle))
-        # a state is accepted when the next step is below 1e-4 mm
-        assert lift == pytest.approx(state.force_n, rel=1e-6, abs=1e-3)
+        assert lift == pytest.approx(state.force_n, rel=1e-6)
 
 
 def test_the_ground_carries_the_load(loaded):

@@ -177,7 +177,7 @@ def test_legs_that_straighten_need_the_root():
 
 def test_more_terms_than_data_are_refused():
     few = OPTIONS.model_copy(update={"degrees": (6, 12)})
-    with pytest.raises(ValueError, match="lower degrees"):
+    with pytest.raises(ValueError, match="lower the degrees"):
         fit_energy(grid_samples(), few, GEOMETRY)
 
 

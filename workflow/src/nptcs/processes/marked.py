@@ -36,13 +36,15 @@ def end_marked(folder: str) -> None:
 
 
 def end_children(wait_s: float) -> None:
-    """End all processes that this one has started, and their children; politely first."""
-    children = psutil.Process().children(recursive=True)
+    """End all processes that this one has started, and those that they have; politely first.
+
+    Wardens are left alone: they end after this process, and clean up.
+    """
+    children = [one for one in psutil.Process().children(recursive=True) if not _is_warden(one)]
     for process in children:
         _send(process, "terminate")
     for process in _left(children, wait_s):
-        if not _is_warden(process):
-            _send(process, "kill")
+        _send(process, "kill")
 
 
 def _is_warden(process: psutil.Process) -> bool:

@@ -25,7 +25,7 @@ from matplotlib.figure import Figure
 
 from nptcs.errors import InputError
 from nptcs.files import read_sealed, write_sealed
-from nptcs.language import catalogue_digest, current_language
+from nptcs.language import catalogue_digest, current_language, tr
 from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
 from nptcs.report.drawing import Drawers, Drawn, drawn
@@ -136,7 +136,7 @@ def plot(
     *args, **kwargs
         Its arguments.
     """
-    words = f"{alt} (synthetic data)" if synthetic else alt
+    words = tr("{figure} (synthetic data)", figure=alt) if synthetic else alt
     figure = _figure(draw, *args, **kwargs)
 
     @cache

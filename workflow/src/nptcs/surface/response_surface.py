@@ -179,7 +179,7 @@ def refuse_unusable(x: Array, y: Array, factors: Sequence[str], coefficients: in
         raise InputError(
             "solved cases have no response to fit",
             value=f"{int(np.sum(~np.isfinite(y)))} of {len(y)}",
-            remedy="fit surfaces to solvers that give the vertical stiffness",
+            remedy="fit this response only for solvers that give it",
         )
     if np.ptp(y) == 0:
         raise InputError(
@@ -205,6 +205,6 @@ def _refusal(surface: ResponseSurface, point: Array) -> InputError:
         f"outside the cases that the surface was fitted to ({lower[axis]:g} to {upper[axis]:g})",
         column=surface.factors[axis],
         value=float(point[axis]),
-        remedy="stay inside the box, solve cases there, or use the lamination form, which is "
-        "flagged and not refused",
+        remedy="stay inside the box, or solve cases there (a lamination form of the plates is "
+        "flagged there, not refused)",
     )

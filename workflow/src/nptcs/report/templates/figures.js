@@ -1,6 +1,7 @@
 // Saves a figure as SVG, as PNG of 300 dots per inch, or its numbers as CSV. Nothing leaves the page.
 (() => {
   const DPI = 300, PAGE_DPI = 96;
+  const words = document.currentScript.dataset;
   const theme = document.getElementById("figure-theme").textContent;
   const light = {};
   for (const [, name, colour] of theme.split("@media")[0].matchAll(/(--[\w-]+):\s*(#\w+)/g)) light[name] = colour;
@@ -68,12 +69,12 @@
     return new Blob(["\ufeff", text], { type: "text/csv" });
   }
 
-  function button(text, words, make, name) {
+  function button(text, label, make, name) {
     const made = document.createElement("button");
     made.type = "button";
     made.textContent = text;
-    made.setAttribute("aria-label", words);
-    made.title = words;
+    made.setAttribute("aria-label", label);
+    made.title = label;
     made.addEventListener("click", async () => save(await make(), name));
     return made;
   }
@@ -84,9 +85,9 @@
     const row = document.createElement("div");
     row.className = "save";
     const vector = () => new Blob([alone(svg)], { type: "image/svg+xml" });
-    row.append(button("SVG", `Save as SVG: ${about}`, vector, `${name}.svg`));
-    row.append(button("PNG", `Save as PNG: ${about}`, () => png(svg), `${name}.png`));
-    if (packed) row.append(button("CSV", `Save numbers: ${about}`, () => csv(packed), `${name}.csv`));
+    row.append(button("SVG", `${words.svg}: ${about}`, vector, `${name}.svg`));
+    row.append(button("PNG", `${words.png}: ${about}`, () => png(svg), `${name}.png`));
+    if (packed) row.append(button("CSV", `${words.csv}: ${about}`, () => csv(packed), `${name}.csv`));
     plot.append(row);
   }
 })();

@@ -30,7 +30,7 @@ SENTENCES = (
     translatable("solve more cases or fit fewer terms"),
     translatable("{cases} solved cases cannot determine {terms} terms"),
     translatable("solved cases have no response to fit"),
-    translatable("fit surfaces to solvers that give the vertical stiffness"),
+    translatable("fit this response only for solvers that give it"),
     translatable("the response is the same in all cases"),
     translatable("check that the solver uses the factors of this study"),
     translatable("only one level of a factor has results"),

@@ -25,6 +25,12 @@ ORDERS = (
     (0, 1, 1),
     (1, 0, 1),
 )
+# those by β and φ, and where each of `ORDERS` is among orders of s and these
+SIDE_ORDERS = tuple(dict.fromkeys(order[1:] for order in ORDERS))
+PLACES = tuple(
+    np.array(places)
+    for places in zip(*((i, SIDE_ORDERS.index((j, k))) for i, j, k in ORDERS), strict=True)
+)
 
 
 @dataclass(frozen=True)
@@ -104,9 +110,9 @@ class SpokePolynomial:
         bend = curve[:, None] * along[:, 1]
         s = along * np.stack([np.ones_like(slope), slope, slope**2], axis=1)[:, :, None]
         s[:, 2] += bend
-        return np.stack(
-            [np.einsum("nt,nt,nt->n", s[:, i], beta[:, j], phi[:, k]) for i, j, k in ORDERS]
-        )
+        pairs = np.stack([beta[:, j] * phi[:, k] for j, k in SIDE_ORDERS], axis=2)
+        found: Array = (s @ pairs).transpose(1, 2, 0)[PLACES]
+        return found
 
     @cached_property
     def _always_inside(self) -> tuple[Array, Array]:

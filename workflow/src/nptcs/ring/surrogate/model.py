@@ -1,8 +1,9 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
 The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
-Gaussian process over `spoke_features`. A predicted table is for search and exploration; the
-design that is chosen in the end is solved with a computed table.
+Gaussian process over `spoke_features`, with cos 2A for the angle and a quadratic trend. A predicted
+table is for search and exploration; the design that is chosen in the end is solved with a computed
+table.
 """
 
 from __future__ import annotations
@@ -13,7 +14,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 from scipy.stats import qmc
 from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
+from sklearn.gaussian_process.kernels import (
+    RBF,
+    ConstantKernel,
+    DotProduct,
+    Kernel,
+    WhiteKernel,
+)
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
@@ -84,7 +91,7 @@ class SpokeSurrogate:
         scaled = np.array([table.coefficients for table in tables]) / designs[:, 3:]
         self.mean = scaled.mean(axis=0)
         self.components = np.linalg.svd(scaled - self.mean, full_matrices=False)[2][:COMPONENTS]
-        features = spoke_features(designs, ply)
+        features = _inputs(designs, ply)
         self._middle, self._spread = features.mean(axis=0), features.std(axis=0)
         self._spread[self._spread == 0.0] = 1.0
         scores = (scaled - self.mean) @ self.components.T
@@ -106,7 +113,7 @@ class SpokeSurrogate:
         return SpokeSurrogate(self.designs[kept], tables, self.ply, self.kernels, self.unfitted)
 
     def _unit(self, designs: Array) -> Array:
-        unit: Array = (spoke_features(designs, self.ply) - self._middle) / self._spread
+        unit: Array = (_inputs(designs, self.ply) - self._middle) / self._spread
         return unit
 
     def check_inside(self, design: Array) -> None:
@@ -239,10 +246,26 @@ def _check(designs: Array, tables: Sequence[SpokeEnergyTable]) -> None:
             )
 
 
+def _inputs(designs: Array, ply: Mapping[str, float]) -> Array:
+    """Give the features (n, 6) with cos 2A in place of A.
+
+    Plies [+A/-A] are the same at -A and at 180° - A: their stiffness does not change with A at 0°
+    and 90° to first order, and neither does cos 2A.
+    """
+    features = spoke_features(designs, ply)
+    features[:, 2] = np.cos(2.0 * np.radians(designs[:, 2]))
+    return features
+
+
 def start_kernel() -> Kernel:
-    """Kernel of a component, where its search starts."""
+    """Kernel of a component, where its search starts.
+
+    The trend is a polynomial of second degree with random coefficients: what a spoke outside the
+    others is predicted from.
+    """
     smooth = ConstantKernel(1.0, (1e-3, 1e6)) * RBF(np.ones(FEATURES), (1e-1, 1e4))
-    return smooth + WhiteKernel(1e-6, (1e-12, 1e-2))
+    trend = ConstantKernel(1.0, (1e-5, 1e4)) * DotProduct(1.0, "fixed") ** 2
+    return smooth + trend + WhiteKernel(1e-6, (1e-12, 1e-2))
 
 
 def _process(unit: Array, score: Array, kernel: Kernel | None) -> GaussianProcessRegressor:

@@ -35,10 +35,11 @@ NOISE_BOUNDS = (1e-8, 10.0)
 VARIANCE_BOUNDS = (1e-3, 1e3)
 
 FIRST_NOISE = 1e-2
-"""From which the first search starts, as a variance; variance and lengths start from 1."""
+"""Variance of the noise at which the first search starts; variance and lengths start from 1."""
 
 SAME_RESPONSE = 1e-6
-"""Difference of equal cases, in ranges of the response, up to which there is no noise."""
+"""Difference between equal cases, as a share of the response's range, up to which there is no
+noise."""
 
 RESTARTS = 3
 """Searches from random hyperparameters, besides the one from lengths of a half range."""

@@ -225,7 +225,7 @@ def _best_of(
     constants: tuple[tuple[str, float], ...],
     starts: tuple[tuple[tuple[str, ...], tuple[bytes, ...]], ...],
 ) -> Lamination:
-    """Fit what `_best` describes, unless it was fitted to the same numbers before."""
+    """Fit as `_best` does, unless it was fitted to the same numbers before."""
     x, y = np.frombuffer(x_bytes).reshape(-1, len(FACTORS)), np.frombuffer(y_bytes)
     ply = dict(constants)
     stiffness = laminates(x, ply)

@@ -28,8 +28,8 @@ def covariance(theta: Array, points: Array, others: Array) -> Array:
     Parameters
     ----------
     theta : ndarray of shape (h,)
-        Logarithms of variance and n lengths. A noise after them, which every case has of its own,
-        does not count.
+        Logarithms of variance and n lengths. A noise after them, which is independent for every
+        case, is ignored.
     points, others : ndarray of shape (m, n) and (k, n)
     """
     lengths = np.exp(theta[1 : 1 + points.shape[1]])

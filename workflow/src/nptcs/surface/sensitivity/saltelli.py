@@ -1,8 +1,9 @@
 """Saltelli's estimators of Sobol indices from the responses at SALib's sample, and their bootstrap.
 
 The estimators are SALib's. So are the resamples of its bootstrap at the same seed, but a mean over
-a resample is taken here as a sum weighted by how often the resample holds each point: all resamples
-of all indices are then one product of matrices, and the half widths are equal up to rounding.
+a resample is computed here as a sum weighted by how often the resample contains each point: all
+resamples of all indices are then one product of matrices, and the half widths are equal up to
+rounding.
 """
 
 from __future__ import annotations
@@ -28,8 +29,7 @@ class Estimates:
     ----------
     first, total, first_confidence, total_confidence : ndarray of shape (n,)
     second, second_confidence : ndarray of shape (n, n)
-        Interactions in the upper triangle; not a number elsewhere, and where they were not asked
-        for.
+        Interactions in the upper triangle; NaN elsewhere, and where they were not requested.
     """
 
     first: Array
@@ -48,15 +48,15 @@ def estimates(
     Parameters
     ----------
     response : ndarray of shape (points × (2 n + 2),), or points × (n + 2) without interactions
-        At SALib's sample; it varies.
+        Responses at SALib's sample, which must not all be equal.
     factors : int
-        Their number n.
+        Number n of factors.
     interactions : bool
         Whether the sample was made for second-order indices.
     confidence : float
         Level of the intervals.
     seed : int
-        Of the bootstrap.
+        Seed of the bootstrap.
     """
     scaled = (response - response.mean()) / response.std()
     points = len(scaled) // ((2 * factors if interactions else factors) + 2)
