@@ -127,19 +127,6 @@ def test_a_queue_solves_a_new_study(april):
     assert all(re.search(r"--mem=\d+ --time=\d+ ", line) for line in submitted)
 
 
-def test_the_joint_study_runs_on_top(april):
-    printed = shell(april, "nptcs run --cores 4 --configfile config/joint.yaml")
-    assert "joint/ring 6/6" in printed
-    assert "Nothing to be done" in shell(april, "make joint")
-
-
-def test_the_study_runs_by_each_of_its_commands(april):
-    """The first one leaves the joint study out again."""
-    assert "report: results/report.html" in shell(april, "nptcs run")
-    assert "Nothing to be done" in shell(april, "make run")
-    assert "Nothing to be done" in shell(april, "snakemake -j8 --resources licence_tokens=16")
-
-
 def test_the_reports_page_is_the_laboratorys(april):
     page = (DOCS / "how-to/laboratory-page.md").read_text("utf-8")
     settings = re.search(r"^```yaml\n# config/mine.yaml\n(.*?)^```$", page, re.M | re.S)[1]
@@ -150,6 +137,13 @@ def test_the_reports_page_is_the_laboratorys(april):
     report = (april / "results/report.html").read_text("utf-8")
     assert "Composite Tyre Laboratory" in report
     assert "CTL-2026-017" in report
+
+
+def test_the_study_runs_by_each_of_its_commands(april):
+    """The first one writes the report again, without the laboratory's page."""
+    assert "report: results/report.html" in shell(april, "nptcs run")
+    assert "Nothing to be done" in shell(april, "make run")
+    assert "Nothing to be done" in shell(april, "snakemake -j8 --resources licence_tokens=16")
 
 
 def test_a_deck_is_written_for_a_case_of_the_run(april):
@@ -178,3 +172,9 @@ def test_two_runs_are_compared(april):
 def test_a_design_is_found_and_confirmed(april):
     printed = shell(april, "nptcs design --target 'K=300±5@5000' --minimise plate_mass --confirm")
     assert "inside" in printed
+
+
+def test_the_joint_study_runs_on_top(april):
+    printed = shell(april, "nptcs run --cores 4 --configfile config/joint.yaml")
+    assert "joint/ring 6/6" in printed
+    assert "Nothing to be done" in shell(april, "make joint")
