@@ -109,11 +109,11 @@ def _scatter(ring: Ring, force: Array, tangent: Array, system: System) -> None:
     both = 0.25 * tangent[:n, :n]
     ends = tangent[n:, n:] / length**2
     mixed, turned = 0.5 * tangent[:n, n:] / length, 0.5 * tangent[n:, :n] / length
-    first = np.moveaxis(both - mixed - turned + ends, 2, 0)
-    second = np.moveaxis(both + mixed + turned + ends, 2, 0)
+    first = (both - mixed - turned + ends).transpose(2, 0, 1)
+    second = (both + mixed + turned + ends).transpose(2, 0, 1)
     system.diagonal += first + np.roll(second, 1, axis=0)
-    system.upper += np.moveaxis(both + mixed - turned - ends, 2, 0)
-    system.lower += np.moveaxis(both - mixed + turned - ends, 2, 0)
+    system.upper += (both + mixed - turned - ends).transpose(2, 0, 1)
+    system.lower += (both - mixed + turned - ends).transpose(2, 0, 1)
 
 
 @dataclass(frozen=True)
@@ -138,9 +138,9 @@ class SpokeStates:
         by[:, 1, 0], by[:, 1, 1] = -sin / length, cos / length
         by[:, 1, 2], by[:, 2, 2] = 0.5, 1.0
         first = np.ascontiguousarray(values[1:4].T)
-        second = np.moveaxis(values[[[4, 7, 9], [7, 5, 8], [9, 8, 6]]], 2, 0)
+        second = values[[[4, 7, 9], [7, 5, 8], [9, 8, 6]]].transpose(2, 0, 1)
         push = (first[:, None] @ by)[:, 0].T
-        stiff = np.moveaxis(by.swapaxes(1, 2) @ second @ by, 0, 2)
+        stiff = (by.swapaxes(1, 2) @ second @ by).transpose(1, 2, 0)
         bend_s, bend_b, cross = values[1] / length, values[2] / length**2, sin * cos
         stiff[0, 0] += bend_s * sin**2 + 2.0 * bend_b * cross
         stiff[1, 1] += bend_s * cos**2 - 2.0 * bend_b * cross
@@ -165,7 +165,7 @@ def spoke_states(ring: Ring, u: Array) -> SpokeStates:
         return SpokeStates.of(ring, motion)
     own = own[np.argsort(wide.place[own])]
     face = elementwise.foot_motion(
-        ring.dimensions, ring.theta[wide.nodes], np.moveaxis(u[wide.nodes], 2, 0)
+        ring.dimensions, ring.theta[wide.nodes], u[wide.nodes].transpose(2, 0, 1)
     )
     shares = elementwise.foot_share(
         np.cos(wide.angle), np.sin(wide.angle), wide.mean, wide.turn, face[0], face[1]
@@ -207,7 +207,7 @@ def _add_spokes(ring: Ring, u: Array, system: System) -> None:
     lever, curvature = _levers(ring, u, feet, push)
     lift = lever.swapaxes(1, 2)
     system.force[feet] += (lift @ push.T[:, :, None])[:, :, 0]
-    stiff = np.moveaxis(spokes.stiff[:, :, single], 2, 0)
+    stiff = spokes.stiff[:, :, single].transpose(2, 0, 1)
     system.diagonal[feet] += curvature + lift @ stiff @ lever
     if len(single) < len(ring.feet):
         _add_wide_feet(ring, u, spokes, system)
@@ -235,7 +235,7 @@ def _add_wide_feet(ring: Ring, u: Array, spokes: SpokeStates, system: System) ->
         by[:, :, 1],
     )
     system.feet.lever[:] = np.stack(shares, axis=2)
-    system.feet.hold[:] = np.moveaxis(spokes.stiff[:, :, own], 2, 0)
+    system.feet.hold[:] = spokes.stiff[:, :, own].transpose(2, 0, 1)
 
 
 def _levers(ring: Ring, u: Array, nodes: Index, push: Array) -> tuple[Array, Array]:
@@ -243,7 +243,7 @@ def _levers(ring: Ring, u: Array, nodes: Index, push: Array) -> tuple[Array, Arr
     by = np.zeros((3, UNKNOWNS, len(nodes)))
     tangent = np.zeros((UNKNOWNS, UNKNOWNS, len(nodes)))
     elementwise.foot(ring.dimensions, ring.theta[nodes], u[nodes].T, push, by, tangent)
-    return np.moveaxis(by, 2, 0), np.moveaxis(tangent, 2, 0)
+    return by.transpose(2, 0, 1), tangent.transpose(2, 0, 1)
 
 
 _PLACES: dict[int, tuple[Index, Index]] = {}
