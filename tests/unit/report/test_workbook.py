@@ -49,7 +49,7 @@ def test_raw_points_are_a_file_next_to_the_workbook(workbook):
     assert "lca_neutral_line" not in workbook.sheetnames
     row = next(row for row in workbook["Summary"].iter_rows() if row[0].value == "lca_neutral_line")
     assert row[0].hyperlink.target == "tables/lca_neutral_line.csv"
-    assert "the CSV file tables/lca_neutral_line.csv next to this one" in row[1].value
+    assert "the CSV file tables/lca_neutral_line.csv next to this workbook" in row[1].value
 
 
 def test_every_number_is_native_and_whole(workbook, results):

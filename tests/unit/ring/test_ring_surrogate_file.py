@@ -103,3 +103,16 @@ def test_the_command_solves_a_table_and_refuses_what_is_outside(file, tmp_path, 
     assert out["displacement_standard_error_mm"].iloc[0] > 0
     assert "1 without a result" in capsys.readouterr().out
     assert main([*command[:2], str(tmp_path / "none.csv"), "-o", "x", *command[3:]]) == 2
+
+
+def test_spokes_that_differ_by_a_power_law_are_predicted_exactly(table, designs):
+    """Outside the box, too: components of absolute size would miss the soft ones."""
+
+    def of(design):
+        plates, thickness, _, c10 = design
+        return replace(table, coefficients=table.coefficients * plates * thickness**2 * c10**0.6)
+
+    surrogate = SpokeSurrogate(designs, [of(design) for design in designs], PUBLISHED_PLY)
+    soft = np.array([9.0, 1.0, 95.0, 6.0])
+    found = surrogate.predict_anywhere(soft).table.coefficients
+    np.testing.assert_allclose(found, of(soft).coefficients, rtol=1e-6)

@@ -25,7 +25,7 @@ FORMATS: Mapping[str, int] = {
     "PlyCard": 1,
     "RubberCard": 1,
     "RunIdentity": 1,
-    "SpokeSurrogate": 3,
+    "SpokeSurrogate": 4,
     "StartFacts": 1,
     "Surfaces": 1,
 }

@@ -1,6 +1,7 @@
 """A spoke's energy table predicted from others: principal components and Gaussian processes.
 
-The tables' coefficients, divided by C10, are reduced to ten principal components; each of them is a
+The tables' coefficients are divided by C10 and by a power law of the spoke's stiffness, so that
+soft spokes count as much as stiff ones, and reduced to ten principal components; each of them is a
 Gaussian process over `spoke_features`, with cos 2A for the angle and a quadratic trend. A predicted
 table is for search and exploration; the design that is chosen in the end is solved with a computed
 table.
@@ -88,7 +89,9 @@ class SpokeSurrogate:
         self.tables = list(tables)
         self.unfitted = np.empty((0, len(DESIGN))) if unfitted is None else unfitted
         self._first = tables[0]
-        scaled = np.array([table.coefficients for table in tables]) / designs[:, 3:]
+        coefficients = np.array([table.coefficients for table in tables])
+        self._law = _power_law(_inputs(designs, ply), coefficients / designs[:, 3:])
+        scaled = coefficients / self._size(designs)[:, None]
         self.mean = scaled.mean(axis=0)
         self.components = np.linalg.svd(scaled - self.mean, full_matrices=False)[2][:COMPONENTS]
         features = _inputs(designs, ply)
@@ -115,6 +118,11 @@ class SpokeSurrogate:
     def _unit(self, designs: Array) -> Array:
         unit: Array = (_inputs(designs, self.ply) - self._middle) / self._spread
         return unit
+
+    def _size(self, designs: Array) -> Array:
+        """C10 times the power law, array (n,): what the components are parts of."""
+        size: Array = designs[:, 3] * np.exp(_with_constant(_inputs(designs, self.ply)) @ self._law)
+        return size
 
     def check_inside(self, design: Array) -> None:
         """Refuse a design outside the box of the fitted spokes.
@@ -173,8 +181,9 @@ class SpokeSurrogate:
         """Predict without checking the box: for tests of spokes that were left out."""
         values = np.asarray(design, dtype=float)
         scores, errors = self._scores(values[None])
-        coefficients = values[3] * (self.mean + scores[0] @ self.components)
-        modes = values[3] * errors[0][:, None] * self.components
+        size = float(self._size(values[None])[0])
+        coefficients = size * (self.mean + scores[0] @ self.components)
+        modes = size * errors[0][:, None] * self.components
         return PredictedTable(replace(self._first, coefficients=coefficients), modes)
 
     def _scores(self, designs: Array) -> tuple[Array, Array]:
@@ -255,6 +264,29 @@ def _inputs(designs: Array, ply: Mapping[str, float]) -> Array:
     features = spoke_features(designs, ply)
     features[:, 2] = np.cos(2.0 * np.radians(designs[:, 2]))
     return features
+
+
+def _with_constant(features: Array) -> Array:
+    return np.column_stack([np.ones(len(features)), features])
+
+
+def _power_law(features: Array, scaled: Array) -> Array:
+    """Fit the logarithm of the tables' norms by a linear function of the features (n, 6).
+
+    Parameters
+    ----------
+    features : array (n, 6)
+    scaled : array (n, terms)
+        Coefficients of the tables divided by C10.
+
+    Returns
+    -------
+    array (7,)
+        Constant and slopes. Over the study's box the norms differ by a factor of three.
+    """
+    norm = np.log(np.linalg.norm(scaled, axis=1))
+    law: Array = np.linalg.lstsq(_with_constant(features), norm, rcond=None)[0]
+    return law
 
 
 def start_kernel() -> Kernel:
