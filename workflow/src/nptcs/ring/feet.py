@@ -1,4 +1,4 @@
-"""Feet of spokes over their true width: nodes that a foot covers, and their shares of its motion.
+"""Feet of spokes over their true width: the nodes that a foot covers, and their weights in it.
 
 A foot presses on the band over its width. Where the ring's elements are shorter than a foot, its
 motion (u_r, u_θ, φ) is that of the finite element tyre: u_r and u_θ are means over the width, φ is
@@ -20,7 +20,7 @@ POINTS, WEIGHTS = np.polynomial.legendre.leggauss(2)
 
 @dataclass(frozen=True)
 class WideFeet:
-    """Feet that are felt over their width, in the order of their nodes.
+    """Feet that act over their width, in the order of their nodes.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ class WideFeet:
     angle : array (nodes of a foot,)
         From the foot's middle, rad.
     mean, turn : arrays (nodes of a foot,)
-        Shares of each node's displacement in u_r and u_θ, and in φ (1/mm).
+        Weights of each node's displacement in u_r and u_θ, and in φ (1/mm).
     """
 
     place: Index
@@ -42,7 +42,7 @@ class WideFeet:
 
 
 def wide_feet(nodes: RingNodes, radius_mm: float, width_mm: float) -> WideFeet:
-    """Find the feet that lie in the finest elements with both their sides.
+    """Find the feet that are covered by elements of the smallest length.
 
     Parameters
     ----------
@@ -68,7 +68,7 @@ def wide_feet(nodes: RingNodes, radius_mm: float, width_mm: float) -> WideFeet:
     offsets = np.arange(-reach, reach + 1)
     covered = nodes.feet[:, None] + offsets
     fine = np.abs(after[covered[:, :-1] % count] - step).max(axis=1) < 1e-9 * step
-    # two feet have free nodes between them, and none reaches over the first or the last node
+    # there are free nodes between two feet, and no foot extends beyond the first or the last node
     apart = pitch > (2 * reach + 1.5) * step
     own = np.flatnonzero(fine & apart & (covered[:, 0] >= 0) & (covered[:, -1] < count - 2))
     own = own[np.argsort(nodes.feet[own])]
@@ -80,7 +80,7 @@ def wide_feet(nodes: RingNodes, radius_mm: float, width_mm: float) -> WideFeet:
 
 
 def _shares(angle: Array, half: float, radius_mm: float) -> tuple[Array, Array]:
-    """Shares of nodes at angles in the mean over (-half, half), and in its turn."""
+    """Weights of nodes at these angles in the mean over (-half, half), and in the rotation."""
     mean, turn = np.zeros_like(angle), np.zeros_like(angle)
     moment = 0.0
     for i in range(len(angle) - 1):

@@ -213,10 +213,11 @@ def missing_drift(
 def foot_squeeze(
     ring: FlatRing, layers: Sequence[RubberLayer | WireSheet], depth_mm: float, width_mm: float
 ) -> Array:
-    """Find what the layers give way under a foot more than the ring does.
+    """Find how much further the layers give way under a foot than the ring does.
 
-    A foot of width w pulls evenly by its force F, and linearly by its moment M; its motion is the
-    mean over w, and the turn ∫ x u dx / ∫ x² dx. Over all waves of the pull, b the axial width,
+    The force F of a foot of width w is distributed evenly over it, its moment M linearly; its motion
+    is the mean over w, and the rotation ∫ x u dx / ∫ x² dx. Over all waves of the pull, with the
+    axial width b,
 
         u/F = 1/(π b) ∫ (sin X/X)² c dq,  φ/M = 1/(π b) ∫ (3 q (sin X - X cos X)/X³)² c dq,
 

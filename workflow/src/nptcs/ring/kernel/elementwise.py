@@ -385,14 +385,14 @@ def foot(w: Value, angle: Value, u: Value, push: Value, by: Value, tangent: Valu
 def foot_share(
     cos: Value, sin: Value, mean: Value, turn: Value, outward: Value, along: Value
 ) -> tuple[Value, Value, Value]:
-    """Share of a node's motion in (u_r, u_θ, φ) of the wide foot that covers it.
+    """Contribution of a node's motion to (u_r, u_θ, φ) of the wide foot that covers it.
 
     Parameters
     ----------
     cos, sin
         Of the node's angle from the foot's middle.
     mean, turn
-        Shares of `ring.feet.WideFeet`.
+        Weights of `ring.feet.WideFeet`.
     outward, along
         Of the band's face at the node, in the node's own directions; or their derivatives.
     """
@@ -402,7 +402,7 @@ def foot_share(
 
 @compilable
 def node_push(cos: Value, sin: Value, mean: Value, turn: Value, push: Value) -> tuple[Value, Value]:
-    """Give a node's forces, outward and along in its own directions, of a wide foot's three."""
+    """Give a node's part, outward and along in its own directions, of a wide foot's forces."""
     radial, level = mean * push[0] + turn * push[2], mean * push[1]
     return cos * radial + sin * level, cos * level - sin * radial
 

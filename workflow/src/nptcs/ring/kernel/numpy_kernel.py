@@ -35,7 +35,7 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
 
 
 def anchors(ring: Ring, u: Array, rise: float, anchor: Array) -> Array:
-    """Place (nodes,) at which each element's surface rests; off the ground it is where it is."""
+    """Place (nodes,) of each element's surface without slip; off the ground its present place."""
     w = ring.dimensions
     mean, difference = element_variables(ring, u)
     x, y, _, _ = elementwise.surface_point(w, ring.middle, ring.length_mm, mean, difference)
@@ -153,8 +153,8 @@ class SpokeStates:
 def spoke_states(ring: Ring, u: Array) -> SpokeStates:
     """Evaluate all spokes; the motions of wide feet are those of the spokes under the squeeze.
 
-    The spoke's motion is z = m - C E'(z), m the foot's: one step of Newton's method from m, which
-    leaves a millionth of the squeeze, and the same linear step for the forces.
+    The spoke's motion z follows from that of the foot, m, by z = m - C E'(z). One step of Newton's
+    method from m solves this to a millionth of the squeeze; the forces take the same linear step.
     """
     motion = np.stack(
         elementwise.foot_motion(ring.dimensions, ring.theta[ring.feet], u[ring.feet].T)
@@ -269,7 +269,7 @@ def solve(
 ) -> Array:
     """Solve the cyclic system for right-hand sides (nodes, 5, n).
 
-    The wide feet are a change of low rank: with B their levers and S what holds them,
+    The wide feet are a change of low rank: with B their levers and S their stiffness,
     (A + B S Bᵀ)⁻¹ = A⁻¹ - A⁻¹ B (1 + S Bᵀ A⁻¹ B)⁻¹ S Bᵀ A⁻¹.
 
     Raises
