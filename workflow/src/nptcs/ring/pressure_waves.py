@@ -215,9 +215,9 @@ def foot_squeeze(
 ) -> Array:
     """Find how much further the layers give way under a foot than the ring does.
 
-    The force F of a foot of width w is distributed evenly over it, its moment M linearly; its motion
-    is the mean over w, and the rotation ∫ x u dx / ∫ x² dx. Over all waves of the pull, with the
-    axial width b,
+    The force F of a foot of width w is distributed evenly over it, its moment M linearly; its
+    motion is the mean over w, and the rotation ∫ x u dx / ∫ x² dx. Over all waves of the pull, with
+    the axial width b,
 
         u/F = 1/(π b) ∫ (sin X/X)² c dq,  φ/M = 1/(π b) ∫ (3 q (sin X - X cos X)/X³)² c dq,
 
