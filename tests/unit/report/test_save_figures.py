@@ -47,7 +47,7 @@ def one_figure(page):
     """Keep styles, one figure and the scripts of a page: a browser has it at once."""
     styles = re.findall(r"<style.*?</style>", page, re.S)
     plot = re.search(rf'<div class="plot" data-name="{PICKED}".*?</svg></div>', page, re.S)
-    scripts = re.findall(r"<script>.*?</script>", page, re.S)
+    scripts = re.findall(r"<script(?: data-[^>]*)?>.*?</script>", page, re.S)
     return "<!doctype html><meta charset=utf-8>" + "".join([*styles, plot[0], *scripts])
 
 
@@ -58,6 +58,12 @@ def saved(results, tmp_path_factory):
     with browser() as tab:
         tab.open(page.as_uri())
         found = tab.value(SAVED)
+        titles = tab.value("[...document.querySelectorAll('.plot button')].map((b) => b.title)")
+        assert [title.split(":")[0] for title in titles] == [
+            "Save as SVG",
+            "Save as PNG",
+            "Save the numbers",
+        ]
         assert tab.complaints == []
     return {name.rsplit(".", 1)[1]: base64.b64decode(text) for name, text in found.items()}
 
