@@ -16,7 +16,7 @@ ROOT = Path(__file__).parents[3]
 FILES = ("Makefile", "Snakefile", "pyproject.toml", "constraints.txt", "README.md", "LICENSE")
 FEW_TESTS = "tests/unit/test_yaml_files.py"
 QUEUE = """#!/bin/sh
-# stands in for a queue: starts the job at once and prints its number
+# a stand-in for a queue: it starts the job at once and prints the number of its process
 echo "$*" >> submitted.txt
 for script; do :; done
 sh "$script" > job.log 2>&1 &

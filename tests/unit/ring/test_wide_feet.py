@@ -1,4 +1,4 @@
-"""Feet over their width: shares of nodes, the squeeze of the band, the solution of both kernels."""
+"""Feet that act over their width: weights of nodes, squeeze of the band, both kernels."""
 
 from dataclasses import replace
 
@@ -30,7 +30,7 @@ def tyre(table):
 
 @pytest.fixture(scope="module")
 def state(tyre):
-    """Unknowns that follow no pattern, and anchors away from the surface."""
+    """Return unknowns without a pattern, and anchors away from the surface."""
     random = np.random.default_rng(5)
     u = random.normal(size=(len(tyre.nodes.theta), 5)) * [0.1, 0.1, 0.003, 0.003, 0.05]
     return u, tyre.surface(np.zeros_like(u))[0] + 0.05
@@ -126,7 +126,7 @@ def test_residual_and_tangent_are_derivatives(tyre, state):
 
 
 def test_a_wide_foot_turns_and_moves_with_a_rigid_ring(tyre):
-    """A turn of the whole ring about a foot's middle is the motion of the foot."""
+    """A rotation of the whole ring about a foot's middle is the motion of the foot."""
     ring = tyre.ring
     w, own = ring.dimensions, np.flatnonzero(ring.wide.place >= 0)[0]
     turn, angle = 1e-4, ring.theta[ring.feet[own]]

@@ -2,7 +2,7 @@
 
 Nodes are eliminated one after the other; the last one closes the circle, is coupled to all the
 others and is eliminated last. The force λ of a foot that covers several nodes is one more block,
-λ - S Σ B_i x_i = 0, which the nodes it covers carry along and which is eliminated behind them.
+λ - S Σ B_i x_i = 0. It is updated as the covered nodes are eliminated, and eliminated after them.
 """
 
 from __future__ import annotations
@@ -57,7 +57,7 @@ def eliminate(
     forces = np.zeros((len(feet), K, WIDE))
     # the foot that covers the node, and how many of its nodes are eliminated
     foot, place = 0, -1
-    # its block; its coupling with the next node and the last one, and theirs with it; its sides
+    # the foot's block, its coupling to the next node and to the last, theirs to it, its right sides
     block, by_next, by_last, own_sides = (
         np.eye(K),
         np.zeros((K, M)),

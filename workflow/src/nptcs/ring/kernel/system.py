@@ -21,9 +21,9 @@ class FootTangent:
     ----------
     nodes : array (feet, nodes of a foot)
     lever : array (feet, nodes of a foot, 3, 5)
-        Derivatives of (u_r, u_θ, φ) by the nodes' unknowns.
+        Derivatives of (u_r, u_θ, φ) with respect to the nodes' unknowns.
     hold : array (feet, 3, 3)
-        Symmetric.
+        Stiffness of each spoke under the squeeze of the band; symmetric.
     """
 
     nodes: Index
