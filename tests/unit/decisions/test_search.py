@@ -6,13 +6,21 @@ import numpy as np
 import pytest
 from scipy import stats
 
+from nptcs.commands.design import as_text
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.config.studies.decisions import Decision
 from nptcs.config.studies.goals import GoalKind, ResponseName, read_goal
 from nptcs.decisions.decide import decide
-from nptcs.decisions.evaluate import Desirability, Evaluation, at_least_all, within
+from nptcs.decisions.evaluate import (
+    DesignProblem,
+    Desirability,
+    Evaluation,
+    at_least_all,
+    within,
+)
 from nptcs.decisions.search import pareto
 from nptcs.decisions.space import design_space
+from nptcs.decisions.tables import DecisionAnswer
 from nptcs.errors import InputError
 from nptcs.uncertainty.fitted import PlateMass
 
@@ -65,6 +73,26 @@ def test_designs_can_be_made_and_differ(lightest):
             assert not same_plates or (np.abs(x[one] - x[other]) / span).max() >= 0.1 - 1e-9
     assert (np.diff(lightest.found.desirability) <= 1e-12).all()
     assert 0 < lightest.found.feasible_percent < 100
+
+
+@pytest.mark.parametrize(
+    ("shares", "choice", "said", "line"),
+    [
+        ([0.95, 0.5], 0, "", "but not by rank 2"),
+        ([0.5, 0.895], 1, "", "0.9 is met within 0.01, but not by rank 1"),
+        ([0.6, 0.5], 0, "0.600 of the choice's samples meet the goals, not 0.9", "by rank 1, 2"),
+    ],
+)
+def test_designs_whose_samples_hold_less_often_are_named(
+    source, monkeypatch, shares, choice, said, line
+):
+    given = iter(shares)
+    monkeypatch.setattr(DesignProblem, "share_that_holds", lambda *_: next(given))
+    found = decide(decision(targets=["K=300±5"], minimise=["plate_mass"], top=2), source)
+    assert found.choice == choice
+    assert found.why.startswith(said)
+    assert bool(found.why) == bool(said)
+    assert line in as_text(DecisionAnswer(found.decision, found))
 
 
 def test_the_probability_costs_mass(source):

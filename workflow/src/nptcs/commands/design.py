@@ -204,8 +204,21 @@ def as_text(done: DecisionAnswer) -> str:
         lines += [outcome.why, ""]
     lines.append(_designs_table(outcome))
     lines += ["", "± is one standard deviation: materials, tolerances and surface; * is the choice"]
+    lines += _short_line(outcome)
     lines += [f"not assessed: {', '.join(outcome.not_assessed)}"] if outcome.not_assessed else []
     return "\n".join([*lines, *_round_lines(done), f"fit and search: {done.cpu_s:.1f} s of CPU"])
+
+
+def _short_line(outcome: Outcome) -> list[str]:
+    """Say which designs are listed although fewer of their samples hold than asked for."""
+    from nptcs.decisions.decide import SAMPLING_ERROR
+
+    asked = outcome.decision.with_probability
+    if not outcome.found.feasible or not (outcome.sampled < asked).any():
+        return []
+    less = [str(place + 1) for place, holds in enumerate(outcome.holds) if not holds]
+    line = f"probabilities are sampled: {asked:g} is met within {SAMPLING_ERROR:g}"
+    return [line + (f", but not by rank {', '.join(less)}" if less else "")]
 
 
 def _surfaces_line(outcome: Outcome) -> str:

@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 
-from nptcs.arrays import Array
+from nptcs.arrays import Array, Mask
 from nptcs.config.studies.decisions import Decision
 from nptcs.config.studies.goals import Goal, ResponseName
 from nptcs.decisions.conflict import conflict_words
@@ -54,10 +54,14 @@ class Outcome:
     confidence: float
 
     @property
+    def holds(self) -> Mask:
+        """Whether the sampled probability of each design is high enough."""
+        return sampled_holds(self.sampled, self.decision.with_probability)
+
+    @property
     def choice(self) -> int:
-        """Index of the chosen design: the best one whose sampled probability is high enough."""
-        holds = np.flatnonzero(self.sampled >= self.decision.with_probability - SAMPLING_ERROR)
-        return int(holds[0]) if self.found.feasible and len(holds) else 0
+        """Index of the chosen design: the best one that holds; the first one if none does."""
+        return int(self.holds.argmax()) if self.found.feasible else 0
 
     def design(self, place: int) -> dict[str, float]:
         """Return the factors of a design."""
@@ -102,9 +106,16 @@ def decide(decision: Decision, source: Source) -> Outcome:
         problem.sampled(point, source.settings.samples, source.settings.seed)
         for point in found.designs.x
     )
+    sampled = np.array([problem.share_that_holds(one) for one in samples])
     why = found.note
     if not found.feasible:
         why = conflict_words(problem, found, decision.with_probability)
+    elif not sampled_holds(sampled, decision.with_probability).any():
+        short = (
+            f"{sampled[0]:.3f} of the choice's samples meet the goals, not "
+            f"{decision.with_probability:g}: they are not as normal as the search takes them to be"
+        )
+        why = "; ".join(filter(None, [found.note, short]))
     return Outcome(
         decision,
         problem,
@@ -112,10 +123,15 @@ def decide(decision: Decision, source: Source) -> Outcome:
         found,
         inputs.not_assessed,
         samples,
-        np.array([problem.share_that_holds(one) for one in samples]),
+        sampled,
         why,
         source.settings.confidence,
     )
+
+
+def sampled_holds(sampled: Array, asked: float) -> Mask:
+    """Tell which sampled probabilities are what was asked for, within `SAMPLING_ERROR`."""
+    return np.asarray(sampled >= asked - SAMPLING_ERROR)
 
 
 def _placed(goal: Goal, results: StudyResults) -> Goal:
