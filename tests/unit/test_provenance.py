@@ -25,8 +25,12 @@ def copy(tmp_path, monkeypatch):
 
 
 def forget():
-    provenance._imports_of_file.cache_clear()
-    provenance._digest_of_file.cache_clear()
+    for cached in (
+        provenance._file_of_package,
+        provenance._examined,
+        provenance._digest_with_words,
+    ):
+        cached.cache_clear()
 
 
 def edit(file, old, new):

@@ -47,7 +47,8 @@ def code_hash(*modules: str, words: bool = False) -> str:
     """
     digest = hashlib.sha256()
     for file in sorted(_closure(modules)):
-        digest.update(_digest_of_file(file, words).encode())
+        of_file = _digest_with_words(file) if words else _examined(file)[1]
+        digest.update(of_file.encode())
     return digest.hexdigest()[:16]
 
 
@@ -74,7 +75,7 @@ def _closure(modules: tuple[str, ...]) -> set[Path]:
         if file is None or file in found:
             continue
         found.add(file)
-        waiting += [_file(name) for name in _imports_of_file(file)]
+        waiting += [_file(name) for name in _examined(file)[0]]
     return found
 
 
@@ -82,6 +83,11 @@ def _file(module: str) -> Path | None:
     """Find the file of a module of this package; None if there is none."""
     if module.endswith(".py"):
         return Path(module).resolve() if Path(module).is_file() else None
+    return _file_of_package(module)
+
+
+@cache
+def _file_of_package(module: str) -> Path | None:
     parts = module.split(".")
     if parts[0] != PACKAGE:
         return None
@@ -93,14 +99,16 @@ def _file(module: str) -> Path | None:
 
 
 @cache
-def _imports_of_file(file: Path) -> tuple[str, ...]:
-    """Return the modules that a file may import."""
-    return tuple(_imports(ast.parse(file.read_text(encoding="utf-8"))))
+def _examined(file: Path) -> tuple[tuple[str, ...], str]:
+    """Return the modules that a file may import, and the digest of its code without words."""
+    tree = ast.parse(file.read_text(encoding="utf-8"))
+    imports = tuple(_imports(tree))  # the digest changes the tree
+    return imports, _digest_without_words(tree)
 
 
 @cache
-def _digest_of_file(file: Path, words: bool) -> str:
-    return code_digest(file.read_text(encoding="utf-8"), words)
+def _digest_with_words(file: Path) -> str:
+    return code_digest(file.read_text(encoding="utf-8"), words=True)
 
 
 def code_digest(source: str, words: bool = False) -> str:
@@ -127,10 +135,17 @@ def code_digest(source: str, words: bool = False) -> str:
     >>> code_digest("raise ValueError('no')") == code_digest("raise ValueError('not so')")
     True
     """
-    tree = ast.parse(source)
     if not words:
-        tree = ast.fix_missing_locations(_WithoutWords().visit(tree))
-    code = compile(tree, "", "exec", dont_inherit=True, optimize=0 if words else 2)
+        return _digest_without_words(ast.parse(source))
+    return _digest(compile(source, "", "exec", dont_inherit=True, optimize=0))
+
+
+def _digest_without_words(tree: ast.Module) -> str:
+    told = _WithoutWords().visit(tree)
+    return _digest(compile(told, "", "exec", dont_inherit=True, optimize=2))
+
+
+def _digest(code: CodeType) -> str:
     return hashlib.sha256(repr(_parts(code)).encode()).hexdigest()
 
 
@@ -159,7 +174,7 @@ class _WithoutWords(ast.NodeTransformer):
                 part
                 for part in node.body
                 if not (isinstance(part, ast.FunctionDef) and part.name == "__str__")
-            ] or [ast.Pass()]
+            ] or [ast.copy_location(ast.Pass(), node)]
         return self.generic_visit(_without_docstring(node))
 
     def visit_Assign(self, node: ast.Assign) -> ast.AST | None:
@@ -170,7 +185,7 @@ class _WithoutWords(ast.NodeTransformer):
 
 def _without_docstring(node: _Documented) -> _Documented:
     if ast.get_docstring(node, clean=False) is not None:
-        node.body = node.body[1:] or [ast.Pass()]
+        node.body = node.body[1:] or [ast.copy_location(ast.Pass(), node)]
     return node
 
 
@@ -178,10 +193,14 @@ class _Silent(ast.NodeTransformer):
     """Replace every text with an empty one."""
 
     def visit_Constant(self, node: ast.Constant) -> ast.AST:
-        return ast.Constant("") if isinstance(node.value, str) else node
+        return _empty_text(node) if isinstance(node.value, str) else node
 
     def visit_JoinedStr(self, node: ast.JoinedStr) -> ast.AST:
-        return ast.Constant("")
+        return _empty_text(node)
+
+
+def _empty_text(place: ast.expr) -> ast.Constant:
+    return ast.copy_location(ast.Constant(""), place)
 
 
 def _last_name(node: ast.AST) -> str:
