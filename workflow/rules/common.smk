@@ -67,12 +67,12 @@ def run_in_forks(rules):
 
     host = ScriptHost(PYTHON)
     names = dict.fromkeys(Path(rule.script).name for rule in rules if rule.script)
-    host.prepare([SCRIPTS / name for name in names], hashed_in_jobs(rules))
+    host.prepare([SCRIPTS / name for name in names], solvers_in_jobs(rules))
     host_scripts(PythonScript, SCRIPTS, host)
 
 
-def hashed_in_jobs(rules):
-    """Modules of solvers, if a rule is needed that hashes their code for the key of a case."""
+def solvers_in_jobs(rules):
+    """Modules of all solvers, if a rule is needed that solves cases."""
     if not any(rule.name.startswith("solve") for rule in rules):
         return []
     solvers = [one for named in FACTS.solvers.values() for one in named.values()]

@@ -47,7 +47,9 @@ def solve_bulk_job(wildcards):
 
 def solve_cores(wildcards):
     options = solver_of(wildcards.study, wildcards.solver)
-    return batch_cores(CONFIG.campaign.cores_per_batch, options)
+    cases = CONFIG.study(wildcards.study).number_of_cases()
+    batch = cases / batches_of(wildcards.study, wildcards.solver)
+    return batch_cores(CONFIG.campaign.cores_per_batch, options, batch)
 
 
 def solve_tokens(wildcards, threads):

@@ -23,7 +23,7 @@ linux = pytest.mark.skipif(not Path("/proc").is_dir(), reason="reads the process
 
 def test_a_solver_without_licence_takes_the_cores_that_it_gets():
     plain = SolverOptions()
-    assert batch_cores(2, plain) == 2
+    assert batch_cores(2, plain, cases=100) == 2
     assert batch_tokens(2, plain) == 0
     assert cases_side_by_side(2, 0, plain) == 2
 
@@ -33,8 +33,13 @@ def test_a_solver_without_licence_takes_the_cores_that_it_gets():
 )
 def test_a_batch_asks_for_the_tokens_of_all_its_cases(cpus, per_batch, cores, tokens):
     options = AbaqusOptions(cpus=cpus)
-    assert batch_cores(per_batch, options) == cores
+    assert batch_cores(per_batch, options, cases=1) == cores
     assert batch_tokens(cores, options) == tokens
+
+
+@pytest.mark.parametrize(("cases", "cores"), [(1, 1), (20, 1), (21, 2), (63, 4), (1000, 4)])
+def test_a_batch_of_cheap_cases_leaves_cores_to_others(cases, cores):
+    assert batch_cores(4, SolverOptions(case_s=0.25), cases) == cores
 
 
 def test_a_case_wider_than_j_asks_for_its_own_tokens():

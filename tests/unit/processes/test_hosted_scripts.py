@@ -257,3 +257,33 @@ def test_variables_are_those_that_snakemake_sets():
     variables = environment_of(Script(Path("a.py")))
     assert variables["OMP_NUM_THREADS"] == variables["VECLIB_MAXIMUM_THREADS"] == "2"
     assert variables["TMPDIR"] == variables["TEMP"] == "/somewhere"
+
+
+@pytest.mark.parametrize("end", [ScriptHost.close, lambda host: host._process.kill()])
+def test_what_cases_import_is_imported_in_advance_and_ends_with_the_host(tmp_path, end):
+    slow = tmp_path / "slow_to_compile.py"
+    slow.write_text(
+        "import os, time\nfrom pathlib import Path\n"
+        f"Path({str(tmp_path)!r}, 'pid').write_text(str(os.getpid()))\ntime.sleep(60)\n"
+    )
+    solver = tmp_path / "solver.py"
+    solver.write_text(
+        f"import sys\nsys.path.append({str(tmp_path)!r})\n"
+        "from nptcs.solvers.published import SOLVER as published\nfrom dataclasses import replace\n"
+        "SOLVER = replace(published, preload=('slow_to_compile',))\n"
+    )
+    host = ScriptHost(sys.executable)
+    try:
+        host.prepare([], [str(solver)])
+        wait_until((tmp_path / "pid").is_file)
+        process = psutil.Process(int((tmp_path / "pid").read_text()))
+    finally:
+        end(host)
+    wait_until(lambda: not process.is_running() or process.status() == psutil.STATUS_ZOMBIE)
+
+
+def wait_until(done, seconds=20.0):
+    deadline = time.monotonic() + seconds
+    while not done():
+        assert time.monotonic() < deadline
+        time.sleep(0.05)

@@ -12,6 +12,7 @@ from statistics import mean, median
 from nptcs.campaign.answers import Asked, rounding_notes, solvers_of
 from nptcs.campaign.bulk import in_bulk, known_in_bulk
 from nptcs.campaign.jobs import make_jobs
+from nptcs.campaign.queue import batch_count
 from nptcs.campaign.record import CaseRecord, RecordStore
 from nptcs.campaign.schedule import batch_cores
 from nptcs.config.root import Config
@@ -126,7 +127,9 @@ def plan_lines(config: Config, results: str | Path = "results") -> list[str]:
         lines.append(f"study {study.name}: {cases} by {solvers}")
         rounded = rounding_notes(Asked.of(study, config.solver_options(study), config.tyre))
         for solver, checked in solvers_of(study, config.solver_options(study)):
-            cores = batch_cores(config.campaign.cores_per_batch, checked)
+            batches = batch_count(study.number_of_cases(), config.campaign, checked)
+            batch = study.number_of_cases() / batches
+            cores = batch_cores(config.campaign.cores_per_batch, checked, batch)
             at_a_time = max(1, cores // checked.cores_per_case())
             bulk = in_bulk(solver, study.number_of_cases(), config.campaign.bulk_from)
             cost = _stated(solver, checked, bulk)

@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from math import ceil
 from typing import Protocol
 
-from nptcs.campaign.schedule import Needs
+from nptcs.campaign.schedule import TimedNeeds
 from nptcs.config.root import Campaign
 
 JOB_MEMORY_MB = 800.0
@@ -20,12 +20,8 @@ MARGIN = 2.0
 """Factor on the usual time of cases: a node may be slower, and half of the cases take longer."""
 
 
-class JobNeeds(Needs, Protocol):
+class JobNeeds(TimedNeeds, Protocol):
     """What a job requests from a queue: options of a solver, or `nptcs.start.facts.SolverFacts`."""
-
-    @property
-    def case_s(self) -> float:
-        """Wall time that a case usually takes."""
 
     @property
     def case_memory_mb(self) -> float:

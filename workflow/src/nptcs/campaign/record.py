@@ -9,7 +9,6 @@ from itertools import groupby, zip_longest
 from pathlib import Path
 from typing import Any, Self
 
-import pandas as pd
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 
 from nptcs.errors import InputError
@@ -190,6 +189,8 @@ def _read_rows(name: str, path: str) -> list[dict[str, Any]]:
             file=path,
             column=name,
         )
+    import pandas as pd  # not with the module: each case's process would import it
+
     try:
         rows = pd.read_csv(path, comment="#").to_dict("records")
     except (pd.errors.ParserError, pd.errors.EmptyDataError, UnicodeDecodeError) as error:

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
+from math import ceil
 from typing import Protocol
 
 from nptcs.errors import InputError
+
+WORTH_A_CORE_S = 5.0
+"""Time of cases, as stated, that is worth another core: to start cases takes about a second."""
 
 
 class Needs(Protocol):
@@ -17,9 +21,29 @@ class Needs(Protocol):
         """Return the licence tokens that one case takes."""
 
 
-def batch_cores(cores_per_batch: int, options: Needs) -> int:
-    """Return the cores that a batch requests: at least those of one case."""
-    return max(cores_per_batch, options.cores_per_case())
+class TimedNeeds(Needs, Protocol):
+    """Needs of a case whose usual time is stated."""
+
+    @property
+    def case_s(self) -> float:
+        """Wall time that a case usually takes."""
+
+
+def batch_cores(cores_per_batch: int, options: TimedNeeds, cases: float) -> int:
+    """Return the cores that a batch requests: at least those of one case.
+
+    A batch of cheap cases requests fewer than `cores_per_batch`, and so runs next to others.
+
+    Parameters
+    ----------
+    cores_per_batch : int
+        Of the configuration.
+    options : TimedNeeds
+    cases : float
+        Cases of the batch, in the mean of a study's batches.
+    """
+    useful = ceil(cases * options.case_s / WORTH_A_CORE_S)
+    return max(min(cores_per_batch, useful), options.cores_per_case())
 
 
 def batch_tokens(cores: int, options: Needs) -> int:

@@ -8,10 +8,9 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from typing import Any, ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
-import pandas as pd
 from numpy.typing import ArrayLike
 from pydantic import BaseModel, ConfigDict, Field, field_validator
 
@@ -19,6 +18,9 @@ from nptcs.arrays import Array
 from nptcs.config.base import Strict
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.tables.status import Status as Status
+
+if TYPE_CHECKING:
+    import pandas as pd
 
 CASE_S = "Wall time that a case usually takes; decides the size and the time limit of a job"
 CASE_MEMORY = "Memory that a case may need; a job of a queue requests it"

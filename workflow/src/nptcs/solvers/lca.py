@@ -20,6 +20,7 @@ from nptcs.lca.spokes.law_table import SpokeLawTable
 from nptcs.lca.spokes.stiffness_table import OutOfRangeError, SpokeStiffnessTable
 from nptcs.lca.state import LcaState
 from nptcs.solvers.contract import (
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -41,6 +42,7 @@ NEUTRAL_LINE_DEG = np.arange(-180.0, 181.0)
 class LcaOptions(SolverOptions):
     """Options of the solver ``lca``."""
 
+    case_s: float = Field(0.2, gt=0, description=CASE_S)
     section: SectionKind = Field(
         "sandwich", description="Section of the shear band: the physical one or section 3.3.3's"
     )

@@ -14,6 +14,7 @@ import pandas as pd
 from pydantic import Field
 
 from nptcs.solvers.contract import (
+    CASE_S,
     CaseInputs,
     Solver,
     SolverOptions,
@@ -31,6 +32,7 @@ FACTORS = frozenset(
 class PublishedOptions(SolverOptions):
     """Options of the solver ``published``."""
 
+    case_s: float = Field(0.05, gt=0, description=CASE_S)
     archive: str = Field(description="CSV: case, the factors, stiffness_n_per_mm")
     archive_load_n: float = Field(5000.0, gt=0, description="Load at which the archive was made")
 
