@@ -55,6 +55,7 @@ rule compare_published:
         exponents="results/tables/stiffness_exponents.csv",
     log:
         "results/logs/compare_published.log",
+    priority: 1  # decisions wait for it
     params:
         job={
             "studies": {

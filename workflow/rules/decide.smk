@@ -90,6 +90,7 @@ rule decide:
         problems="results/7_decide/problems.csv",
     log:
         "results/logs/decide.log",
+    priority: 2  # the longest of those that the report waits for, where it solves its choice
     threads: decide_cores
     resources:
         licence_tokens=decide_tokens,

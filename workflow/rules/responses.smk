@@ -54,6 +54,7 @@ rule tyre_responses:
         plates="results/tables/plate_stress.csv",
     log:
         "results/logs/tyre_responses.log",
+    priority: 1  # decisions wait for it
     params:
         job={
             "settings": plain(CONFIG.tyre_responses),

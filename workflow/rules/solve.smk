@@ -132,6 +132,7 @@ rule cases:
         ),
     log:
         "results/logs/cases.log",
+    priority: 1  # decisions wait for it
     params:
         job={"code": code_of("cases")},
     script:

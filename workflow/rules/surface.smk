@@ -161,7 +161,7 @@ rule sobol:
         problems="results/6_surface/sobol/problems.csv",
     log:
         "results/logs/sobol.log",
-    priority: 1  # the longest of those that the report waits for
+    priority: 1  # long, and the report waits for it
     params:
         job={"settings": plain(CONFIG.sensitivity), "code": code_of("sobol")},
     script:
