@@ -12,9 +12,10 @@ from nptcs.report.kept_together import kept
 from nptcs.report.table_view import WHOLE_ROWS, table_view
 from nptcs.report.tables.entries import result_entry
 from nptcs.report.tables.names import in_symbols
+from nptcs.report.tables.row_classes import row_class
 from nptcs.report.text import number_text, with_error
 from nptcs.tables.catalogue import TABLES
-from nptcs.tables.result_table import Heading
+from nptcs.tables.result_table import Heading, RowMark
 
 FILES = result_entry("files.csv", TABLES["files.csv"])
 
@@ -143,3 +144,11 @@ def test_terms_keep_their_names_where_no_factor_is_known():
 )
 def test_no_line_breaks_in_a_short_name_or_before_a_unit(text, html):
     assert str(kept(text)) == html
+
+
+@pytest.mark.parametrize(
+    ("status", "marked"),
+    [("ok", ""), ("not assessed", "out"), ("not reached", "warn"), ("diverged", "bad")],
+)
+def test_only_a_failure_is_marked_as_one(status, marked):
+    assert row_class(RowMark.STATUS)({"status": status}) == marked

@@ -57,9 +57,13 @@ def every_row(row: Row) -> str:
     return "bad"
 
 
+WITHOUT_FAULT = {"ok": "", "not assessed": "out", "not reached": "warn"}
+"""Class of a status that is no failure."""
+
+
 def by_status(row: Row) -> str:
-    """Mark everything whose status is not ok."""
-    return "" if row["status"] == "ok" else "bad"
+    """Mark everything whose status is not ok: as failed, unless nothing has failed."""
+    return WITHOUT_FAULT.get(str(row["status"]), "bad")
 
 
 def by_calibration(row: Row) -> str:

@@ -262,8 +262,9 @@ def _write_head(worksheet: Worksheet, results: Results) -> int:
         lines.append(synthetic)
     lines.append(
         tr(
-            "Rows: red failed, yellow flagged, grey left out, assumed or calibrated on. "
-            "Units: in brackets. Point at a heading to see what it means, its rule and its range."
+            "Rows: red failed, yellow flagged, grey left out, not assessed, assumed or calibrated "
+            "on. Units: in brackets. Point at a heading to see what it means, its rule and its "
+            "range."
         )
     )
     for row, text in enumerate(filter(None, lines), start=1):
