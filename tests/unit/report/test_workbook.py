@@ -16,8 +16,9 @@ from nptcs.report.tables.dictionary import dictionary_table
 from nptcs.report.tables.entries import design_entry, result_entry
 from nptcs.report.tables.sheets import Sheet, sheets_of
 from nptcs.report.workbook.build import build_workbook
+from nptcs.report.workbook.cells import WRAPPED
 from nptcs.report.workbook.chart_data import charts_of
-from nptcs.report.workbook.layout import LINE_HEIGHT, WIDEST, finish_table
+from nptcs.report.workbook.layout import LINE_HEIGHT, WIDEST, finish_table, fit_heights
 from nptcs.report.workbook.number_formats import format_of_column, format_of_number, shown_number
 from nptcs.runs.identity import identify
 from nptcs.tables.catalogue import TABLES
@@ -165,6 +166,32 @@ def test_every_sheet_is_set_for_print(workbook):
         assert sheet.page_setup.orientation == "landscape", sheet.title
         assert sheet.print_area, sheet.title
     assert workbook["cases"].print_title_rows == "$1:$1"
+
+
+def test_numbers_are_under_their_headers_and_apart_from_text():
+    sheet = openpyxl.Workbook().active
+    for row in (["name", "value", "unit", "rule"], ["K", 264.2, "N/mm", "ring " * 30]):
+        sheet.append(row)
+    finish_table(sheet)
+    assert sheet["B1"].alignment.horizontal == "right"
+    assert [sheet[place].alignment.indent for place in ("A2", "C1", "C2", "D2")] == [0, 1, 1, 0]
+    sheet["B2"].value = "none"
+    finish_table(sheet)
+    assert sheet["B1"].alignment.horizontal is None
+
+
+def test_a_row_is_as_high_as_the_cells_that_are_merged_need():
+    sheet = openpyxl.Workbook().active
+    sheet["A1"] = "word " * 20
+    sheet["A1"].alignment = WRAPPED
+    for column in "ABCD":
+        sheet.column_dimensions[column].width = 12
+    fit_heights(sheet, 1, 1)
+    alone = sheet.row_dimensions[1].height
+    sheet.merge_cells("A1:D1")
+    fit_heights(sheet, 1, 1)
+    assert alone == 10 * LINE_HEIGHT
+    assert sheet.row_dimensions[1].height == 3 * LINE_HEIGHT
 
 
 def test_a_long_text_wraps_in_a_row_that_is_high_enough():

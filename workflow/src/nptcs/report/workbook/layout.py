@@ -21,6 +21,9 @@ MOST_LINES = 27
 """Lines of the highest row that a spreadsheet can show (409 points)."""
 
 TOP = Alignment(vertical="top")
+HEADER_OF_NUMBERS = Alignment(horizontal="right", wrap_text=True, vertical="top")
+INDENTED = Alignment(horizontal="left", indent=1, vertical="top")
+INDENTED_WRAPPED = Alignment(horizontal="left", indent=1, vertical="top", wrap_text=True)
 PAGE_WIDTH = 330.0
 """Most characters across a page at which a table is still readable: about 5 points high."""
 
@@ -33,6 +36,7 @@ def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
     worksheet.auto_filter.ref = worksheet.dimensions
     fit_widths(worksheet, 1)
     wrap_long_texts(worksheet, 2)
+    keep_numbers_apart(worksheet, 1)
     page_for_print(worksheet, header=1)
     if fill is SYNTHETIC:
         mark_synthetic(worksheet)
@@ -59,6 +63,20 @@ def wrap_long_texts(worksheet: Worksheet, first: int) -> None:
             _fit_height(worksheet, row)
 
 
+def keep_numbers_apart(worksheet: Worksheet, header: int) -> None:
+    """Put the headers of numbers over them, and a gap between numbers and text to their right."""
+    after_numbers = False
+    for cells in worksheet.iter_cols(min_row=header):
+        values = [cell for cell in cells[1:] if cell.value is not None]
+        numbers = bool(values) and all(cell.data_type == "n" for cell in values)
+        if numbers:
+            cells[0].alignment = HEADER_OF_NUMBERS
+        elif after_numbers:
+            for cell in cells:
+                cell.alignment = INDENTED_WRAPPED if cell.alignment.wrap_text else INDENTED
+        after_numbers = numbers
+
+
 def fit_heights(worksheet: Worksheet, first: int, last: int) -> None:
     """Make rows high enough for their wrapped cells; programs do so only when a cell is edited."""
     for row in worksheet.iter_rows(min_row=first, max_row=last):
@@ -69,9 +87,19 @@ def _fit_height(worksheet: Worksheet, row: Sequence[Cell]) -> None:
     lines = 1
     for cell in row:
         if cell.value is not None and cell.alignment.wrap_text:
-            width = int(worksheet.column_dimensions[cell.column_letter].width) - 1
+            width = int(_width_of(worksheet, cell)) - 1
             lines = max(lines, _lines(str(cell.value), width))
     worksheet.row_dimensions[row[0].row].height = LINE_HEIGHT * min(lines, MOST_LINES)
+
+
+def _width_of(worksheet: Worksheet, cell: Cell) -> float:
+    """Width of a cell, or of the cells that it is merged with."""
+    span = next(
+        (one for one in worksheet.merged_cells.ranges if cell.coordinate in one),
+        None,
+    )
+    columns = [cell.column] if span is None else range(span.min_col, span.max_col + 1)
+    return sum(worksheet.column_dimensions[get_column_letter(one)].width for one in columns)
 
 
 def page_for_print(worksheet: Worksheet, header: int | None, area: str = "") -> None:

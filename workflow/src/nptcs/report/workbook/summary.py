@@ -31,7 +31,12 @@ from nptcs.report.workbook.cells import (
     write,
     write_row,
 )
-from nptcs.report.workbook.layout import fit_heights, page_for_print
+from nptcs.report.workbook.layout import (
+    HEADER_OF_NUMBERS,
+    INDENTED_WRAPPED,
+    fit_heights,
+    page_for_print,
+)
 from nptcs.report.workbook.number_formats import format_of_number
 from nptcs.tables.analysis.decisions import DecisionConfirmation, Decisions, DecisionStatus
 from nptcs.tables.analysis.uncertainty import ResponseUncertainty
@@ -41,8 +46,8 @@ TITLE = "Summary"
 FINDING_HEAD = (
     translatable("question"),
     translatable("answer"),
-    *("", "", "", ""),
     translatable("in words"),
+    *("", "", "", ""),
     translatable("table"),
 )
 ANSWER_HEAD = (
@@ -235,13 +240,12 @@ def _text(value: float) -> str:
 def write_summary(worksheet: Worksheet, results: Results, index: Sequence[IndexRow]) -> None:
     """Write the first sheet: what the run is, its answer, and what each sheet is."""
     worksheet.title = TITLE
-    row = _write_head(worksheet, results)
-    first = row + 1
+    for column, width in enumerate(WIDTHS, start=1):
+        worksheet.column_dimensions[get_column_letter(column)].width = width
+    first = _write_head(worksheet, results) + 1
     row = _write_findings(worksheet, first, results)
     row = _write_answers(worksheet, row + 1, results)
     _write_index(worksheet, row + 1, index)
-    for column, width in enumerate(WIDTHS, start=1):
-        worksheet.column_dimensions[get_column_letter(column)].width = width
     fit_heights(worksheet, first, worksheet.max_row)
     page_for_print(worksheet, None)
 
@@ -283,10 +287,11 @@ def _write_findings(worksheet: Worksheet, top: int, results: Results) -> int:
     head_row(worksheet, top, list(map(tr, FINDING_HEAD)))
     for row, one in enumerate(findings(results), start=top + 1):
         badge = f" ({tr('SYNTHETIC DATA')})" if one.synthetic else ""
-        known = [one.question, one.answer + badge, None, None, None, None, one.words, one.source]
+        known = [one.question, one.answer + badge, one.words, None, None, None, None, one.source]
         write_row(worksheet, row, known)
         for column in range(1, len(FINDING_HEAD) + 1):
             worksheet.cell(row, column).alignment = WRAPPED
+        worksheet.merge_cells(start_row=row, end_row=row, start_column=3, end_column=7)
         worksheet.cell(row, 2).font = Font(name=FONT, bold=True)
         if one.synthetic:
             worksheet.cell(row, 2).fill = SYNTHETIC
@@ -296,6 +301,9 @@ def _write_findings(worksheet: Worksheet, top: int, results: Results) -> int:
 def _write_answers(worksheet: Worksheet, top: int, results: Results) -> int:
     """Write the answers; return the row after them."""
     head_row(worksheet, top, list(map(tr, ANSWER_HEAD)))
+    for column in (3, 4, 5):
+        worksheet.cell(top, column).alignment = HEADER_OF_NUMBERS
+    worksheet.cell(top, 6).alignment = INDENTED_WRAPPED
     for row, one in enumerate(answers(results), start=top + 1):
         known = (one.question, one.answer, one.value, one.low, one.high, one.unit, one.basis)
         write_row(worksheet, row, [*known, one.table])
@@ -305,11 +313,14 @@ def _write_answers(worksheet: Worksheet, top: int, results: Results) -> int:
                 cell.number_format = format_of_number(float(cell.value))
         for column in range(1, len(ANSWER_HEAD) + 1):
             worksheet.cell(row, column).alignment = WRAPPED
+        worksheet.cell(row, 6).alignment = INDENTED_WRAPPED
     return worksheet.max_row + 1
 
 
 def _write_index(worksheet: Worksheet, top: int, index: Sequence[IndexRow]) -> None:
     head_row(worksheet, top, list(map(tr, INDEX_HEAD)))
+    worksheet.cell(top, 3).alignment = HEADER_OF_NUMBERS
+    worksheet.cell(top, 4).alignment = INDENTED_WRAPPED
     for row, one in enumerate(index, start=top + 1):
         synthetic = None if one.synthetic is None else tr("yes") if one.synthetic else tr("no")
         known = [one.name, one.says, one.rows, synthetic, None, one.rule, one.source, one.file]
@@ -322,6 +333,7 @@ def _write_index(worksheet: Worksheet, top: int, index: Sequence[IndexRow]) -> N
         cell.font = LINK
         for column in range(1, len(INDEX_HEAD) + 1):
             worksheet.cell(row, column).alignment = WRAPPED
+        worksheet.cell(row, 4).alignment = INDENTED_WRAPPED
 
 
 def next_to_workbook(file: str) -> str:
