@@ -67,16 +67,20 @@ def run_in_forks(rules):
 
     host = ScriptHost(PYTHON)
     names = dict.fromkeys(Path(rule.script).name for rule in rules if rule.script)
-    host.prepare([SCRIPTS / name for name in names], solvers_in_jobs(rules))
+    solvers = solvers_in_jobs(rules)
+    host.prepare(
+        [SCRIPTS / name for name in names],
+        hashed=dict.fromkeys(one.module for one in solvers),
+        compiled=dict.fromkeys(name for one in solvers for name in one.preload),
+    )
     host_scripts(PythonScript, SCRIPTS, host)
 
 
 def solvers_in_jobs(rules):
-    """Modules of all solvers, if a rule is needed that solves cases."""
+    """Facts about all solvers, if a rule is needed that solves cases."""
     if not any(rule.name.startswith("solve") for rule in rules):
         return []
-    solvers = [one for named in FACTS.solvers.values() for one in named.values()]
-    return list(dict.fromkeys(one.module for one in solvers))
+    return [one for named in FACTS.solvers.values() for one in named.values()]
 
 
 def own_solvers():

@@ -260,21 +260,18 @@ def test_variables_are_those_that_snakemake_sets():
 
 
 @pytest.mark.parametrize("end", [ScriptHost.close, lambda host: host._process.kill()])
-def test_what_cases_import_is_imported_in_advance_and_ends_with_the_host(tmp_path, end):
+def test_what_cases_import_is_imported_in_advance_and_ends_with_the_host(
+    tmp_path, monkeypatch, end
+):
     slow = tmp_path / "slow_to_compile.py"
     slow.write_text(
         "import os, time\nfrom pathlib import Path\n"
         f"Path({str(tmp_path)!r}, 'pid').write_text(str(os.getpid()))\ntime.sleep(60)\n"
     )
-    solver = tmp_path / "solver.py"
-    solver.write_text(
-        f"import sys\nsys.path.append({str(tmp_path)!r})\n"
-        "from nptcs.solvers.published import SOLVER as published\nfrom dataclasses import replace\n"
-        "SOLVER = replace(published, preload=('slow_to_compile',))\n"
-    )
+    monkeypatch.setenv("PYTHONPATH", str(tmp_path))
     host = ScriptHost(sys.executable)
     try:
-        host.prepare([], [str(solver)])
+        host.prepare([], compiled=[slow.stem])
         wait_until((tmp_path / "pid").is_file)
         process = psutil.Process(int((tmp_path / "pid").read_text()))
     finally:

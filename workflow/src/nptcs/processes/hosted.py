@@ -25,7 +25,7 @@ HOST = Path(__file__).with_name("script_host.py")
 GRACE_S = 2.0
 """Time that the host has to end."""
 
-IMPORT, HASH, READY = "import", "hash", "ready"
+IMPORT, HASH, BESIDE = "import", "hash", "import beside"
 """What a host does in advance (`nptcs.processes.script_host.TASKS`)."""
 
 SPECIAL = ("conda_env", "container_img", "env_modules", "bench_record", "shadow_dir")
@@ -60,21 +60,27 @@ class ScriptHost:
         threading.Thread(target=self._listen, daemon=True).start()
         atexit.register(self.close)
 
-    def prepare(self, scripts: Iterable[str | Path], solvers: Iterable[str] = ()) -> None:
+    def prepare(
+        self,
+        scripts: Iterable[str | Path],
+        hashed: Iterable[str] = (),
+        compiled: Iterable[str] = (),
+    ) -> None:
         """Let the host do, when it has nothing else to do, what several scripts would do again.
 
         Parameters
         ----------
         scripts : iterable of str or Path
             What they import is imported.
-        solvers : iterable of str
-            Modules of this package, or files. Their code is hashed (`nptcs.provenance.code_hash`),
-            and what their cases import is imported, and so compiled, in a process of its own.
+        hashed : iterable of str
+            Modules of this package, or files, whose code is hashed (`nptcs.provenance.code_hash`).
+        compiled : iterable of str
+            Modules that compile what they need when they are imported: each is imported in a
+            process of its own, next to the scripts.
         """
-        modules = list(solvers)
-        tasks = [(READY, module) for module in modules]
+        tasks = [(BESIDE, module) for module in compiled]
         tasks += [(IMPORT, str(script)) for script in scripts]
-        tasks += [(HASH, module) for module in modules]
+        tasks += [(HASH, module) for module in hashed]
         with suppress(OSError), self._lock:
             for task in tasks:
                 self._channel.send((None, task, {}))

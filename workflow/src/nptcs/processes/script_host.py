@@ -118,29 +118,26 @@ def hash_code(module: str) -> None:
         code_hash(module)
 
 
-def make_ready(module: str) -> None:
-    """Let a fork import what a solver's cases need, at low priority.
+def import_beside(module: str) -> None:
+    """Let a fork import a module at low priority.
 
-    What is compiled then is kept on disk, so that the processes of the cases only read it.
+    What is compiled then is kept on disk, so that the processes that need it only read it.
     """
     fork = multiprocessing.get_context("fork")
-    fork.Process(target=_import_for_cases, args=(module,), daemon=True).start()
+    fork.Process(target=_import_in_fork, args=(module,), daemon=True).start()
 
 
-def _import_for_cases(module: str) -> None:
+def _import_in_fork(module: str) -> None:
     os.nice(10)
     threading.Thread(target=_end_with_host, daemon=True).start()
-    from nptcs.solvers.registry import load_solver
-
     with suppress(Exception):  # what cannot be imported is for the case to say
-        for name in load_solver(module).preload:
-            importlib.import_module(name)
+        importlib.import_module(module)
 
 
 TASKS: Mapping[str, Callable[[str], None]] = {
     "import": import_for,
     "hash": hash_code,
-    "ready": make_ready,
+    "import beside": import_beside,
 }
 
 

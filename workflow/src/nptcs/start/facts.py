@@ -38,6 +38,7 @@ class SolverFacts:
     case_memory_mb: float
     timeout_s: float
     whole_plates: bool = False
+    preload: tuple[str, ...] = ()
 
     def tables(self) -> dict[str, str]:
         """Name the files that the solver reads, as `SolverOptions.tables`."""

@@ -109,4 +109,5 @@ def _solver(name: str, given: Mapping[str, Any], bulk: bool) -> SolverFacts:
         case_memory_mb=options.case_memory_mb,
         timeout_s=options.timeout_s,
         whole_plates=solver.realise is not None,
+        preload=solver.preload,
     )
