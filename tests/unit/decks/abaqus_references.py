@@ -75,9 +75,9 @@ def _assembly(deck: Deck) -> Iterator[str]:
             if holder is None or label not in holder.positions:
                 yield f"*NSET, {name}: no member {member}"
     for block in deck.assembly.named("TIE"):
-        yield from _unresolved(deck, block, "surfaces", [name for row in block.data for name in row])
+        yield from _unresolved(deck, block, "surfaces", _names(block))
     for block in deck.assembly.named("EMBEDDED ELEMENT"):
-        names = [block.parameters["HOST ELSET"], *(name for row in block.data for name in row)]
+        names = [block.parameters["HOST ELSET"], *_names(block)]
         yield from _unresolved(deck, block, "element_sets", names)
     for block in deck.assembly.named("RIGID BODY"):
         names = [block.parameters["REF NODE"], block.parameters["PIN NSET"]]
@@ -89,7 +89,7 @@ def _contact(deck: Deck) -> Iterator[str]:
     for block in deck.named("CONTACT PAIR"):
         used = [block.parameters["INTERACTION"]]
         yield from _lacking("CONTACT PAIR", "surface interaction", used, interactions)
-        yield from _unresolved(deck, block, "surfaces", [name for row in block.data for name in row])
+        yield from _unresolved(deck, block, "surfaces", _names(block))
 
 
 def _steps(deck: Deck) -> Iterator[str]:
@@ -102,6 +102,10 @@ def _steps(deck: Deck) -> Iterator[str]:
     for block in deck.named("NODE PRINT") + deck.named("NODE OUTPUT"):
         if "NSET" in block.parameters:
             yield from _unresolved(deck, block, "node_sets", [block.parameters["NSET"]])
+
+
+def _names(block: Any) -> list[str]:
+    return [name for row in block.data for name in row]
 
 
 def _unresolved(deck: Deck, block: Any, kind: str, names: Iterable[str]) -> Iterator[str]:

@@ -33,6 +33,7 @@ def load(name):
 shown = load("shown_commands")
 FOLLOWED = load("test_how_to").PAGES
 
+
 def name(page):
     return str(page.relative_to(ROOT))
 

@@ -147,8 +147,7 @@ def scontrol(words: list[str]) -> None:
 
 
 COMMANDS = {
-    command.__name__: command
-    for command in (sbatch, srun, sacct, squeue, scancel, sinfo, scontrol)
+    command.__name__: command for command in (sbatch, srun, sacct, squeue, scancel, sinfo, scontrol)
 }
 
 if __name__ == "__main__":
