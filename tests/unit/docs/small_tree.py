@@ -18,7 +18,7 @@ FILES = ("Makefile", "Snakefile", "pyproject.toml", "constraints.txt", "README.m
 FEW_TESTS = "tests/unit/test_yaml_files.py"
 STAND_INS = {
     "abaqus": ["abaqus"],
-    "slurm": ["sbatch", "srun", "sacct", "squeue", "scancel", "sinfo", "scontrol"],
+    "slurm": ["sbatch", "srun", "sacct", "sinfo", "scontrol"],
 }
 """Commands that take the place of programs that are not here, by their file in `programs`."""
 

@@ -1,16 +1,15 @@
-"""A stand-in for the commands of Slurm: ``slurm.py sbatch …``, ``slurm.py squeue …`` and so on.
+"""A stand-in for the commands of Slurm: ``slurm.py sbatch …``, ``slurm.py sacct …`` and so on.
 
 It takes the options that the plug-ins of Snakemake give, and no others, and prints what they read.
 A job is started at once as a process of this machine; job number `STAND_IN_OUT_OF_MEMORY` runs out
-of memory. `JOBS` has a folder for each job, named by its number, with its name, script, process and
-state; and `submitted.txt`, the words of each submission.
+of memory. `JOBS` has a folder for each job, named by its number, with its name, script and state;
+and `submitted.txt`, the words of each submission.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
-import signal
 import subprocess
 import sys
 from contextlib import suppress
@@ -45,13 +44,12 @@ def sbatch(words: list[str]) -> None:
     number, job = new_job()
     with (JOBS / "submitted.txt").open("a", encoding="utf-8") as file:
         file.write(f"{' '.join(words)}\n")
-    (job / "name").write_text(given.job_name, encoding="utf-8")
     (job / "state").write_text("RUNNING", encoding="utf-8")
     killed = str(number) == os.environ.get("STAND_IN_OUT_OF_MEMORY")
     script = given.wrap or Path(given.script).read_text("utf-8")
     (job / "script").write_text("exit 137" if killed else script, encoding="utf-8")
     with Path(given.output.replace("%j", str(number))).open("wb") as log:
-        process = subprocess.Popen(
+        subprocess.Popen(
             ["sh", "-c", IN_A_JOB, str(job), "OUT_OF_MEMORY" if killed else "FAILED"],
             cwd=given.folder,
             env={**os.environ, "SLURM_JOB_ID": str(number)},
@@ -59,7 +57,7 @@ def sbatch(words: list[str]) -> None:
             stderr=subprocess.STDOUT,
             start_new_session=True,
         )
-    (job / "process").write_text(str(process.pid), encoding="utf-8")
+    (job / "name").write_text(given.job_name, encoding="utf-8")
     print(number)
 
 
@@ -104,34 +102,9 @@ def sacct(words: list[str]) -> None:
     parser.add_argument("-nu", dest="user")
     parser.add_argument("-o", dest="columns", choices=["Account%256"])
     given, _ = parser.parse_known_args(words)  # the plug-in also gives it "| tail -1"
-    if given.name:
-        print_states(given.name)
-
-
-def squeue(words: list[str]) -> None:
-    """Print number and state of the jobs of a name, finished ones too."""
-    parser = argparse.ArgumentParser("squeue", allow_abbrev=False)
-    parser.add_argument("--format", choices=["%i|%T"], required=True)
-    parser.add_argument("--states", choices=["all"], required=True)
-    parser.add_argument("--noheader", action="store_true", required=True)
-    parser.add_argument("--name", required=True)
-    print_states(parser.parse_args(words).name)
-
-
-def print_states(name: str) -> None:
-    for process in JOBS.glob("*/process"):
-        job = process.parent
-        if (job / "name").read_text("utf-8") == name:
-            print(f"{job.name}|{(job / 'state').read_text('utf-8').strip()}")
-
-
-def scancel(words: list[str]) -> None:
-    """End jobs with all their processes."""
-    for number in words:
-        job = JOBS / number
-        with suppress(ProcessLookupError):
-            os.killpg(int((job / "process").read_text("utf-8")), signal.SIGTERM)
-        (job / "state").write_text("CANCELLED", encoding="utf-8")
+    for name in JOBS.glob("*/name"):
+        if name.read_text("utf-8") == given.name:
+            print(f"{name.parent.name}|{(name.parent / 'state').read_text('utf-8').strip()}")
 
 
 def sinfo(words: list[str]) -> None:
@@ -146,9 +119,7 @@ def scontrol(words: list[str]) -> None:
     print(SETTINGS)
 
 
-COMMANDS = {
-    command.__name__: command for command in (sbatch, srun, sacct, squeue, scancel, sinfo, scontrol)
-}
+COMMANDS = {command.__name__: command for command in (sbatch, srun, sacct, sinfo, scontrol)}
 
 if __name__ == "__main__":
     COMMANDS[sys.argv[1]](sys.argv[2:])
