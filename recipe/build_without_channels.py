@@ -141,8 +141,9 @@ def build(channel: Path, folder: Path) -> rattler_build.Package:
 def test(package: rattler_build.Package, channel: Path) -> bool:
     """Run each test of the recipe in an environment of its own; say what it printed."""
     results = package.run_tests(channel=[channel.as_uri()])
+    print(*results[0].output, sep="\n")  # of all tests
     for result in results:
-        print(*result.output, f"test {result.test_index}: passed {result.success}", sep="\n")
+        print(f"test {result.test_index}: passed {result.success}")
     return all(results)
 
 

@@ -35,6 +35,12 @@ def reader():
 
 
 @pytest.fixture(scope="session")
+def references():
+    """What a deck, as read, uses and does not define."""
+    return load("abaqus_references")
+
+
+@pytest.fixture(scope="session")
 def spoke_solver():
     """The tests' own solver for one spoke of a deck; benchmarks read the same file."""
     return load("abaqus_spoke")

@@ -1,10 +1,15 @@
 """What the commands of the finite element route say about input that they cannot use."""
 
+from pathlib import Path
+
 import numpy as np
 import pytest
 
 from nptcs.cli import main
 from nptcs.fe.spoke.equilibrium import SpokeError
+from nptcs.fe.tyre.equilibrium import TyreError
+
+ROOT = Path(__file__).parents[3]
 
 TEN = "spoke_c10_mpa,tension_stiffness_n_per_mm,compression_stiffness_n_per_mm\n1,30.2,13.26\n"
 FIVE = "case,spacing_mm,thickness_mm,angle_deg,stiffness_n_per_mm\n32,15,1.8,45,263.7\n"
@@ -47,6 +52,19 @@ def test_a_tyre_that_is_not_solved_is_one_line_that_says_how_far_it_got(
     said = capsys.readouterr().err
     assert "beyond u_r = -31.0" in said
     assert "Remedy: choose a smaller load" in said
+
+
+def test_a_calibration_with_a_tyre_that_cannot_be_loaded_says_so(monkeypatch, tmp_path, capsys):
+    def fail(*_):
+        raise TyreError("no equilibrium beyond 3200 N", [])
+
+    monkeypatch.setattr("nptcs.fe.calibration.calibrate", fail)
+    published = ROOT / "raw_data/published"
+    tables = ("table10_spoke_stiffness.csv", "table5_plate_doe.csv")
+    assert main(["fe-calibrate", *(str(published / name) for name in tables)]) == 2
+    said = capsys.readouterr().err
+    assert "no equilibrium beyond 3200 N" in said
+    assert "--spoke-c10" in said
 
 
 @pytest.mark.parametrize(

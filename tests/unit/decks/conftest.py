@@ -29,6 +29,12 @@ def deck(text, reader):
     return reader.read_deck(text)
 
 
+@pytest.fixture(scope="session")
+def small_text():
+    """The deck of that case on a small mesh."""
+    return tyre_deck(AbaqusModel(mesh=SMALL), TyreGeometry(), PUBLISHED_PLY, CASE, 5000.0, "small")
+
+
 @pytest.fixture
 def small_deck(reader):
     """Read the deck of another case, by default on a small mesh."""

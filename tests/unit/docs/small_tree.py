@@ -1,8 +1,9 @@
-"""What the commands of the docs need next to a followed tutorial: a study of seconds, a queue."""
+"""What the commands of the docs need next to a followed tutorial: a study of seconds, stand-ins."""
 
 from __future__ import annotations
 
 import os
+import shlex
 import shutil
 import site
 import subprocess
@@ -15,13 +16,29 @@ import yaml
 ROOT = Path(__file__).parents[3]
 FILES = ("Makefile", "Snakefile", "pyproject.toml", "constraints.txt", "README.md", "LICENSE")
 FEW_TESTS = "tests/unit/test_yaml_files.py"
-QUEUE = """#!/bin/sh
-# a stand-in for a queue: it starts the job at once and prints the number of its process
-echo "$*" >> submitted.txt
-for script; do :; done
-sh "$script" > job.log 2>&1 &
-echo $!
-"""
+STAND_INS = {
+    "abaqus": ["abaqus"],
+    "slurm": ["sbatch", "srun", "sacct", "sinfo", "scontrol"],
+}
+"""Commands that take the place of programs that are not here, by their file in `programs`."""
+
+
+COARSE = {
+    "config/solvers/fe.py": {
+        "(1, 2, 4, 1, 1, 1),": "(1, 1, 1, 1, 1, 1),",
+        "gap_columns: int = Field(2,": "gap_columns: int = Field(1,",
+        "(-40.0, 8.0),": "(-24.0, 6.0),",
+        "(7, 3, 3),": "(4, 3, 3),",
+        "(11, 5), description": "(5, 4), description",
+        "around: int = Field(PAPER_COLUMNS,": "around: int = Field(120,",
+        "load_steps: int = Field(10,": "load_steps: int = Field(2,",
+    },
+    "fe/spoke/pull.py": {
+        "tension_steps: int = 8, compression_steps: int = 10": "tension_steps: int = 2, "
+        "compression_steps: int = 4",
+    },
+}
+"""Defaults of the finite elements, and what `coarsen` puts in their place."""
 
 
 def complete(tree: Path) -> None:
@@ -31,10 +48,32 @@ def complete(tree: Path) -> None:
     (tree / FEW_TESTS).parent.mkdir(parents=True)
     shutil.copy2(ROOT / FEW_TESTS, tree / FEW_TESTS)
     subprocess.run(["git", "init", "-q"], cwd=tree, check=True)
-    queue = tree / "queue" / "sbatch"
-    queue.parent.mkdir()
-    queue.write_text(QUEUE, encoding="utf-8")
-    queue.chmod(0o755)
+    for file, commands in STAND_INS.items():
+        for command in commands:
+            stand_in(tree / "programs" / command, file)
+
+
+def stand_in(command: Path, file: str) -> None:
+    """Write a command that starts a file of `programs`, which gets the name if it has several."""
+    command.parent.mkdir(exist_ok=True)
+    words = [sys.executable, str(Path(__file__).with_name("programs") / f"{file}.py")]
+    if len(STAND_INS[file]) > 1:
+        words.append(command.name)
+    jobs = shlex.quote(str(command.parents[1] / "jobs"))
+    line = f'STAND_IN_JOBS={jobs} exec {shlex.join(words)} "$@"'
+    command.write_text(f"#!/bin/sh\n{line}\n", encoding="utf-8")
+    command.chmod(0o755)
+
+
+def submitted(tree: Path) -> list[str]:
+    """Return the words of each submission to the stand-in for Slurm."""
+    return (tree / "jobs/submitted.txt").read_text("utf-8").splitlines()
+
+
+def states(tree: Path) -> list[str]:
+    """Return the states of its jobs in the order of their numbers."""
+    files = sorted((tree / "jobs").glob("*/state"), key=lambda file: int(file.parent.name))
+    return [file.read_text("utf-8").strip() for file in files]
 
 
 def shorten(tree: Path) -> None:
@@ -56,6 +95,20 @@ def shorten(tree: Path) -> None:
         {name: coarse[name] for name in ("spoke_mesh", "table", "load_steps")},
     )
     write(tree / "config/joint.yaml", joint)
+
+
+def coarsen(tree: Path) -> None:
+    """Give the finite elements of a copy of the package the coarsest meshes and tables that work.
+
+    For a command that reads no configuration, and so takes the defaults.
+    """
+    for file, numbers in COARSE.items():
+        path = tree / "workflow/src/nptcs" / file
+        text = path.read_text("utf-8")
+        for default, coarse in numbers.items():
+            assert text.count(default) == 1, f"{file}: {default!r} is there {text.count(default)}×"
+            text = text.replace(default, coarse)
+        path.write_text(text, encoding="utf-8")
 
 
 def merge(into: dict[str, Any], other: dict[str, Any]) -> None:
@@ -84,7 +137,7 @@ def shell(lines: list[str], tree: Path, code: int = 0, **variables: str) -> str:
     environment = {
         **os.environ,
         "PATH": os.pathsep.join(
-            [str(tree / "queue"), str(Path(sys.executable).parent), os.environ["PATH"]]
+            [str(tree / "programs"), str(Path(sys.executable).parent), os.environ["PATH"]]
         ),
         "PYTHONPATH": os.pathsep.join([str(tree / "workflow/src"), *site.getsitepackages()]),
         "PIP_NO_INDEX": "1",

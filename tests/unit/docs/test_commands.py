@@ -1,14 +1,12 @@
-"""Every command that the docs show in a block is run by a test; three cannot be run here.
+"""Every command that the docs show in a block is run by a test.
 
 `test_how_to.py` follows the tutorial and the how-to pages and so runs what they show. A command of
 any other page, or of a page that is not followed, must be a text that a test hands to its function
-`shell`, or be listed in `NOT_RUN` with the reason. Each command, run or not, must be one that its
-program takes.
+`shell`. Each command must be one that its program takes, also where a stand-in runs it.
 """
 
 import ast
 import importlib.util
-import re
 import shlex
 from pathlib import Path
 
@@ -34,13 +32,6 @@ def load(name):
 
 shown = load("shown_commands")
 FOLLOWED = load("test_how_to").PAGES
-
-NOT_RUN = {
-    "abaqus job=tyre input=tyre.inp datacheck interactive": "Abaqus needs a licence",
-    "nptcs fe-calibrate raw_data/published/table10_spoke_stiffness.csv "
-    "raw_data/published/table5_plate_doe.csv --ring paper_mesh": "takes long",
-    "snakemake --workflow-profile profiles/slurm": "needs Slurm: tests/slurm/cluster.py runs it",
-}
 
 
 def name(page):
@@ -79,16 +70,15 @@ def texts_for_the_shell(module):
     ]
 
 
-def test_every_command_of_a_block_is_run_or_says_why_not(blocks):
+def test_every_command_of_a_block_is_run(blocks):
     run = run_by_following() | run_by_tests()
-    others = {
+    not_run = {
         command: page
         for page, commands in blocks.items()
         for command in commands
         if command not in run
     }
-    assert {c: page for c, page in others.items() if c not in NOT_RUN} == {}
-    assert set(NOT_RUN) - set(others) == set(), "no page shows these any longer"
+    assert not_run == {}
 
 
 @pytest.mark.parametrize("page", PAGES, ids=name)
@@ -111,12 +101,6 @@ def test_the_examples_of_the_command_line_are_commands():
 def test_only_what_is_handed_to_the_shell_counts():
     module = ast.parse("said = 'make run'\nshell(tree, 'nptcs run', code=0)\nother('make setup')")
     assert texts_for_the_shell(module) == ["nptcs run"]
-
-
-def test_each_test_that_runs_a_command_instead_exists():
-    named = re.findall(r"tests/[\w/]+\.py", " ".join(NOT_RUN.values()))
-    assert named
-    assert [test for test in named if not (ROOT / test).is_file()] == []
 
 
 def test_no_command_is_shown_in_a_block_without_a_language():

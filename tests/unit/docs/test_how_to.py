@@ -122,9 +122,30 @@ def test_a_queue_solves_a_new_study(april):
         "--time={resources.runtime} --output=results/logs/slurm_%j.log' "
         "--cluster-generic-cancel-cmd scancel",
     )
-    submitted = (april / "submitted.txt").read_text("utf-8").splitlines()
+    submitted = small_tree.submitted(april)
     assert len(submitted) == 3  # the cases of two solvers and the decisions
     assert all(re.search(r"--mem=\d+ --time=\d+ ", line) for line in submitted)
+    shutil.rmtree(april / "jobs")
+
+
+def test_slurm_solves_a_batch_and_retries_it_with_more_memory(april):
+    """Stand-ins for the commands of Slurm get the jobs; the first one runs out of memory."""
+    shutil.rmtree(april / "results/5_solve/rubber/lca")
+    (april / "results/tables/cases.csv").unlink()
+    profile = april / "profiles/slurm/config.yaml"
+    often = profile.read_text("utf-8").replace("status-checks: 15", "status-checks: 2")
+    profile.write_text(often, encoding="utf-8")
+    printed = shell(
+        april, "snakemake --workflow-profile profiles/slurm", STAND_IN_OUT_OF_MEMORY="1"
+    )
+    assert "status is: 'OUT_OF_MEMORY'" in printed
+    submitted = small_tree.submitted(april)
+    rules = [re.search(r"--comment (\w+)", line)[1] for line in submitted]
+    assert rules == [*["rule_solve_wildcards_rubber_lca_1"] * 2, "rule_decide"]
+    first, second, _ = (int(re.search(r"--mem (\d+)", line)[1]) for line in submitted)
+    assert second > first
+    assert small_tree.states(april) == ["OUT_OF_MEMORY", "COMPLETED", "COMPLETED"]
+    assert (april / "results/5_solve/rubber/lca/batch_1.jsonl").is_file()
 
 
 def test_the_reports_page_is_the_laboratorys(april):
@@ -153,6 +174,30 @@ def test_a_deck_is_written_for_a_case_of_the_run(april):
         "results/material_card.json --ply cfrp --spacing 15 --thickness 1.8 --angle 45 -o tyre.inp",
     )
     assert "*HEADING" in (april / "tyre.inp").read_text("utf-8").upper()
+
+
+def test_a_stand_in_for_abaqus_checks_that_deck(april):
+    printed = shell(april, "abaqus job=tyre input=tyre.inp datacheck interactive")
+    assert "Abaqus JOB tyre COMPLETED" in printed
+    assert (april / "tyre.dat").read_text("utf-8") == ""
+
+
+@pytest.mark.parametrize(
+    ("line", "instead", "fault"),
+    [
+        ("*ELSET, ELSET=BANDFOOT", "*ELSET, ELSET=OTHER", "*SURFACE: no element set BANDFOOT"),
+        ("*MATERIAL, NAME=CFRP", "*MATERIAL, NAME=GFRP", "*SHELL SECTION: no material CFRP"),
+        ("*NSET, NSET=RIM-REF", "*NSET, NSET=RIM-REF\n999", "*NSET, RIM-REF: no member 999"),
+        ("*STATIC", "*STATICS", "*STATICS is not a keyword"),
+        ("*END ASSEMBLY", "** *END ASSEMBLY", "at level assembly"),
+    ],
+)
+def test_a_deck_with_a_fault_does_not_pass(april, line, instead, fault):
+    deck = (april / "tyre.inp").read_text("utf-8")
+    assert deck.count(f"\n{line}\n") == 1
+    (april / "broken.inp").write_text(deck.replace(f"\n{line}\n", f"\n{instead}\n"), "utf-8")
+    shell(april, "abaqus job=broken input=broken.inp datacheck interactive", code=1)
+    assert fault in (april / "broken.dat").read_text("utf-8")
 
 
 def test_two_runs_are_compared(april):

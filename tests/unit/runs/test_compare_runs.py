@@ -1,20 +1,15 @@
 """Two runs compared: what differs is named, what cannot be compared is reported."""
 
-import io
 import json
 import shutil
 import zipfile
-from dataclasses import replace
 
 import numpy as np
-import openpyxl
 import pandas as pd
 import pytest
 
 from nptcs.cli import main
 from nptcs.errors import InputError
-from nptcs.report.comparison.page import comparison_page, differing
-from nptcs.report.comparison.workbook import comparison_workbook
 from nptcs.runs.all_tables import described
 from nptcs.runs.compare import compare_runs
 from nptcs.runs.constants import beyond
@@ -274,31 +269,6 @@ def test_the_terminal_shows_what_differs_and_nothing_else(march, april, capsys):
     assert "c10_mpa of rubber_88A by +5.80 % (6.0 times the combined standard error)" in said
     assert "Configuration: " in said
     assert "rubber_75A-1.csv" not in said
-
-
-def test_page_and_workbook_show_the_same_rows(rubber):
-    page = comparison_page(rubber)
-    assert page.count("<section") == 1 + len(rubber.parts)
-    assert "SYNTHETIC DATA" in page
-    assert "tested_002" in page
-    assert "tested_001" not in page
-    workbook = openpyxl.load_workbook(io.BytesIO(comparison_workbook(rubber)))
-    assert workbook.sheetnames == ["Summary", *(part.name for part in rubber.parts)]
-    for part in rubber.parts:
-        sheet = workbook[part.name]
-        assert sheet.max_row == 1 + len(part.table)
-        names = [cell.value.split(" [")[0] for cell in sheet[1]]
-        results = [row[names.index("result")].value for row in sheet.iter_rows(min_row=2)]
-        assert results == [str(one) for one in part.table[RESULT]]
-
-
-def test_a_long_text_of_all_differing_rows_is_not_lost(rubber):
-    part = rubber.part("stiffness")
-    design = ", ".join(f"factor_{number}_mm {number}" for number in range(1, 7))
-    view = differing(replace(part, table=part.table.assign(design_a=design)), True)
-    assert len(view.notes) == 1
-    assert view.notes[0].endswith(design)
-    assert (view.synthetic, view.all_rows) == (True, 3)
 
 
 def test_archives_are_compared_and_a_damaged_one_is_named(march, april, tmp_path, capsys):

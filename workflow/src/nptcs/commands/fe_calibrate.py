@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+from functools import partial
 from typing import TYPE_CHECKING, get_args
 
 from nptcs.arguments import (
@@ -106,13 +107,26 @@ def register(subparsers: argparse._SubParsersAction[argparse.ArgumentParser]) ->
 
 
 def run(arguments: argparse.Namespace) -> int:
-    """Calibrate and print."""
+    """Calibrate and print.
+
+    Raises
+    ------
+    InputError
+        As `build_problem`, and if a spoke or a tyre cannot be loaded.
+    """
+    from nptcs.errors import InputError
     from nptcs.fe.calibration import calibrate
+    from nptcs.fe.spoke.equilibrium import SpokeError
+    from nptcs.fe.tyre.equilibrium import TyreError
 
     problem = build_problem(arguments)
-    model = calibrate(
-        problem, arguments.rounds, arguments.workers, lambda state: _report(problem, state)
-    )
+    report = partial(_report, problem)
+    try:
+        model = calibrate(problem, arguments.rounds, arguments.workers, report)
+    except (SpokeError, TyreError) as error:
+        raise InputError(
+            str(error), "choose stiffer rubbers (--band-c10, --spoke-c10) or other --cases"
+        ) from error
     print(model.model_dump_json(include={"ring", "geometry"}, indent=2))
     return 0
 

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -14,7 +14,7 @@ from nptcs.report.blocks import LONG, Cell, TableView
 from nptcs.report.tables.column_words import column_words
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
-from nptcs.report.tables.names import in_symbols, in_words
+from nptcs.report.tables.names import in_headings, in_symbols, in_words, known_in_words
 from nptcs.report.tables.row_classes import RowClass, no_row
 from nptcs.report.tables.sheets import Sheet
 from nptcs.report.text import DIGITS, number_text, rounded
@@ -62,6 +62,27 @@ WITH_NAMES = frozenset(
 )
 """Columns that hold names of factors, properties, responses and rules, alone or in a text."""
 
+COLUMN_NAMES = "names of columns"
+"""Kind of a column that holds names of columns with commas between them."""
+
+SENTENCE = "sentence"
+"""Kind of a column that holds sentences which may name factors, and files and specimens too."""
+
+WRITERS = {
+    **dict.fromkeys(WITH_NAMES, in_words),
+    **dict.fromkeys(TERMS, in_symbols),
+    COLUMN_NAMES: in_headings,
+    SENTENCE: known_in_words,
+}
+"""How the names in a column are written, by the kind of the column."""
+
+Kind = Callable[[str, Mapping[str, object]], str]
+
+
+def own_kind(column: str, record: Mapping[str, object]) -> str:
+    """Return the kind of a column of the report: its name."""
+    return column
+
 
 WHOLE_ROWS = 24
 """Rows of the longest table that the page shows in full; the CSV file has all rows."""
@@ -82,6 +103,7 @@ def table_view(
     mark: RowClass = no_row,
     synthetic: bool = False,
     whole: bool = False,
+    kind: Kind = own_kind,
 ) -> TableView:
     """Write a table for the page.
 
@@ -103,6 +125,8 @@ def table_view(
         Whether it shows synthetic data.
     whole : bool
         Whether all rows are shown, of a long table too.
+    kind : callable
+        Names, for a column and a row, the column of the report whose words it holds.
     """
     filled = [name for name in columns or map(str, table.columns) if not _is_empty(table[name])]
     shared = [name for name in filled if _is_one_text(table[name])]
@@ -110,7 +134,8 @@ def table_view(
     rows = []
     for record in (table if whole else on_page(table, mark)).to_dict("records"):
         named = {str(key): value for key, value in record.items()}
-        rows.append((mark(named), tuple(_written(column, named, entry) for column in shown)))
+        cells = (_written(one, named, entry, kind(one.name, named)) for one in shown)
+        rows.append((mark(named), tuple(cells)))
     return TableView(
         entry,
         caption or tr(entry.title),
@@ -120,10 +145,7 @@ def table_view(
         synthetic,
         len(table),
         tuple(column.name for column in shown),
-        notes=tuple(
-            f"{heading(name, entry.headings).name}: {column_words(name, table[name].iloc[0])}"
-            for name in shared
-        ),
+        notes=tuple(_note(name, table, entry, kind) for name in shared),
     )
 
 
@@ -154,13 +176,21 @@ def _columns(
     ]
 
 
-def _written(column: _Column, record: Mapping[str, object], entry: Entry) -> Cell:
+def _written(column: _Column, record: Mapping[str, object], entry: Entry, kind: str) -> Cell:
     """Write one cell: a name in words, or a value."""
     value = record[column.name]
-    if column.name in (*WITH_NAMES, *TERMS) and not column.is_number:
-        return _named(column.name, value, entry)
+    if kind in WRITERS and not column.is_number:
+        return _named(kind, value, entry)
     error = record.get(column.error)
-    return _cell(column_words(column.name, value), column.digits, column.is_number, error)
+    return _cell(column_words(kind, value), column.digits, column.is_number, error)
+
+
+def _note(column: str, table: pd.DataFrame, entry: Entry, kind: Kind) -> str:
+    """Write the text that all rows of a column share."""
+    record = {str(name): value for name, value in table.iloc[0].items()}
+    of_kind = kind(column, record)
+    cell = _written(_Column(column, False, DIGITS, ""), record, entry, of_kind)
+    return f"{heading(column, entry.headings).name}: {cell.text}"
 
 
 def on_page(table: pd.DataFrame, mark: RowClass) -> pd.DataFrame:
@@ -227,11 +257,10 @@ def _error_column(name: str, table: pd.DataFrame) -> str:
     return found[0] if found else ""
 
 
-def _named(column: str, value: object, entry: Entry) -> Cell:
+def _named(kind: str, value: object, entry: Entry) -> Cell:
     """Write a text with the names that people use; the names in the file come on hover."""
-    text = "" if value is None or value is pd.NA else str(column_words(column, value))
-    write = in_symbols if column in TERMS else in_words
-    words_of_it = write(text, entry.factors)
+    text = "" if value is None or value is pd.NA else str(column_words(kind, value))
+    words_of_it = WRITERS[kind](text, entry.factors)
     return Cell(words_of_it, name_in_file="" if words_of_it == text else text)
 
 

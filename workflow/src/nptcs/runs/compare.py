@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 
 from nptcs.language import tr, tr_count
 from nptcs.runs.all_tables import compare_tables
@@ -14,6 +15,7 @@ from nptcs.runs.part import RESULT, Found, Part
 from nptcs.runs.ranking import compare_ranking
 from nptcs.runs.settings import compare_configuration, compare_software
 from nptcs.runs.stiffness import SUMMARY, compare_stiffness, stiffness_summary
+from nptcs.tables.result_table import Heading
 
 WITHIN = 1e-9
 """Relative difference up to which numbers are the same."""
@@ -38,6 +40,8 @@ class ComparedRuns:
         Whether any material of either run rests on synthetic specimens.
     k, within : float
         Coverage factor, and relative difference up to which numbers are the same.
+    factors : mapping of str to Heading
+        Label and unit of each factor of either run; that of B counts.
     """
 
     a: str
@@ -47,6 +51,7 @@ class ComparedRuns:
     synthetic: bool
     k: float = K
     within: float = WITHIN
+    factors: Mapping[str, Heading] = field(default_factory=dict)
 
     @property
     def same(self) -> bool:
@@ -190,4 +195,5 @@ def compare_runs(
         synthetic=any(one.synthetic for card in cards for one in card.values()),
         k=k,
         within=within,
+        factors={**a.factors, **b.factors},
     )

@@ -18,6 +18,7 @@ from nptcs.runs.content import CARD, FILES, laboratory_files
 from nptcs.runs.identity import RunIdentity, hash_of_table
 from nptcs.tables.catalogue import result_files
 from nptcs.tables.laboratory.material_card import MaterialCard
+from nptcs.tables.result_table import Heading
 from nptcs.yaml_files import read_yaml
 
 IDENTITY = "identity.json"
@@ -60,6 +61,16 @@ class FinishedRun:
     def studies(self) -> dict[str, dict[str, Any]]:
         """The studies of the configuration by name."""
         return {str(one["name"]): one for one in self.configuration.get("studies", [])}
+
+    @property
+    def factors(self) -> dict[str, Heading]:
+        """Label and unit of each factor; the first study's label counts."""
+        found: dict[str, Heading] = {}
+        for study in self.studies.values():
+            for one in study.get("factors", []):
+                unit = "°" if one.get("unit") == "deg" else str(one.get("unit", ""))
+                found.setdefault(str(one["name"]), Heading(str(one.get("label", "")), unit))
+        return {name: label for name, label in found.items() if label.name}
 
     @property
     def language(self) -> Language:

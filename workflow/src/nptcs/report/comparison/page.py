@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
+from functools import partial
 from importlib import resources
 
 import pandas as pd
@@ -10,11 +12,14 @@ from markupsafe import Markup
 
 from nptcs.language import current_language, tr
 from nptcs.report.blocks import TableView
-from nptcs.report.comparison.parts import TITLE, mark_row, part_sheet
+from nptcs.report.comparison.parts import TITLE, cell_kind, mark_row, part_sheet
 from nptcs.report.page_templates import page_environment
 from nptcs.report.table_view import table_view
+from nptcs.report.tables.headings import heading
+from nptcs.report.tables.names import known_in_words
 from nptcs.runs.compare import ComparedRuns
 from nptcs.runs.part import Part
+from nptcs.tables.result_table import Heading
 
 MOST_ROWS = 200
 """Rows of a table that the page shows."""
@@ -42,21 +47,29 @@ def comparison_page(done: ComparedRuns) -> str:
             title=tr(TITLE),
             language=current_language(),
             done=done,
-            parts=[(part, differing(part, done.synthetic)) for part in done.parts],
+            parts=[(part, differing(part, done.synthetic, done.factors)) for part in done.parts],
+            in_words=partial(known_in_words, labels=names_in_sentences(done)),
             style=_resource("report.css"),
             script=_resource("page.js"),
         )
     )
 
 
-def differing(part: Part, synthetic: bool) -> TableView | None:
-    """Return the rows of a part that differ; none if there are none."""
+def names_in_sentences(done: ComparedRuns) -> dict[str, Heading]:
+    """Return how factors and material constants are written in a sentence."""
+    constants = done.part("constants").table["constant"]
+    return {**{name: heading(name) for name in constants}, **done.factors}
+
+
+def differing(part: Part, synthetic: bool, factors: Mapping[str, Heading]) -> TableView | None:
+    """Return the rows of a part that differ, with the factors' labels; none if there are none."""
     sheet = part_sheet(part, synthetic)
     rows = sheet.table.loc[part.differences.index]
     if rows.empty:
         return None
     shown = shortened(rows.iloc[:MOST_ROWS])
-    view = table_view(shown, sheet.entry, mark=mark_row, whole=True)
+    entry = sheet.entry.with_factors(factors)
+    view = table_view(shown, entry, mark=mark_row, whole=True, kind=cell_kind)
     return replace(view, synthetic=synthetic, all_rows=len(rows))
 
 

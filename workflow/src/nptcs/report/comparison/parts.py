@@ -7,6 +7,7 @@ from typing import assert_never
 import pandas as pd
 
 from nptcs.language import tr, translatable
+from nptcs.report.table_view import COLUMN_NAMES, SENTENCE
 from nptcs.report.tables.entries import Entry
 from nptcs.report.tables.headings import heading
 from nptcs.report.tables.row_classes import Row
@@ -15,6 +16,19 @@ from nptcs.runs.part import RESULT, Found, Part
 from nptcs.tables.result_table import Heading
 
 TITLE = translatable("Comparison of two runs")
+SIDES = ("a", "b")
+
+
+KINDS = {
+    "columns_only": COLUMN_NAMES,
+    "constant": "property",
+    "largest_in": COLUMN_NAMES,
+    "note": SENTENCE,
+    "numbers_missing_in_one": COLUMN_NAMES,
+    "texts_that_differ": COLUMN_NAMES,
+    "what": COLUMN_NAMES,
+}
+"""Kinds of the columns of a comparison that the report does not have."""
 
 
 def part_sheet(part: Part, synthetic: bool) -> Sheet:
@@ -38,12 +52,26 @@ def side_heading(column: str) -> Heading | None:
     (Heading(name='stiffness A', unit='N/mm'), Heading(name='B', unit=''), None)
     """
     words_of = column.split("_")
-    side = next((letter for letter in ("a", "b") if letter in words_of), None)
+    side = next((letter for letter in SIDES if letter in words_of), None)
     if side is None:
         return None
     rest = "_".join(word for word in words_of if word != side)
     written = heading(rest)
     return Heading(f"{written.name} {side.upper()}".strip(), written.unit)
+
+
+def cell_kind(column: str, row: Row) -> str:
+    """Name the column of the report whose words a cell holds, whichever run it is of.
+
+    Examples
+    --------
+    >>> cell_kind("design_a", {}), cell_kind("b", {"what": "goals"})
+    ('design', 'goals')
+    """
+    if column in SIDES and "what" in row:
+        return str(row["what"])
+    base = "_".join(word for word in column.split("_") if word not in SIDES)
+    return KINDS.get(base, base)
 
 
 def _numbers(table: pd.DataFrame) -> dict[str, type[float]]:

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterable, Mapping
-from functools import partial
+from functools import cache, partial
 
 from nptcs.config.studies.study import Study
 from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.tables.headings import heading
 from nptcs.report.text import number_text
+from nptcs.tables.catalogue import TABLES
 from nptcs.tables.result_table import Heading
 
 NAME = re.compile(
@@ -47,6 +48,42 @@ def in_words(text: str, labels: Mapping[str, Heading]) -> str:
     'E1\xa0± 2040\xa0MPa'
     """
     return NAME.sub(lambda found: _in_words(found, labels), phrases(text))
+
+
+def in_headings(text: str, labels: Mapping[str, Heading]) -> str:
+    """Write names of columns with commas between them as the headings of tables, without units.
+
+    Examples
+    --------
+    >>> in_headings("with_probability, spacing_mm", {"spacing_mm": Heading("spacing S", "mm")})
+    'required probability, spacing S'
+    """
+    known = {**_headings_of_results(), **labels}
+    return ", ".join(heading(name, known).name for name in text.split(", "))
+
+
+@cache
+def _headings_of_results() -> dict[str, Heading]:
+    """Return the headings that the catalogue gives to columns; the first table's counts."""
+    tables = reversed(TABLES.values())
+    return {name: one for table in tables for name, one in table.headings.items()}
+
+
+def known_in_words(text: str, labels: Mapping[str, Heading]) -> str:
+    """Write the names that have a label as people do; any other word may be part of a file's name.
+
+    Examples
+    --------
+    >>> known_in_words("only in A: run_a/spacing_mm.csv; near tie with spacing_mm", {
+    ...     "spacing_mm": Heading("spacing S", "mm"),
+    ... })
+    'only in A: run_a/spacing_mm.csv; near tie with spacing S'
+    """
+    if not labels:
+        return text
+    names = "|".join(map(re.escape, labels))
+    pattern = re.compile(rf"(?<![\w./-])(?:{names})(?![\w/-]|\.\w)")
+    return pattern.sub(lambda found: heading(found[0], labels).name, text)
 
 
 def phrases(text: str) -> str:
