@@ -6,9 +6,10 @@ import pytest
 from nptcs.config.solvers.fe import GroundContact
 from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.kernel.cyclic_elimination import eliminate
+from nptcs.ring.kernel.elementwise import band, ground, places
 from nptcs.ring.kernel.system import NO_FEET
 from nptcs.ring.tyre import ring_tyre
 
@@ -106,23 +107,21 @@ def test_the_core_shears_with_the_wires_axes_not_their_sections(tyre):
     own = tyre.ring.stiffness
     length, slope, zero = 5.0, 1e-3, np.zeros(5)
     turned = np.array([0.0, slope, 0.0, 0.0, 0.0])
-    energy = elementwise.band_energy(
-        own, tyre.ring.hardening, tyre.ring.core, 0.0, length, zero, turned
-    )
+    energy = band.energy(own, tyre.ring.hardening, tyre.ring.core, 0.0, length, zero, turned)
     assert energy == pytest.approx(0.5 * length * (own[4, 4] + own[5, 5]) * slope**2, rel=1e-6)
 
 
 def test_the_contact_law_with_a_compliance_in_series(tyre):
     w = np.array(tyre.ring.dimensions)
-    assert w[elementwise.COMPLIANCE] > 0.05
+    assert w[places.COMPLIANCE] > 0.05
     hard = w.copy()
-    hard[elementwise.COMPLIANCE] = 0.0
+    hard[places.COMPLIANCE] = 0.0
     depth = np.linspace(-0.1, 0.5, 121)
-    pressure, slope, *_ = elementwise.traction(w, depth, 0.0 * depth)
+    pressure, slope, *_ = ground.traction(w, depth, 0.0 * depth)
     assert np.all(pressure[depth <= 0] == 0.0)
     # what the compliance takes away is what the hard law does not see
-    left = depth - w[elementwise.COMPLIANCE] * pressure
-    np.testing.assert_allclose(elementwise.traction(hard, left, 0.0 * left)[0], pressure, atol=1e-9)
+    left = depth - w[places.COMPLIANCE] * pressure
+    np.testing.assert_allclose(ground.traction(hard, left, 0.0 * left)[0], pressure, atol=1e-9)
     numeric = np.gradient(pressure, depth)
     inner = slice(25, -1)
     np.testing.assert_allclose(slope[inner], numeric[inner], rtol=0.05)
@@ -161,5 +160,5 @@ def test_contact_options_reach_the_ring(table):
     own = ring_tyre(
         TyreGeometry(), table, 5.0, RingOptions(contact=contact), kernel="numpy"
     ).ring.dimensions
-    assert own[elementwise.FRICTION] == 0.7
-    assert own[elementwise.STIFF] == 11.0
+    assert own[places.FRICTION] == 0.7
+    assert own[places.STIFF] == 11.0

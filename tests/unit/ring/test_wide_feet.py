@@ -10,9 +10,11 @@ from nptcs.config.solvers.fe import GroundContact
 from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.feet import wide_feet
-from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.kernel.cyclic_elimination import eliminate
+from nptcs.ring.kernel.elementwise import places
+from nptcs.ring.kernel.numpy_spokes import SpokeStates, spoke_states
 from nptcs.ring.tyre import ring_tyre
 
 WIDTH_MM, RADIUS_MM = 16.0, 300.0
@@ -77,20 +79,20 @@ def test_the_squeezed_spoke_is_in_equilibrium_with_the_band(tyre, state):
     u, _ = state
     # these spokes are soft: a band that gives 50 times as much shows what is wrong
     ring = replace(tyre.ring, squeeze=50.0 * tyre.ring.squeeze)
-    found = numpy_kernel.spoke_states(ring, u)
+    found = spoke_states(ring, u)
     stiff = replace(ring, squeeze=np.zeros(2))
-    felt = numpy_kernel.spoke_states(stiff, u).motion
+    felt = spoke_states(stiff, u).motion
     own = np.flatnonzero(tyre.ring.wide.place >= 0)
     soft = np.array([ring.squeeze[0], 0.0, ring.squeeze[1]])[:, None]
     assert np.abs(found.motion - felt)[:, own].max() > 1e-3
 
     def gap(flat):
         motion = flat.reshape(3, -1)
-        push = numpy_kernel.SpokeStates.of(ring, motion).push
+        push = SpokeStates.of(ring, motion).push
         return (motion - felt[:, own] + soft * push).ravel()
 
     exact = root(gap, felt[:, own].ravel(), tol=1e-14).x.reshape(3, -1)
-    push = numpy_kernel.SpokeStates.of(ring, exact).push
+    push = SpokeStates.of(ring, exact).push
     np.testing.assert_allclose(found.push[:, own], push, rtol=1e-7, atol=1e-7 * np.abs(push).max())
     others = tyre.ring.wide.place < 0
     np.testing.assert_array_equal(found.motion[:, others], felt[:, others])
@@ -131,13 +133,13 @@ def test_a_wide_foot_turns_and_moves_with_a_rigid_ring(tyre):
     w, own = ring.dimensions, np.flatnonzero(ring.wide.place >= 0)[0]
     turn, angle = 1e-4, ring.theta[ring.feet[own]]
     place = tyre.nodes.positions(tyre.section.radius_mm)
-    inner = tyre.section.radius_mm - w[elementwise.HALF] - w[elementwise.FOOT]
+    inner = tyre.section.radius_mm - w[places.HALF] - w[places.FOOT]
     middle = inner * np.array([np.sin(angle), -np.cos(angle)])
     u = np.zeros((len(place), 5))
     u[:, :2] = turn * np.stack([-(place - middle)[:, 1], (place - middle)[:, 0]], axis=1)
     u[:, 2:4] = -turn
     free = replace(ring, squeeze=np.zeros(2))
-    motion = numpy_kernel.spoke_states(free, u).motion[:, own]
+    motion = spoke_states(free, u).motion[:, own]
     np.testing.assert_allclose(motion[:2], 0.0, atol=5e-6)
     assert motion[2] == pytest.approx(-turn, rel=0.03)
 

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ring.kernel import elementwise, numpy_kernel
-from nptcs.ring.kernel.elementwise import OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import ground
+from nptcs.ring.kernel.elementwise.places import OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.numpy_kernel import element_variables
 from nptcs.ring.kernel.system import System
 from nptcs.ring.solution import RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre
@@ -174,9 +175,9 @@ class _Contact:
         """Evaluate at a state."""
         ring = tyre.ring
         count = len(ring.theta)
-        mean, difference = numpy_kernel.element_variables(ring, state.u)
-        by_x, by_y = np.zeros((2, VARIABLES, count))
-        elementwise.ground(
+        mean, difference = element_variables(ring, state.u)
+        by_x, by_y, turned = np.zeros((3, VARIABLES, count))
+        ground.forces(
             ring.dimensions,
             ring.middle,
             ring.length_mm,
@@ -186,11 +187,11 @@ class _Contact:
             state.anchor_before,
             by_x,
             by_y,
-            np.zeros((VARIABLES, VARIABLES, count)),
+            turned,
         )
         x, y = tyre.surface(state.u)
         depth = state.rise_mm - ring.dimensions[OUTER] - y
-        pressure, _, _, slide, cross = elementwise.traction(
+        pressure, _, _, slide, cross = ground.traction(
             ring.dimensions, depth, x - state.anchor_before
         )
         touching = (pressure > 0.0).astype(float)
@@ -202,7 +203,7 @@ class _Contact:
 
     def along(self, tyre: RingTyre, push: Array) -> Array:
         """Product of the multipliers (nodes, 5) with ∂x of each element."""
-        mean, difference = numpy_kernel.element_variables(tyre.ring, push)
+        mean, difference = element_variables(tyre.ring, push)
         return np.sum(self.by_x * np.concatenate([mean, difference]), axis=0)
 
     def anchors_back(self, tyre: RingTyre, by_anchor: Array) -> tuple[Array, float, Array]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ring.kernel.elementwise import UNKNOWNS
+from nptcs.ring.kernel.elementwise.places import UNKNOWNS
 from nptcs.ring.kernel.system import System
 from nptcs.ring.tyre import RingTyre
 
