@@ -14,18 +14,20 @@ from nptcs.ring.kernel.elementwise import band, ground
 from nptcs.ring.kernel.elementwise.places import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
 from nptcs.ring.kernel.numpy_solution import solve
 from nptcs.ring.kernel.numpy_spokes import add_spokes
-from nptcs.ring.kernel.system import Ring, System, empty_system
+from nptcs.ring.kernel.system import NO_FEET, Ring, System
 
 __all__ = ["anchors", "assemble", "element_variables", "solve"]
 
 
 def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
     """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
-    system = empty_system(ring)
     mean, difference = element_variables(ring, u)
-    force, tangent = _band(ring, mean, difference)
-    _add_ground(ring, mean, difference, rise, anchor, force, tangent, system)
-    _scatter(ring, force, tangent, system)
+    sides, tangent = _band(ring, mean, difference)
+    reaction = _add_ground(ring, mean, difference, rise, anchor, sides, tangent)
+    coordinates = np.zeros((len(ring.feet), 3))
+    system = System(
+        *_blocks(ring, tangent), *_sides_at_nodes(ring, sides), *reaction, coordinates, NO_FEET
+    )
     if len(ring.feet):
         add_spokes(ring, u, system)
     return system
@@ -50,7 +52,10 @@ def element_variables(ring: Ring, u: Array) -> tuple[Array, Array]:
 
 
 def _band(ring: Ring, mean: Array, difference: Array) -> tuple[Array, Array]:
-    """Give `band.add_element` of all elements: force (10, elements), tangent (10, 10, elements)."""
+    """Give the tangent (10, 10, elements) of `band.add_element`, and its sides (3, 10, elements).
+
+    The sides are the residual, and zeros for the ground's `slope` and `row` of `System`.
+    """
     c, length = ring.stiffness, ring.length_mm
     moved = band.strains(ring.middle, mean, difference)
     e, q, shear, tx, ty = moved
@@ -66,7 +71,8 @@ def _band(ring: Ring, mean: Array, difference: Array) -> tuple[Array, Array]:
     pull[0] = length * stress[0]
     link, across = length * stiff[0, 1:], pull[1] + pull[2]
 
-    force, tangent = np.zeros((VARIABLES, len(e))), np.zeros((VARIABLES, VARIABLES, len(e)))
+    sides = np.zeros((3, VARIABLES, len(e)))
+    force, tangent = sides[0], np.zeros((VARIABLES, VARIABLES, len(e)))
     force[2:7] = np.einsum("kin,kn->in", by, pull)
     force[4] = length * c[6, 6] * mean[4]
     force[7:] = length * stress[1:]
@@ -82,7 +88,7 @@ def _band(ring: Ring, mean: Array, difference: Array) -> tuple[Array, Array]:
     tangent[2:7, 7:] = by[0][:, None] * link
     tangent[7:, 2:7] = tangent[2:7, 7:].swapaxes(0, 1)
     tangent[7:, 7:] = length * stiff[1:, 1:]
-    return force, tangent
+    return sides, tangent
 
 
 def _along_tangent(ring: Ring, e: Array, difference: Array) -> tuple[Array, Array]:
@@ -114,21 +120,23 @@ def _add_ground(
     difference: Array,
     rise: float,
     anchor: Array,
-    force: Array,
+    sides: Array,
     tangent: Array,
-    system: System,
-) -> None:
+) -> tuple[float, float]:
+    """Add the ground to `sides` and tangent; give the reaction and its derivative by the rise."""
     w = ring.dimensions
     y = ground.surface_point(w, ring.middle, ring.length_mm, mean, difference)[1]
-    near = np.flatnonzero(rise - w[OUTER] - y > 0.0)
-    if not len(near):
-        return
-    length = ring.length_mm[near]
-    by_x, by_y, turned = np.zeros((3, VARIABLES, len(near)))
+    deep = rise - w[OUTER] - y > 0.0
+    touching = np.flatnonzero(deep)
+    if not len(touching):
+        return 0.0, 0.0
+    near = slice(touching[0], touching[-1] + 1)
+    deep = deep[near]
+    by_x, by_y, turned = np.zeros((3, VARIABLES, len(deep)))
     push, drag, steep, slide, cross = ground.forces(
         w,
         ring.middle[near],
-        length,
+        ring.length_mm[near],
         mean[:, near],
         difference[:, near],
         rise,
@@ -137,38 +145,42 @@ def _add_ground(
         by_y,
         turned,
     )
-    row = -steep * by_y
-    slope = row + cross * by_x
-    own = by_x[:, None] * (slide * by_x - cross * by_y) - row[:, None] * by_y
+    # an element between two that touch has no pressure; without it there is no shear
+    drag, slide, turned = drag * deep, slide * deep, turned * deep
+    force, slope, row = sides[:, :, near]
+    force += drag * by_x - push * by_y
+    row[:] = -steep * by_y
+    slope[:] = row + cross * by_x
+    own = tangent[:, :, near]
+    own += by_x[:, None] * (slide * by_x - cross * by_y) - row[:, None] * by_y
     own[3] += turned
     own[:, 3] += turned
-    force[:, near] += drag * by_x - push * by_y
-    tangent[:, :, near] += own
-    system.reaction_n, system.reaction_slope = float(np.sum(push)), float(np.sum(steep))
-    after = (near + 1) % len(ring.theta)
-    for target, part in ((system.slope, slope), (system.row, row)):
-        half, by = 0.5 * part[:UNKNOWNS], part[UNKNOWNS:] / length
-        target[near] += (half - by).T
-        target[after] += (half + by).T
+    return float(np.sum(push)), float(np.sum(steep))
 
 
-def _scatter(ring: Ring, force: Array, tangent: Array, system: System) -> None:
-    """Carry means and differences to the two nodes of each element."""
+def _sides_at_nodes(ring: Ring, sides: Array) -> Array:
+    """Carry what acts on means and differences, (n, 10, elements), to the nodes: (n, nodes, 5)."""
+    half, by = 0.5 * sides[:, :UNKNOWNS], sides[:, UNKNOWNS:] / ring.length_mm
+    found = np.ascontiguousarray((half - by).swapaxes(1, 2))
+    after = (half + by).swapaxes(1, 2)
+    found[:, 1:] += after[:, :-1]
+    found[:, 0] += after[:, -1]
+    return found
+
+
+def _blocks(ring: Ring, tangent: Array) -> tuple[Array, Array, Array]:
+    """Carry the elements' tangents to the nodes: diagonal, upper and lower blocks (nodes, 5, 5)."""
     by, n = 1.0 / ring.length_mm, UNKNOWNS
-    half, ends = 0.5 * force[:n], by * force[n:]
-    system.force[:] = (half - ends).T
-    _add_to_next(system.force, (half + ends).T)
     both, ends = 0.25 * tangent[:n, :n], (by * by) * tangent[n:, n:]
     mixed, back = (0.5 * by) * tangent[:n, n:], (0.5 * by) * tangent[n:, :n]
     even, odd = both + ends, mixed + back
-    system.diagonal[:] = (even - odd).transpose(2, 0, 1)
-    _add_to_next(system.diagonal, (even + odd).transpose(2, 0, 1))
+    diagonal = _element_first(even - odd)
+    after = (even + odd).transpose(2, 0, 1)
+    diagonal[1:] += after[:-1]
+    diagonal[0] += after[-1]
     even, odd = both - ends, mixed - back
-    system.upper[:] = (even + odd).transpose(2, 0, 1)
-    system.lower[:] = (even - odd).transpose(2, 0, 1)
+    return diagonal, _element_first(even + odd), _element_first(even - odd)
 
 
-def _add_to_next(target: Array, part: Array) -> None:
-    """Add each element's part to its second node."""
-    target[1:] += part[:-1]
-    target[0] += part[-1]
+def _element_first(part: Array) -> Array:
+    return np.ascontiguousarray(part.transpose(2, 0, 1))

@@ -9,7 +9,7 @@ import numpy as np
 from nptcs.arrays import Array
 from nptcs.ring.kernel.elementwise import foot, spoke_line
 from nptcs.ring.kernel.elementwise.places import UNKNOWNS
-from nptcs.ring.kernel.system import Ring, System
+from nptcs.ring.kernel.system import FootTangent, Ring, System
 
 # second derivatives by (s, β, φ) among those of `SpokePolynomial.evaluate`
 SECOND = np.array([[4, 7, 9], [7, 5, 8], [9, 8, 6]])
@@ -92,11 +92,11 @@ def _softened(soft: Array, stiff: Array) -> Array:
 
 
 def add_spokes(ring: Ring, u: Array, system: System) -> None:
-    """Add all spokes to residual and tangent."""
+    """Add all spokes to residual and tangent; set their coordinates and the wide feet."""
     faces, share = ring.faces, ring.wide.share
     at, count, single = u[faces.nodes].T, len(faces.nodes), len(faces.single)
     spokes = _states(ring, foot.motion(ring.dimensions, faces.angle, at))
-    system.coordinates[:] = spokes.coordinates
+    system.coordinates = spokes.coordinates
     push = np.zeros((3, count))
     push[:, :single] = spokes.push[:, faces.single]
     push[:2, single:] = np.einsum("pic,iw->cwp", share, spokes.push[:, faces.wide]).reshape(2, -1)
@@ -108,5 +108,5 @@ def add_spokes(ring: Ring, u: Array, system: System) -> None:
     tangent[:single] += own.swapaxes(1, 2) @ spokes.stiff[faces.single] @ own
     system.force[faces.nodes] += (push.T[:, None] @ by)[:, 0]
     system.diagonal[faces.nodes] += tangent
-    system.feet.lever[:] = np.einsum("pic,wpca->wpia", share, covered[:, :, :2])
-    system.feet.hold[:] = spokes.stiff[faces.wide]
+    lever = np.einsum("pic,wpca->wpia", share, covered[:, :, :2])
+    system.feet = FootTangent(ring.wide.nodes, lever, spokes.stiff[faces.wide])
