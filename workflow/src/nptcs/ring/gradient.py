@@ -176,23 +176,25 @@ class _Contact:
         ring = tyre.ring
         count = len(ring.theta)
         mean, difference = element_variables(ring, state.u)
+        surface = ground.surface_point(
+            ring.dimensions, ring.middle, ring.length_mm, mean, difference
+        )
         by_x, by_y, turned = np.zeros((3, VARIABLES, count))
         ground.forces(
             ring.dimensions,
             ring.middle,
             ring.length_mm,
             mean,
-            difference,
+            surface,
             state.rise_mm,
             state.anchor_before,
             by_x,
             by_y,
             turned,
         )
-        x, y = tyre.surface(state.u)
-        depth = state.rise_mm - ring.dimensions[OUTER] - y
+        depth = state.rise_mm - ring.dimensions[OUTER] - surface[1]
         pressure, _, _, slide, cross = ground.traction(
-            ring.dimensions, depth, x - state.anchor_before
+            ring.dimensions, depth, surface[0] - state.anchor_before
         )
         touching = (pressure > 0.0).astype(float)
         stiff = ring.dimensions[SLIP_STIFF]

@@ -49,10 +49,10 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             band.along_tangent(stiffness, hardening, moved[0], d, stress, stiff)
             band.add_core_give(core, moved[0], d, stress, stiff)
             band.add_element(stiffness, length[i], m, moved, stress, stiff, force, tangent)
-            y = ground.surface_point(w, middle[i], length[i], m, d)[1]
-            if rise - w[OUTER] - y > 0.0:
+            surface = ground.surface_point(w, middle[i], length[i], m, d)
+            if rise - w[OUTER] - surface[1] > 0.0:
                 push, drag, steep, slide, cross = ground.forces(
-                    w, middle[i], length[i], m, d, rise, anchor[i], by_x, by_y, turned
+                    w, middle[i], length[i], m, surface, rise, anchor[i], by_x, by_y, turned
                 )
                 reaction += push
                 reaction_slope += steep

@@ -125,8 +125,8 @@ def _add_ground(
 ) -> tuple[float, float]:
     """Add the ground to `sides` and tangent; give the reaction and its derivative by the rise."""
     w = ring.dimensions
-    y = ground.surface_point(w, ring.middle, ring.length_mm, mean, difference)[1]
-    deep = rise - w[OUTER] - y > 0.0
+    surface = ground.surface_point(w, ring.middle, ring.length_mm, mean, difference)
+    deep = rise - w[OUTER] - surface[1] > 0.0
     touching = np.flatnonzero(deep)
     if not len(touching):
         return 0.0, 0.0
@@ -138,7 +138,7 @@ def _add_ground(
         ring.middle[near],
         ring.length_mm[near],
         mean[:, near],
-        difference[:, near],
+        [part[near] for part in surface],
         rise,
         anchor[near],
         by_x,

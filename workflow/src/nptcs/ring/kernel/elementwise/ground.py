@@ -90,7 +90,7 @@ def forces(
     angle: Value,
     length: Value,
     m: Value,
-    d: Value,
+    surface: Value,
     rise: Value,
     anchor: Value,
     by_x: Value,
@@ -105,8 +105,10 @@ def forces(
 
     Parameters
     ----------
-    w, angle, length, m, d
+    w, angle, length, m
         As in `surface_point`.
+    surface
+        What `surface_point` returns.
     rise : number
         Of the ground, mm, from where it touches the unloaded tyre.
     anchor : number or array
@@ -123,7 +125,7 @@ def forces(
     tuple
         push and drag (N), steep, slide and cross (N/mm).
     """
-    x, y, reach, shift = surface_point(w, angle, length, m, d)
+    x, y, reach, shift = surface
     pressure, steep, shear, slide, cross = traction(w, rise - w[OUTER] - y, x - anchor)
     area = w[AREA_PER_LENGTH] * length
     push, drag = area * pressure, area * shear
