@@ -142,7 +142,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         """Add all spokes."""
         assert formulas != ""
         w, theta, feet, height, straight, low, high, coefficients, sides = ring
-        place, covered, share, squeeze = wide
+        place, covered, share, squeeze, known, squeezed = wide
         count, terms = coefficients.shape
         degrees = (count, sides[:, 0].max() + 1, sides[:, 1].max() + 1)
         table = height, straight, low, high, coefficients, sides, degrees
@@ -174,16 +174,20 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                     felt[i] += share[p, i, 0] * outward + share[p, i, 1] * along
             # the spoke under the squeeze: as in `numpy_spokes.spoke_states`
             soft_r, soft_turn = squeeze
-            motion = (felt[0], felt[1], felt[2])
+            give = squeezed[own]
+            if not known:
+                motion = (felt[0], felt[1], felt[2])
+                spoke(table, chains, radial, motion, point, push, stiff)
+                give[0], give[2] = wide_foot.squeeze_step(
+                    soft_r, soft_turn, stiff, soft_r * push[0], soft_turn * push[2]
+                )
+            motion = (felt[0] - give[0], felt[1], felt[2] - give[2])
             spoke(table, chains, radial, motion, point, push, stiff)
             by_r, by_turn = wide_foot.squeeze_step(
-                soft_r, soft_turn, stiff, soft_r * push[0], soft_turn * push[2]
+                soft_r, soft_turn, stiff, soft_r * push[0] - give[0], soft_turn * push[2] - give[2]
             )
-            motion = (felt[0] - by_r, felt[1], felt[2] - by_turn)
-            spoke(table, chains, radial, motion, point, push, stiff)
-            by_r, by_turn = wide_foot.squeeze_step(
-                soft_r, soft_turn, stiff, soft_r * push[0] - by_r, soft_turn * push[2] - by_turn
-            )
+            give[0] += by_r
+            give[2] += by_turn
             for i in range(3):
                 push[i] -= stiff[i, 0] * by_r + stiff[i, 2] * by_turn
             wide_foot.squeezed_stiffness(soft_r, soft_turn, stiff, hold[own])
@@ -227,8 +231,13 @@ _elements, _spokes, _rest = _loops(
 _eliminate = njit(**OPTIONS)(eliminate)
 
 
-def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
-    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
+def assemble(
+    ring: Ring, u: Array, rise: float, anchor: Array, squeezed: Array | None = None
+) -> System:
+    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,).
+
+    `squeezed` is that of the iterate before, `System.squeezed`, if there is one.
+    """
     system = empty_system(ring)
     out = (
         system.diagonal,
@@ -262,10 +271,12 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
             ring.coefficients,
             ring.sides,
         )
-        wide = ring.wide
+        wide, known = ring.wide, squeezed is not None
+        if squeezed is not None:
+            system.squeezed[:] = squeezed
         _spokes(
             spokes,
-            (wide.place, wide.nodes, wide.share, ring.squeeze),
+            (wide.place, wide.nodes, wide.share, ring.squeeze, known, system.squeezed),
             u,
             system.coordinates,
             system.diagonal,

@@ -19,17 +19,20 @@ from nptcs.ring.kernel.system import NO_FEET, Ring, System
 __all__ = ["anchors", "assemble", "element_variables", "solve"]
 
 
-def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
-    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
+def assemble(
+    ring: Ring, u: Array, rise: float, anchor: Array, squeezed: Array | None = None
+) -> System:
+    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,).
+
+    `squeezed` is that of the iterate before, `System.squeezed`, if there is one.
+    """
     mean, difference = element_variables(ring, u)
     sides, tangent = _band(ring, mean, difference)
     reaction = _add_ground(ring, mean, difference, rise, anchor, sides, tangent)
-    coordinates = np.zeros((len(ring.feet), 3))
-    system = System(
-        *_blocks(ring, tangent), *_sides_at_nodes(ring, sides), *reaction, coordinates, NO_FEET
-    )
+    spokes = np.zeros((len(ring.feet), 3)), NO_FEET, np.zeros((0, 3))
+    system = System(*_blocks(ring, tangent), *_sides_at_nodes(ring, sides), *reaction, *spokes)
     if len(ring.feet):
-        add_spokes(ring, u, system)
+        add_spokes(ring, u, squeezed, system)
     return system
 
 

@@ -53,36 +53,40 @@ class SpokeStates:
 def spoke_states(ring: Ring, u: Array) -> SpokeStates:
     """Evaluate all spokes; the motions of wide feet are those of the spokes under the squeeze."""
     faces = ring.faces
-    return _states(ring, foot.motion(ring.dimensions, faces.angle, u[faces.nodes].T))
+    return _states(ring, foot.motion(ring.dimensions, faces.angle, u[faces.nodes].T))[0]
 
 
-def _states(ring: Ring, face: tuple[Array, Array, Array]) -> SpokeStates:
-    """Evaluate the spokes at motions of the band's face over `Ring.faces`.
+def _states(
+    ring: Ring, face: tuple[Array, Array, Array], squeezed: Array | None = None
+) -> tuple[SpokeStates, Array]:
+    """Evaluate the spokes at motions of the band's face over `Ring.faces`; give the squeeze, too.
 
     The motion z of a spoke with a wide foot follows from that of the foot, m, by z = m - C E'(z).
-    One step of Newton's method from m solves this to a millionth of the squeeze; the forces take
-    the same linear step.
+    Newton's method starts from the squeeze m - z of the iterate before or, without one, from a
+    step at z = m, which finds the squeeze to a millionth; the forces take the last step, too.
     """
     single, wide = ring.faces.single, ring.faces.wide
     moved = np.stack(face)
     motion = np.empty((3, len(ring.feet)))
     motion[:, single] = moved[:, : len(single)]
     if not len(wide):
-        return SpokeStates.of(ring, motion)
+        return SpokeStates.of(ring, motion), np.zeros((0, 3))
     covered = moved[:2, len(single) :].reshape(2, *ring.wide.nodes.shape)
     felt = np.einsum("pic,cwp->wi", ring.wide.share, covered)
     soft = np.array([ring.squeeze[0], 0.0, ring.squeeze[1]])
-    first = SpokeStates.of(ring, felt.T)
-    gap = soft * first.push.T
-    squeezed = (_softened(soft, first.stiff) @ gap[:, :, None])[:, :, 0]
+    if squeezed is None:
+        first = SpokeStates.of(ring, felt.T)
+        gap = soft * first.push.T
+        squeezed = (_softened(soft, first.stiff) @ gap[:, :, None])[:, :, 0]
     motion[:, wide] = (felt - squeezed).T
     found = SpokeStates.of(ring, motion)
     stiff, push = found.stiff[wide], found.push[:, wide].T
-    hold = stiff @ _softened(soft, stiff)
-    push -= (hold @ (soft * push - squeezed)[:, :, None])[:, :, 0]
-    found.push[:, wide], found.stiff[wide] = push.T, hold
+    softened = _softened(soft, stiff)
+    more = softened @ (soft * push - squeezed)[:, :, None]
+    push -= (stiff @ more)[:, :, 0]
+    found.push[:, wide], found.stiff[wide] = push.T, stiff @ softened
     found.energy[wide] += 0.5 * (push**2 @ soft)
-    return found
+    return found, squeezed + more[:, :, 0]
 
 
 def _softened(soft: Array, stiff: Array) -> Array:
@@ -91,11 +95,12 @@ def _softened(soft: Array, stiff: Array) -> Array:
     return found
 
 
-def add_spokes(ring: Ring, u: Array, system: System) -> None:
-    """Add all spokes to residual and tangent; set their coordinates and the wide feet."""
+def add_spokes(ring: Ring, u: Array, squeezed: Array | None, system: System) -> None:
+    """Add all spokes to residual and tangent; set their coordinates, wide feet and squeeze."""
     faces, share = ring.faces, ring.wide.share
     at, count, single = u[faces.nodes].T, len(faces.nodes), len(faces.single)
-    spokes = _states(ring, foot.motion(ring.dimensions, faces.angle, at))
+    face = foot.motion(ring.dimensions, faces.angle, at)
+    spokes, system.squeezed = _states(ring, face, squeezed)
     system.coordinates = spokes.coordinates
     push = np.zeros((3, count))
     push[:, :single] = spokes.push[:, faces.single]

@@ -150,6 +150,8 @@ class System:
         (s, β, φ) of the spokes.
     feet : FootTangent
         Of the wide feet, which the blocks do not hold.
+    squeezed : array (feet, 3)
+        How far (u_r, u_θ, φ) the band gives way under each wide foot.
     """
 
     diagonal: Array
@@ -162,6 +164,7 @@ class System:
     reaction_slope: float
     coordinates: Array
     feet: FootTangent
+    squeezed: Array
 
     def transposed(self) -> tuple[Array, Array, Array]:
         """Blocks of the transposed matrix: diagonal, upper, lower."""
@@ -179,4 +182,5 @@ def empty_system(ring: Ring) -> System:
     force, slope, row = (np.zeros((nodes, UNKNOWNS)) for _ in range(3))
     coordinates = np.zeros((len(ring.feet), 3))
     feet = FootTangent(wide, np.zeros((*wide.shape, 3, UNKNOWNS)), np.zeros((len(wide), 3, 3)))
-    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, coordinates, feet)
+    squeezed = np.zeros((len(wide), 3))
+    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, coordinates, feet, squeezed)

@@ -59,12 +59,12 @@ def core_give(core: Value, e: Value, d: Value) -> Value:
     """
     pull = core[0] * e + core[1] * d[2] + core[2] * d[3]
     soft = core[CORE_COMPLIANCE]
-    held = soft * core[WIRES_STIFF]
     turn = core[CURVATURE] - d[3]
-    left = 1.0 / (1.0 + held * turn * turn)
-    give = soft * turn * turn * left
-    slope = -2.0 * soft * turn * left * left
-    curve = 2.0 * soft * (1.0 - 3.0 * held * turn * turn) * left * left * left
+    square = turn * turn
+    held = soft * core[WIRES_STIFF] * square
+    left = 1.0 / (1.0 + held)
+    twice = 2.0 * soft * left * left
+    give, slope, curve = soft * square * left, -twice * turn, twice * left * (1.0 - 3.0 * held)
     return pull, give, slope, curve
 
 
