@@ -1,6 +1,7 @@
 """Feet that act over their width: weights of nodes, squeeze of the band, both kernels."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -15,6 +16,7 @@ from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.kernel.cyclic_elimination import eliminate
 from nptcs.ring.kernel.elementwise import places
 from nptcs.ring.kernel.numpy_spokes import SpokeStates, spoke_states
+from nptcs.ring.kernel.system import FootTangent
 from nptcs.ring.tyre import ring_tyre
 
 WIDTH_MM, RADIUS_MM = 16.0, 300.0
@@ -157,6 +159,43 @@ def test_compiled_kernel_gives_the_same_feet(tyre, state):
     for name in ("lever", "hold"):
         one, other = getattr(ours.feet, name), getattr(compiled.feet, name)
         np.testing.assert_allclose(other, one, rtol=0, atol=1e-12 * np.abs(one).max())
+
+
+@pytest.mark.parametrize("kernel", ["numpy", "numba"])
+def test_the_squeeze_of_a_near_iterate_leads_to_the_same_equilibrium(table, state, kernel):
+    """Started from a squeeze that is wrong, the forces are wrong by the square of that."""
+    if kernel == "numba" and not HAS_NUMBA:
+        pytest.skip("needs numba")
+    tyre = ring_tyre(TyreGeometry(), table, 5.0, FINE, kernel=kernel)
+    u, anchor = state
+    alone = tyre.kernel.assemble(tyre.ring, u, RISE, anchor)
+    assert np.abs(alone.squeezed[:, [0, 2]]).min() > 0.0
+    off = []
+    for wrong in (0.1, 0.2):
+        squeezed = alone.squeezed + wrong * np.array([1.0, 0.0, 0.01])
+        found = tyre.kernel.assemble(tyre.ring, u, RISE, anchor, squeezed)
+        off.append(np.abs(found.force - alone.force).max() / np.abs(alone.force).max())
+        assert np.abs(found.squeezed - alone.squeezed).max() < 0.02 * wrong
+    assert off[1] < 1e-3
+    assert off[1] / off[0] == pytest.approx(4.0, rel=0.2)
+    again = tyre.kernel.assemble(tyre.ring, u, RISE, anchor, alone.squeezed)
+    np.testing.assert_allclose(again.force, alone.force, atol=1e-9 * np.abs(alone.force).max())
+
+
+def test_feet_in_a_matrix_whose_rows_must_be_exchanged():
+    random = np.random.default_rng(8)
+    count, nodes = 14, np.array([[5, 6, 7], [9, 10, 11]])
+    blocks = random.normal(size=(3, count, 5, 5))
+    half = random.normal(size=(2, 3, 3))
+    feet = FootTangent(nodes, random.normal(size=(2, 3, 3, 5)), half + half.swapaxes(1, 2))
+    rhs = random.normal(size=(count, 5, 2))
+    found = numpy_kernel.solve(*blocks, rhs, feet)
+    system = SimpleNamespace(
+        **dict(zip(("diagonal", "upper", "lower"), blocks, strict=True)), feet=feet
+    )
+    columns = [product(system, unit.reshape(count, 5)).ravel() for unit in np.eye(5 * count)]
+    expected = np.linalg.solve(np.stack(columns, axis=1), rhs.reshape(-1, 2))
+    np.testing.assert_allclose(found.reshape(-1, 2), expected, atol=1e-9 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("transposed", [False, True])

@@ -29,18 +29,17 @@ RELATIVE_STEP = 2e-7
 
 @dataclass(frozen=True)
 class Gradient:
-    """Displacement and secant stiffness at the last load, and their derivatives.
+    """Displacement and secant stiffness at the last load, and the stiffness's derivatives.
 
     Parameters
     ----------
     displacement_mm, stiffness_n_per_mm : float
-    displacement_slope, stiffness_slope : arrays (parameters,)
-        Derivatives with respect to the parameters, mm and N/mm per unit of the parameter.
+    stiffness_slope : array (parameters,)
+        Derivatives with respect to the parameters, N/mm per unit of the parameter.
     """
 
     displacement_mm: float
     stiffness_n_per_mm: float
-    displacement_slope: Array
     stiffness_slope: Array
 
 
@@ -68,7 +67,7 @@ def stiffness_gradient(
     states = press_through_loads(tyre, loads_n)
     slopes = displacement_slopes(tyre, _neighbours(build, values), states)
     rise, force = states[-1].rise_mm, states[-1].force_n
-    return Gradient(rise, force / rise, slopes, -force / rise**2 * slopes)
+    return Gradient(rise, force / rise, -force / rise**2 * slopes)
 
 
 def _neighbours(

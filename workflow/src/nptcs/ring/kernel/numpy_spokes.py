@@ -41,10 +41,11 @@ class SpokeStates:
         push = (values[1:4].T[:, None] @ by)[:, 0].T
         stiff = by.swapaxes(1, 2) @ second @ by
         bend_s, bend_b = values[1] / length, values[2] / length**2
-        cross = sin * cos
-        stiff[:, 0, 0] += bend_s * sin**2 + 2.0 * bend_b * cross
-        stiff[:, 1, 1] += bend_s * cos**2 - 2.0 * bend_b * cross
-        turn = bend_b * (sin**2 - cos**2) - bend_s * cross
+        sin_sin, sin_cos, cos_cos = sin * sin, sin * cos, cos * cos
+        twist = 2.0 * bend_b * sin_cos
+        stiff[:, 0, 0] += bend_s * sin_sin + twist
+        stiff[:, 1, 1] += bend_s * cos_cos - twist
+        turn = bend_b * (sin_sin - cos_cos) - bend_s * sin_cos
         stiff[:, 0, 1] += turn
         stiff[:, 1, 0] += turn
         return cls(motion, coordinates, values[0], push, stiff)
