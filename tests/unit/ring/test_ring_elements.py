@@ -88,6 +88,25 @@ def test_ground_derivatives_by_rise_and_unknowns(tyre, state):
     np.testing.assert_allclose(system.row.ravel(), row, atol=1e-6 * np.abs(row).max())
 
 
+@pytest.mark.parametrize("kernel", ["numpy", "numba"])
+def test_what_is_lifted_between_two_contacts_feels_no_ground(table, kernel):
+    if kernel == "numba" and not HAS_NUMBA:
+        pytest.skip("needs numba")
+    tyre = ring_tyre(TyreGeometry(), table, 5.0, COARSE, kernel=kernel)
+    u = np.zeros((len(tyre.nodes.theta), 5))
+    lifted = np.abs(np.degrees(tyre.nodes.theta)) < 4
+    u[lifted, 1] = 20.0
+    # without slip the ground's shear would be stiffest
+    anchor = tyre.surface(u)[0]
+    system = tyre.kernel.assemble(tyre.ring, u, 6.0, anchor)
+    above = tyre.kernel.assemble(tyre.ring, u, -50.0, anchor)
+    moved = np.abs(system.diagonal - above.diagonal).max(axis=(1, 2))
+    first, last = np.flatnonzero(lifted)[[0, -1]]
+    assert moved[first - 1] > 1.0
+    assert moved[last + 1] > 1.0
+    np.testing.assert_array_equal(moved[lifted], 0.0)
+
+
 @pytest.mark.parametrize("turn", [0.0, 0.4, -1.3])
 def test_rigid_motion_costs_nothing(tyre, turn):
     place = tyre.nodes.positions(tyre.section.radius_mm)

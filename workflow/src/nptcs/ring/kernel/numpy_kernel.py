@@ -148,8 +148,8 @@ def _add_ground(
         by_y,
         turned,
     )
-    # an element between two that touch has no pressure; without it there is no shear
-    drag, slide, turned = drag * deep, slide * deep, turned * deep
+    # an element between two that touch has no pressure, and so no shear
+    drag, slide = drag * deep, slide * deep
     force, slope, row = sides[:, :, near]
     force += drag * by_x - push * by_y
     row[:] = -steep * by_y
