@@ -29,8 +29,17 @@ def assemble(
     mean, difference = element_variables(ring, u)
     sides, tangent = _band(ring, mean, difference)
     reaction = _add_ground(ring, mean, difference, rise, anchor, sides, tangent)
-    spokes = np.zeros((len(ring.feet), 3)), NO_FEET, np.zeros((0, 3))
-    system = System(*_blocks(ring, tangent), *_sides_at_nodes(ring, sides), *reaction, *spokes)
+    force, slope, row = _sides_at_nodes(ring, sides)
+    system = System(
+        *_blocks(ring, tangent),
+        force,
+        slope,
+        row,
+        *reaction,
+        coordinates=np.zeros((len(ring.feet), 3)),
+        feet=NO_FEET,
+        squeezed=np.zeros((0, 3)),
+    )
     if len(ring.feet):
         add_spokes(ring, u, squeezed, system)
     return system

@@ -84,15 +84,16 @@ def _states(
     stiff, push = found.stiff[wide], found.push[:, wide].T
     softened = _softened(soft, stiff)
     more = softened @ (soft * push - squeezed)[:, :, None]
-    push -= (stiff @ more)[:, :, 0]
-    found.push[:, wide], found.stiff[wide] = push.T, stiff @ softened
     found.energy[wide] += 0.5 * (push**2 @ soft)
+    found.push[:, wide] = (push - (stiff @ more)[:, :, 0]).T
+    found.stiff[wide] = stiff @ softened
     return found, squeezed + more[:, :, 0]
 
 
 def _softened(soft: Array, stiff: Array) -> Array:
     """(1 + C K)⁻¹ of each spoke; C has the squeeze of the band, K is the spoke's stiffness."""
-    found: Array = np.linalg.inv(np.eye(3) + soft[:, None] * stiff)
+    found: Array = np.eye(3) + soft[:, None] * stiff
+    found[:] = np.linalg.inv(found)
     return found
 
 
