@@ -60,12 +60,13 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                     force[a] += drag * by_x[a] - push * by_y[a]
                     row[a] = -steep * by_y[a]
                     slope[a] = row[a] + cross * by_x[a]
-                    tangent[3, a] += turned[a]
-                    tangent[a, 3] += turned[a]
                     for b in range(VARIABLES):
                         tangent[a, b] += (
                             slide * by_x[a] * by_x[b] - cross * by_x[a] * by_y[b]
                         ) - row[a] * by_y[b]
+                for a in range(2, VARIABLES):
+                    tangent[3, a] += turned[a]
+                    tangent[a, 3] += turned[a]
                 for a in range(UNKNOWNS):
                     b = a + UNKNOWNS
                     slope_out[i, a] += 0.5 * slope[a] - slope[b] * by
