@@ -5,7 +5,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.ring.kernel import elementwise
+from nptcs.ring.kernel.elementwise import band
 from nptcs.ring.rubber import Rubber
 from nptcs.ring.section import ring_section
 
@@ -103,11 +103,11 @@ def test_energy_and_its_derivatives():
     section = ring_section(TYRE, BAND, TREAD, 0.05, FOOT_MM)
     e, d = 2e-4, np.array([0.0, 0.0, 3e-4, 1e-3, 0.0])
     stress, stiff = np.zeros(4), np.zeros((4, 4))
-    elementwise.add_core_give(section.core, e, d, stress, stiff)
+    band.add_core_give(section.core, e, d, stress, stiff)
 
     def energy(v):
         own = np.array([0.0, 0.0, v[1], v[2], 0.0])
-        pull, give, _, _ = elementwise.core_give(section.core, v[0], own)
+        pull, give, _, _ = band.core_give(section.core, v[0], own)
         return -0.5 * give * pull**2
 
     def least(v):
@@ -127,4 +127,4 @@ def test_energy_and_its_derivatives():
     np.testing.assert_allclose(stress[:3], slopes, rtol=1e-6)
     # on a straight wire nothing presses
     flat = np.array([0.0, 0.0, 3e-4, section.core[5], 0.0])
-    assert elementwise.core_give(section.core, e, flat)[1] == 0.0
+    assert band.core_give(section.core, e, flat)[1] == 0.0

@@ -6,9 +6,10 @@ import pytest
 from nptcs.config.solvers.fe import GroundContact
 from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
-from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.kernel.cyclic_elimination import eliminate
+from nptcs.ring.kernel.elementwise import band, ground, places
 from nptcs.ring.kernel.system import NO_FEET
 from nptcs.ring.tyre import ring_tyre
 
@@ -87,6 +88,25 @@ def test_ground_derivatives_by_rise_and_unknowns(tyre, state):
     np.testing.assert_allclose(system.row.ravel(), row, atol=1e-6 * np.abs(row).max())
 
 
+@pytest.mark.parametrize("kernel", ["numpy", "numba"])
+def test_what_is_lifted_between_two_contacts_feels_no_ground(table, kernel):
+    if kernel == "numba" and not HAS_NUMBA:
+        pytest.skip("needs numba")
+    tyre = ring_tyre(TyreGeometry(), table, 5.0, COARSE, kernel=kernel)
+    u = np.zeros((len(tyre.nodes.theta), 5))
+    lifted = np.abs(np.degrees(tyre.nodes.theta)) < 4
+    u[lifted, 1] = 20.0
+    # without slip the ground's shear would be stiffest
+    anchor = tyre.surface(u)[0]
+    system = tyre.kernel.assemble(tyre.ring, u, 6.0, anchor)
+    above = tyre.kernel.assemble(tyre.ring, u, -50.0, anchor)
+    moved = np.abs(system.diagonal - above.diagonal).max(axis=(1, 2))
+    first, last = np.flatnonzero(lifted)[[0, -1]]
+    assert moved[first - 1] > 1.0
+    assert moved[last + 1] > 1.0
+    np.testing.assert_array_equal(moved[lifted], 0.0)
+
+
 @pytest.mark.parametrize("turn", [0.0, 0.4, -1.3])
 def test_rigid_motion_costs_nothing(tyre, turn):
     place = tyre.nodes.positions(tyre.section.radius_mm)
@@ -106,23 +126,21 @@ def test_the_core_shears_with_the_wires_axes_not_their_sections(tyre):
     own = tyre.ring.stiffness
     length, slope, zero = 5.0, 1e-3, np.zeros(5)
     turned = np.array([0.0, slope, 0.0, 0.0, 0.0])
-    energy = elementwise.band_energy(
-        own, tyre.ring.hardening, tyre.ring.core, 0.0, length, zero, turned
-    )
+    energy = band.energy(own, tyre.ring.hardening, tyre.ring.core, 0.0, length, zero, turned)
     assert energy == pytest.approx(0.5 * length * (own[4, 4] + own[5, 5]) * slope**2, rel=1e-6)
 
 
 def test_the_contact_law_with_a_compliance_in_series(tyre):
     w = np.array(tyre.ring.dimensions)
-    assert w[elementwise.COMPLIANCE] > 0.05
+    assert w[places.COMPLIANCE] > 0.05
     hard = w.copy()
-    hard[elementwise.COMPLIANCE] = 0.0
+    hard[places.COMPLIANCE] = 0.0
     depth = np.linspace(-0.1, 0.5, 121)
-    pressure, slope, *_ = elementwise.traction(w, depth, 0.0 * depth)
+    pressure, slope, *_ = ground.traction(w, depth, 0.0 * depth)
     assert np.all(pressure[depth <= 0] == 0.0)
     # what the compliance takes away is what the hard law does not see
-    left = depth - w[elementwise.COMPLIANCE] * pressure
-    np.testing.assert_allclose(elementwise.traction(hard, left, 0.0 * left)[0], pressure, atol=1e-9)
+    left = depth - w[places.COMPLIANCE] * pressure
+    np.testing.assert_allclose(ground.traction(hard, left, 0.0 * left)[0], pressure, atol=1e-9)
     numeric = np.gradient(pressure, depth)
     inner = slice(25, -1)
     np.testing.assert_allclose(slope[inner], numeric[inner], rtol=0.05)
@@ -161,5 +179,5 @@ def test_contact_options_reach_the_ring(table):
     own = ring_tyre(
         TyreGeometry(), table, 5.0, RingOptions(contact=contact), kernel="numpy"
     ).ring.dimensions
-    assert own[elementwise.FRICTION] == 0.7
-    assert own[elementwise.STIFF] == 11.0
+    assert own[places.FRICTION] == 0.7
+    assert own[places.STIFF] == 11.0

@@ -1,6 +1,7 @@
 """Feet that act over their width: weights of nodes, squeeze of the band, both kernels."""
 
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -10,9 +11,12 @@ from nptcs.config.solvers.fe import GroundContact
 from nptcs.config.solvers.ring import RingElements, RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.ring.feet import wide_feet
-from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA
 from nptcs.ring.kernel.cyclic_elimination import eliminate
+from nptcs.ring.kernel.elementwise import places
+from nptcs.ring.kernel.numpy_spokes import SpokeStates, spoke_states
+from nptcs.ring.kernel.system import FootTangent
 from nptcs.ring.tyre import ring_tyre
 
 WIDTH_MM, RADIUS_MM = 16.0, 300.0
@@ -77,20 +81,20 @@ def test_the_squeezed_spoke_is_in_equilibrium_with_the_band(tyre, state):
     u, _ = state
     # these spokes are soft: a band that gives 50 times as much shows what is wrong
     ring = replace(tyre.ring, squeeze=50.0 * tyre.ring.squeeze)
-    found = numpy_kernel.spoke_states(ring, u)
+    found = spoke_states(ring, u)
     stiff = replace(ring, squeeze=np.zeros(2))
-    felt = numpy_kernel.spoke_states(stiff, u).motion
+    felt = spoke_states(stiff, u).motion
     own = np.flatnonzero(tyre.ring.wide.place >= 0)
     soft = np.array([ring.squeeze[0], 0.0, ring.squeeze[1]])[:, None]
     assert np.abs(found.motion - felt)[:, own].max() > 1e-3
 
     def gap(flat):
         motion = flat.reshape(3, -1)
-        push = numpy_kernel.SpokeStates.of(ring, motion).push
+        push = SpokeStates.of(ring, motion).push
         return (motion - felt[:, own] + soft * push).ravel()
 
     exact = root(gap, felt[:, own].ravel(), tol=1e-14).x.reshape(3, -1)
-    push = numpy_kernel.SpokeStates.of(ring, exact).push
+    push = SpokeStates.of(ring, exact).push
     np.testing.assert_allclose(found.push[:, own], push, rtol=1e-7, atol=1e-7 * np.abs(push).max())
     others = tyre.ring.wide.place < 0
     np.testing.assert_array_equal(found.motion[:, others], felt[:, others])
@@ -131,13 +135,13 @@ def test_a_wide_foot_turns_and_moves_with_a_rigid_ring(tyre):
     w, own = ring.dimensions, np.flatnonzero(ring.wide.place >= 0)[0]
     turn, angle = 1e-4, ring.theta[ring.feet[own]]
     place = tyre.nodes.positions(tyre.section.radius_mm)
-    inner = tyre.section.radius_mm - w[elementwise.HALF] - w[elementwise.FOOT]
+    inner = tyre.section.radius_mm - w[places.HALF] - w[places.FOOT]
     middle = inner * np.array([np.sin(angle), -np.cos(angle)])
     u = np.zeros((len(place), 5))
     u[:, :2] = turn * np.stack([-(place - middle)[:, 1], (place - middle)[:, 0]], axis=1)
     u[:, 2:4] = -turn
     free = replace(ring, squeeze=np.zeros(2))
-    motion = numpy_kernel.spoke_states(free, u).motion[:, own]
+    motion = spoke_states(free, u).motion[:, own]
     np.testing.assert_allclose(motion[:2], 0.0, atol=5e-6)
     assert motion[2] == pytest.approx(-turn, rel=0.03)
 
@@ -155,6 +159,43 @@ def test_compiled_kernel_gives_the_same_feet(tyre, state):
     for name in ("lever", "hold"):
         one, other = getattr(ours.feet, name), getattr(compiled.feet, name)
         np.testing.assert_allclose(other, one, rtol=0, atol=1e-12 * np.abs(one).max())
+
+
+@pytest.mark.parametrize("kernel", ["numpy", "numba"])
+def test_the_squeeze_of_a_near_iterate_leads_to_the_same_equilibrium(table, state, kernel):
+    """Started from a squeeze that is wrong, the forces are wrong by the square of that."""
+    if kernel == "numba" and not HAS_NUMBA:
+        pytest.skip("needs numba")
+    tyre = ring_tyre(TyreGeometry(), table, 5.0, FINE, kernel=kernel)
+    u, anchor = state
+    alone = tyre.kernel.assemble(tyre.ring, u, RISE, anchor)
+    assert np.abs(alone.squeezed[:, [0, 2]]).min() > 0.0
+    off = []
+    for wrong in (0.1, 0.2):
+        squeezed = alone.squeezed + wrong * np.array([1.0, 0.0, 0.01])
+        found = tyre.kernel.assemble(tyre.ring, u, RISE, anchor, squeezed)
+        off.append(np.abs(found.force - alone.force).max() / np.abs(alone.force).max())
+        assert np.abs(found.squeezed - alone.squeezed).max() < 0.02 * wrong
+    assert off[1] < 1e-3
+    assert off[1] / off[0] == pytest.approx(4.0, rel=0.2)
+    again = tyre.kernel.assemble(tyre.ring, u, RISE, anchor, alone.squeezed)
+    np.testing.assert_allclose(again.force, alone.force, atol=1e-9 * np.abs(alone.force).max())
+
+
+def test_feet_in_a_matrix_whose_rows_must_be_exchanged():
+    random = np.random.default_rng(8)
+    count, nodes = 14, np.array([[5, 6, 7], [9, 10, 11]])
+    blocks = random.normal(size=(3, count, 5, 5))
+    half = random.normal(size=(2, 3, 3))
+    feet = FootTangent(nodes, random.normal(size=(2, 3, 3, 5)), half + half.swapaxes(1, 2))
+    rhs = random.normal(size=(count, 5, 2))
+    found = numpy_kernel.solve(*blocks, rhs, feet)
+    system = SimpleNamespace(
+        **dict(zip(("diagonal", "upper", "lower"), blocks, strict=True)), feet=feet
+    )
+    columns = [product(system, unit.reshape(count, 5)).ravel() for unit in np.eye(5 * count)]
+    expected = np.linalg.solve(np.stack(columns, axis=1), rhs.reshape(-1, 2))
+    np.testing.assert_allclose(found.reshape(-1, 2), expected, atol=1e-9 * np.abs(expected).max())
 
 
 @pytest.mark.parametrize("transposed", [False, True])

@@ -32,6 +32,9 @@ class WideFeet:
         From the foot's middle, rad.
     mean, turn : arrays (nodes of a foot,)
         Weights of each node's displacement in u_r and u_θ, and in φ (1/mm).
+    share : array (nodes of a foot, 3, 2)
+        What the motion of the band's face at a node, outward and along in the node's own
+        directions, contributes to (u_r, u_θ, φ) of the foot.
     """
 
     place: Index
@@ -39,6 +42,7 @@ class WideFeet:
     angle: Array
     mean: Array
     turn: Array
+    share: Array
 
 
 def wide_feet(nodes: RingNodes, radius_mm: float, width_mm: float) -> WideFeet:
@@ -75,11 +79,11 @@ def wide_feet(nodes: RingNodes, radius_mm: float, width_mm: float) -> WideFeet:
     place = np.full(len(nodes.feet), -1, dtype=np.int64)
     place[own] = np.arange(len(own))
     angle: Array = step * offsets.astype(float)
-    mean, turn = _shares(angle, half, radius_mm)
-    return WideFeet(place, covered[own], angle, mean, turn)
+    mean, turn = _weights(angle, half, radius_mm)
+    return WideFeet(place, covered[own], angle, mean, turn, _share(angle, mean, turn))
 
 
-def _shares(angle: Array, half: float, radius_mm: float) -> tuple[Array, Array]:
+def _weights(angle: Array, half: float, radius_mm: float) -> tuple[Array, Array]:
     """Weights of nodes at these angles in the mean over (-half, half), and in the rotation."""
     mean, turn = np.zeros_like(angle), np.zeros_like(angle)
     moment = 0.0
@@ -94,3 +98,10 @@ def _shares(angle: Array, half: float, radius_mm: float) -> tuple[Array, Array]:
             turn[node] += float(weight @ (arm * shape))
         moment += float(weight @ arm**2)
     return mean / (2.0 * half), turn / moment
+
+
+def _share(angle: Array, mean: Array, turn: Array) -> Array:
+    """Give `share` of `WideFeet`: the weights, with each node's directions turned to the foot's."""
+    cos, sin = np.cos(angle), np.sin(angle)
+    radial, along = np.stack([cos, -sin], axis=1), np.stack([sin, cos], axis=1)
+    return np.stack([mean[:, None] * radial, mean[:, None] * along, turn[:, None] * radial], axis=1)

@@ -16,8 +16,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ring.kernel import elementwise, numpy_kernel
-from nptcs.ring.kernel.elementwise import OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import ground
+from nptcs.ring.kernel.elementwise.places import OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.numpy_kernel import element_variables
 from nptcs.ring.kernel.system import System
 from nptcs.ring.solution import RingState, press_through_loads
 from nptcs.ring.tyre import RingTyre
@@ -28,18 +29,17 @@ RELATIVE_STEP = 2e-7
 
 @dataclass(frozen=True)
 class Gradient:
-    """Displacement and secant stiffness at the last load, and their derivatives.
+    """Displacement and secant stiffness at the last load, and the stiffness's derivatives.
 
     Parameters
     ----------
     displacement_mm, stiffness_n_per_mm : float
-    displacement_slope, stiffness_slope : arrays (parameters,)
-        Derivatives with respect to the parameters, mm and N/mm per unit of the parameter.
+    stiffness_slope : array (parameters,)
+        Derivatives with respect to the parameters, N/mm per unit of the parameter.
     """
 
     displacement_mm: float
     stiffness_n_per_mm: float
-    displacement_slope: Array
     stiffness_slope: Array
 
 
@@ -67,7 +67,7 @@ def stiffness_gradient(
     states = press_through_loads(tyre, loads_n)
     slopes = displacement_slopes(tyre, _neighbours(build, values), states)
     rise, force = states[-1].rise_mm, states[-1].force_n
-    return Gradient(rise, force / rise, slopes, -force / rise**2 * slopes)
+    return Gradient(rise, force / rise, -force / rise**2 * slopes)
 
 
 def _neighbours(
@@ -174,24 +174,26 @@ class _Contact:
         """Evaluate at a state."""
         ring = tyre.ring
         count = len(ring.theta)
-        mean, difference = numpy_kernel.element_variables(ring, state.u)
-        by_x, by_y = np.zeros((2, VARIABLES, count))
-        elementwise.ground(
+        mean, difference = element_variables(ring, state.u)
+        surface = ground.surface_point(
+            ring.dimensions, ring.middle, ring.length_mm, mean, difference
+        )
+        by_x, by_y, turned = np.zeros((3, VARIABLES, count))
+        ground.forces(
             ring.dimensions,
             ring.middle,
             ring.length_mm,
             mean,
-            difference,
+            surface,
             state.rise_mm,
             state.anchor_before,
             by_x,
             by_y,
-            np.zeros((VARIABLES, VARIABLES, count)),
+            turned,
         )
-        x, y = tyre.surface(state.u)
-        depth = state.rise_mm - ring.dimensions[OUTER] - y
-        pressure, _, _, slide, cross = elementwise.traction(
-            ring.dimensions, depth, x - state.anchor_before
+        depth = state.rise_mm - ring.dimensions[OUTER] - surface[1]
+        pressure, _, _, slide, cross = ground.traction(
+            ring.dimensions, depth, surface[0] - state.anchor_before
         )
         touching = (pressure > 0.0).astype(float)
         stiff = ring.dimensions[SLIP_STIFF]
@@ -202,7 +204,7 @@ class _Contact:
 
     def along(self, tyre: RingTyre, push: Array) -> Array:
         """Product of the multipliers (nodes, 5) with ∂x of each element."""
-        mean, difference = numpy_kernel.element_variables(tyre.ring, push)
+        mean, difference = element_variables(tyre.ring, push)
         return np.sum(self.by_x * np.concatenate([mean, difference]), axis=0)
 
     def anchors_back(self, tyre: RingTyre, by_anchor: Array) -> tuple[Array, float, Array]:

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from nptcs.arrays import Array
-from nptcs.ring.kernel.elementwise import UNKNOWNS
+from nptcs.ring.kernel.elementwise.places import UNKNOWNS
 from nptcs.ring.kernel.system import System
 from nptcs.ring.tyre import RingTyre
 
@@ -181,8 +181,10 @@ def _iterates(
     before, part, drawn_back = np.inf, 1.0, 0
     # the last iterate inside the table
     inside = last.u, rise if load_n is None else last.rise_mm
+    squeezed = None
     for count in range(MAX_ITERATIONS):
-        system = tyre.kernel.assemble(tyre.ring, u, rise, last.anchor)
+        system = tyre.kernel.assemble(tyre.ring, u, rise, last.anchor, squeezed)
+        squeezed = system.squeezed
         if outside := tyre.spokes.outside(system.coordinates):
             drawn_back += 1
             if drawn_back > BACKTRACKS:

@@ -13,8 +13,11 @@ from nptcs.config.solvers.ring import RingOptions
 from nptcs.config.solvers.tyre import TyreGeometry
 from nptcs.fe.spoke.energy_table import SpokeEnergyTable
 from nptcs.ring.feet import WideFeet, wide_feet
-from nptcs.ring.kernel import elementwise, numpy_kernel
+from nptcs.ring.kernel import numpy_kernel
 from nptcs.ring.kernel.compiled import HAS_NUMBA, Kernel
+from nptcs.ring.kernel.elementwise import band, ground, places
+from nptcs.ring.kernel.numpy_kernel import element_variables
+from nptcs.ring.kernel.numpy_spokes import spoke_states
 from nptcs.ring.kernel.spokes import SpokePolynomial
 from nptcs.ring.kernel.system import Ring
 from nptcs.ring.nodes import RingNodes, ring_nodes
@@ -54,22 +57,22 @@ class RingTyre:
 
     def surface(self, u: Array) -> tuple[Array, Array]:
         """Place (x, y) of the tread's surface over each element's middle, mm."""
-        mean, difference = numpy_kernel.element_variables(self.ring, u)
-        x, y, _, _ = elementwise.surface_point(
+        mean, difference = element_variables(self.ring, u)
+        x, y, _, _ = ground.surface_point(
             self.ring.dimensions, self.nodes.middle, self.nodes.length_mm, mean, difference
         )
         return x, y
 
     def areas_mm2(self) -> Array:
         """Area of the tread's surface over each element."""
-        areas: Array = self.ring.dimensions[elementwise.AREA_PER_LENGTH] * self.nodes.length_mm
+        areas: Array = self.ring.dimensions[places.AREA_PER_LENGTH] * self.nodes.length_mm
         return areas
 
     def traction(self, u: Array, rise_mm: float, anchor: Array) -> tuple[Array, Array, Array]:
         """Place x (mm), pressure and shear (MPa) of the ground under each element."""
         x, y = self.surface(u)
         depth = rise_mm - self.section.outer_radius_mm - y
-        pressure, _, shear, _, _ = elementwise.traction(self.ring.dimensions, depth, x - anchor)
+        pressure, _, shear, _, _ = ground.traction(self.ring.dimensions, depth, x - anchor)
         return x, pressure, shear
 
     def anchors(self, u: Array, rise_mm: float, anchor: Array) -> Array:
@@ -82,12 +85,12 @@ class RingTyre:
 
     def spoke_motion(self, u: Array) -> Array:
         """(u_r, u_θ, φ) of each spoke's foot, array (spokes, 3)."""
-        return numpy_kernel.spoke_states(self.ring, u).motion.T
+        return spoke_states(self.ring, u).motion.T
 
     def energy(self, u: Array) -> dict[str, float]:
         """Energy of band (with wires and tread) and spokes (with the band's squeeze), N mm."""
-        mean, difference = numpy_kernel.element_variables(self.ring, u)
-        band = elementwise.band_energy(
+        mean, difference = element_variables(self.ring, u)
+        elements = band.energy(
             self.ring.stiffness,
             self.ring.hardening,
             self.ring.core,
@@ -96,8 +99,8 @@ class RingTyre:
             mean,
             difference,
         )
-        spokes = numpy_kernel.spoke_states(self.ring, u)
-        return {"band": float(np.sum(band)), "spokes": float(np.sum(spokes.energy))}
+        spokes = spoke_states(self.ring, u)
+        return {"band": float(np.sum(elements)), "spokes": float(np.sum(spokes.energy))}
 
 
 def ring_tyre(
@@ -182,21 +185,21 @@ def _arrays(
     spokes: SpokePolynomial,
     contact: GroundContact,
 ) -> Ring:
-    w = np.zeros(elementwise.DIMENSIONS)
-    w[elementwise.HALF] = section.half_distance_mm
-    w[elementwise.SURFACE] = section.surface_mm
-    w[elementwise.FOOT] = section.foot_mm
-    w[elementwise.OUTER] = section.outer_radius_mm
+    w = np.zeros(places.DIMENSIONS)
+    w[places.HALF] = section.half_distance_mm
+    w[places.SURFACE] = section.surface_mm
+    w[places.FOOT] = section.foot_mm
+    w[places.OUTER] = section.outer_radius_mm
     # an element's surface is longer than its chord by the ratio of the radii
-    w[elementwise.AREA_PER_LENGTH] = section.width_mm * section.outer_radius_mm / section.radius_mm
-    w[elementwise.GROW_SECTION : elementwise.GROW_SHEAR + 1] = section.thickening
-    w[elementwise.STIFF] = contact.penalty_mpa_per_mm
-    w[elementwise.SMOOTH] = contact.smoothing_mm
+    w[places.AREA_PER_LENGTH] = section.width_mm * section.outer_radius_mm / section.radius_mm
+    w[places.GROW_SECTION : places.GROW_SHEAR + 1] = section.thickening
+    w[places.STIFF] = contact.penalty_mpa_per_mm
+    w[places.SMOOTH] = contact.smoothing_mm
     # the tread's own compliance is in series with that of the ground
     slip = 1.0 / contact.tangential_mpa_per_mm + section.shear_compliance_mm_per_mpa
-    w[elementwise.SLIP_STIFF] = 1.0 / slip
-    w[elementwise.FRICTION] = contact.friction
-    w[elementwise.COMPLIANCE] = section.compliance_mm_per_mpa
+    w[places.SLIP_STIFF] = 1.0 / slip
+    w[places.FRICTION] = contact.friction
+    w[places.COMPLIANCE] = section.compliance_mm_per_mpa
     return Ring(
         stiffness=section.stiffness,
         hardening=section.hardening,

@@ -4,12 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from importlib.util import find_spec
-from typing import Literal, TypeVar
+from typing import Any, Literal, TypeVar
 
 Kernel = Literal["numpy", "numba"]
 """What computes an iterate; both give the same numbers up to rounding."""
 
 Function = TypeVar("Function", bound=Callable[..., object])
+
+OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
+"""Of all compiled functions."""
 
 HAS_NUMBA = find_spec("numba") is not None
 

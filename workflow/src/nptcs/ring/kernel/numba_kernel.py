@@ -10,12 +10,12 @@ from numba import njit
 
 from nptcs.arrays import Array
 from nptcs.provenance import code_hash
-from nptcs.ring.kernel import elementwise
+from nptcs.ring.kernel.compiled import OPTIONS
 from nptcs.ring.kernel.cyclic_elimination import eliminate
-from nptcs.ring.kernel.elementwise import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.elementwise import band, ground
+from nptcs.ring.kernel.elementwise.places import ALONG, OUTER, SLIP_STIFF, UNKNOWNS, VARIABLES
+from nptcs.ring.kernel.numba_spokes import add_spokes
 from nptcs.ring.kernel.system import NO_FEET, FootTangent, Ring, System, empty_system
-
-OPTIONS: dict[str, Any] = {"cache": True, "nogil": True, "error_model": "numpy"}
 
 
 def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
@@ -32,7 +32,7 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
         diagonal, upper, lower, force_out, slope_out, row_out = out
         count = len(u)
         m, d = np.empty(UNKNOWNS), np.empty(UNKNOWNS)
-        by_x, by_y = np.empty(VARIABLES), np.empty(VARIABLES)
+        by_x, by_y, turned = np.zeros(VARIABLES), np.zeros(VARIABLES), np.zeros(VARIABLES)
         slope, row = np.empty(VARIABLES), np.empty(VARIABLES)
         force, tangent = np.empty(VARIABLES), np.empty((VARIABLES, VARIABLES))
         stress, stiff = np.empty(ALONG), np.empty((ALONG, ALONG))
@@ -45,14 +45,14 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                 d[a] = (u[after, a] - u[i, a]) * by
             force[:] = 0.0
             tangent[:] = 0.0
-            strains = elementwise.band_strains(middle[i], m, d)
-            elementwise.along_tangent(stiffness, hardening, strains[0], d, stress, stiff)
-            elementwise.add_core_give(core, strains[0], d, stress, stiff)
-            elementwise.band(stiffness, length[i], m, strains, stress, stiff, force, tangent)
-            y = elementwise.surface_point(w, middle[i], length[i], m, d)[1]
-            if rise - w[OUTER] - y > 0.0:
-                push, drag, steep, slide, cross = elementwise.ground(
-                    w, middle[i], length[i], m, d, rise, anchor[i], by_x, by_y, tangent
+            moved = band.strains(middle[i], m, d)
+            band.along_tangent(stiffness, hardening, moved[0], d, stress, stiff)
+            band.add_core_give(core, moved[0], d, stress, stiff)
+            band.add_element(stiffness, length[i], m, moved, stress, stiff, force, tangent)
+            surface = ground.surface_point(w, middle[i], length[i], m, d)
+            if rise - w[OUTER] - surface[1] > 0.0:
+                push, drag, steep, slide, cross = ground.forces(
+                    w, middle[i], length[i], m, surface, rise, anchor[i], by_x, by_y, turned
                 )
                 reaction += push
                 reaction_slope += steep
@@ -64,6 +64,9 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                         tangent[a, b] += (
                             slide * by_x[a] * by_x[b] - cross * by_x[a] * by_y[b]
                         ) - row[a] * by_y[b]
+                for a in range(2, VARIABLES):
+                    tangent[3, a] += turned[a]
+                    tangent[a, 3] += turned[a]
                 for a in range(UNKNOWNS):
                     b = a + UNKNOWNS
                     slope_out[i, a] += 0.5 * slope[a] - slope[b] * by
@@ -77,128 +80,12 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
                     both = 0.25 * tangent[a, b]
                     ends = tangent[a + UNKNOWNS, b + UNKNOWNS] * by * by
                     mixed = 0.5 * tangent[a, b + UNKNOWNS] * by
-                    turned = 0.5 * tangent[a + UNKNOWNS, b] * by
-                    diagonal[i, a, b] += both - mixed - turned + ends
-                    diagonal[after, a, b] += both + mixed + turned + ends
-                    upper[i, a, b] += both + mixed - turned - ends
-                    lower[i, a, b] += both - mixed + turned - ends
+                    back = 0.5 * tangent[a + UNKNOWNS, b] * by
+                    diagonal[i, a, b] += both - mixed - back + ends
+                    diagonal[after, a, b] += both + mixed + back + ends
+                    upper[i, a, b] += both + mixed - back - ends
+                    lower[i, a, b] += both - mixed + back - ends
         return reaction, reaction_slope
-
-    @njit(**OPTIONS)
-    def spoke(table, chains, radial, motion, point, push, stiff):  # type: ignore[no-untyped-def]
-        """Set (s, β, φ), forces and stiffness of a spoke at a motion."""
-        assert formulas != ""
-        height, straight, low, high, coefficients, sides, degrees = table
-        limits = (low[0], high[0])
-        count, terms = coefficients.shape
-        first, second = np.zeros(3), np.zeros((3, 3))
-        s, beta, phi, length, cos, sin = elementwise.line_coordinates(height, motion)
-        point[0], point[1], point[2] = s, beta, phi
-        for axis in range(3):
-            scale = 2.0 / (high[axis] - low[axis])
-            x, bend = (point[axis] - low[axis]) * scale - 1.0, 0.0
-            if axis == 0:
-                # the formula is written for arrays and also takes numbers
-                x, scale, bend = elementwise.unit_elongation(s, limits, straight)  # type: ignore[assignment]
-            value, once, twice = chains[axis, 0], chains[axis, 1], chains[axis, 2]
-            value[0], value[1] = 1.0, x
-            once[0], once[1] = 0.0, scale
-            twice[0], twice[1] = 0.0, bend
-            for i in range(2, degrees[axis]):
-                value[i] = 2.0 * x * value[i - 1] - value[i - 2]
-                once[i] = 2.0 * scale * value[i - 1] + 2.0 * x * once[i - 1] - once[i - 2]
-                twice[i] = (
-                    2.0 * bend * value[i - 1]
-                    + 4.0 * scale * once[i - 1]
-                    + 2.0 * x * twice[i - 1]
-                    - twice[i - 2]
-                )
-        radial[:] = 0.0
-        for i in range(count):
-            for order in range(3):
-                for term in range(terms):
-                    radial[order, term] += coefficients[i, term] * chains[0, order, i]
-        for term in range(terms):
-            r0, r1, r2 = radial[0, term], radial[1, term], radial[2, term]
-            j, n = sides[term]
-            b0, b1, b2 = chains[1, 0, j], chains[1, 1, j], chains[1, 2, j]
-            p0, p1, p2 = chains[2, 0, n], chains[2, 1, n], chains[2, 2, n]
-            first[0] += r1 * b0 * p0
-            first[1] += r0 * b1 * p0
-            first[2] += r0 * b0 * p1
-            second[0, 0] += r2 * b0 * p0
-            second[1, 1] += r0 * b2 * p0
-            second[2, 2] += r0 * b0 * p2
-            second[0, 1] += r1 * b1 * p0
-            second[1, 2] += r0 * b1 * p1
-            second[0, 2] += r1 * b0 * p1
-        second[1, 0], second[2, 1], second[2, 0] = second[0, 1], second[1, 2], second[0, 2]
-        elementwise.carry_to_motion(length, cos, sin, first, second, push, stiff)
-
-    @njit(**OPTIONS)
-    def spokes(ring, wide, u, coordinates, diagonal, force, lever, hold):  # type: ignore[no-untyped-def]
-        """Add all spokes."""
-        assert formulas != ""
-        w, theta, feet, height, straight, low, high, coefficients, sides = ring
-        place, covered, angle, mean, turn, squeeze = wide
-        count, terms = coefficients.shape
-        degrees = (count, sides[:, 0].max() + 1, sides[:, 1].max() + 1)
-        table = height, straight, low, high, coefficients, sides, degrees
-        chains = np.zeros((3, 3, max(count, sides.max() + 1)))
-        radial = np.empty((3, terms))
-        push, face = np.empty(3), np.empty(3)
-        stiff = np.empty((3, 3))
-        by = np.zeros((3, UNKNOWNS))
-        for k in range(len(feet)):
-            point = coordinates[k]
-            if place[k] < 0:
-                node = feet[k]
-                motion = elementwise.foot_motion(w, theta[node], u[node])
-                spoke(table, chains, radial, motion, point, push, stiff)
-                elementwise.foot(w, theta[node], u[node], push, by, diagonal[node])
-                for a in range(UNKNOWNS):
-                    for i in range(3):
-                        force[node, a] += push[i] * by[i, a]
-                        for j in range(3):
-                            for b in range(UNKNOWNS):
-                                diagonal[node, a, b] += by[i, a] * stiff[i, j] * by[j, b]
-                continue
-            own = place[k]
-            radial_felt, along_felt, turn_felt = 0.0, 0.0, 0.0
-            for p in range(len(angle)):
-                node = covered[own, p]
-                outward, along, _ = elementwise.foot_motion(w, theta[node], u[node])
-                one, two, three = elementwise.foot_share(
-                    np.cos(angle[p]), np.sin(angle[p]), mean[p], turn[p], outward, along
-                )
-                radial_felt += one
-                along_felt += two
-                turn_felt += three
-            # the spoke under the squeeze: as in `numpy_kernel.spoke_states`
-            soft_r, soft_turn = squeeze
-            motion = (radial_felt, along_felt, turn_felt)
-            spoke(table, chains, radial, motion, point, push, stiff)
-            by_r, by_turn = elementwise.squeeze_step(
-                soft_r, soft_turn, stiff, soft_r * push[0], soft_turn * push[2]
-            )
-            motion = (radial_felt - by_r, along_felt, turn_felt - by_turn)
-            spoke(table, chains, radial, motion, point, push, stiff)
-            by_r, by_turn = elementwise.squeeze_step(
-                soft_r, soft_turn, stiff, soft_r * push[0] - by_r, soft_turn * push[2] - by_turn
-            )
-            for i in range(3):
-                push[i] -= stiff[i, 0] * by_r + stiff[i, 2] * by_turn
-            elementwise.squeezed_stiffness(soft_r, soft_turn, stiff, hold[own])
-            for p in range(len(angle)):
-                node = covered[own, p]
-                cos, sin = np.cos(angle[p]), np.sin(angle[p])
-                face[0], face[1] = elementwise.node_push(cos, sin, mean[p], turn[p], push)
-                face[2] = 0.0
-                elementwise.foot(w, theta[node], u[node], face, by, diagonal[node])
-                for a in range(UNKNOWNS):
-                    force[node, a] += face[0] * by[0, a] + face[1] * by[1, a]
-                    share = elementwise.foot_share(cos, sin, mean[p], turn[p], by[0, a], by[1, a])
-                    lever[own, p, 0, a], lever[own, p, 1, a], lever[own, p, 2, a] = share
 
     @njit(**OPTIONS)
     def rest(w, middle, length, u, rise, anchor):  # type: ignore[no-untyped-def]
@@ -212,22 +99,27 @@ def _loops(formulas: str) -> tuple[Callable[..., Any], ...]:
             for a in range(UNKNOWNS):
                 m[a] = 0.5 * (u[i, a] + u[after, a])
                 d[a] = (u[after, a] - u[i, a]) / length[i]
-            x, y, _, _ = elementwise.surface_point(w, middle[i], length[i], m, d)
+            x, y, _, _ = ground.surface_point(w, middle[i], length[i], m, d)
             placed[i] = x
             depth = rise - w[OUTER] - y
             if depth > 0.0:
-                placed[i] -= elementwise.traction(w, depth, x - anchor[i])[2] / w[SLIP_STIFF]
+                placed[i] -= ground.traction(w, depth, x - anchor[i])[2] / w[SLIP_STIFF]
         return placed
 
-    return elements, spokes, rest
+    return elements, rest
 
 
-_elements, _spokes, _rest = _loops(code_hash(elementwise.__name__))
+_elements, _rest = _loops(code_hash(band.__name__, ground.__name__))
 _eliminate = njit(**OPTIONS)(eliminate)
 
 
-def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
-    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,)."""
+def assemble(
+    ring: Ring, u: Array, rise: float, anchor: Array, squeezed: Array | None = None
+) -> System:
+    """Residual and tangent at unknowns u (nodes, 5), the ground's rise and the anchors (nodes,).
+
+    `squeezed` is that of the iterate before, `System.squeezed`, if there is one.
+    """
     system = empty_system(ring)
     out = (
         system.diagonal,
@@ -250,28 +142,7 @@ def assemble(ring: Ring, u: Array, rise: float, anchor: Array) -> System:
         out,
     )
     if len(ring.feet):
-        spokes = (
-            ring.dimensions,
-            ring.theta,
-            ring.feet,
-            ring.height_mm,
-            ring.straight_mm,
-            ring.low,
-            ring.high,
-            ring.coefficients,
-            ring.sides,
-        )
-        wide = ring.wide
-        _spokes(
-            spokes,
-            (wide.place, wide.nodes, wide.angle, wide.mean, wide.turn, ring.squeeze),
-            u,
-            system.coordinates,
-            system.diagonal,
-            system.force,
-            system.feet.lever,
-            system.feet.hold,
-        )
+        add_spokes(ring, u, squeezed, system)
     return system
 
 

@@ -31,6 +31,8 @@ PLACES = tuple(
     np.array(places)
     for places in zip(*((i, SIDE_ORDERS.index((j, k))) for i, j, k in ORDERS), strict=True)
 )
+# those by s once, ∂E/∂s first, and the one by s twice
+ALONG_ONCE, ALONG_TWICE = np.array([1, 7, 9]), 4
 
 
 @dataclass(frozen=True)
@@ -96,22 +98,20 @@ class SpokePolynomial:
 
     def evaluate(self, coordinates: Array) -> Array:
         """Energy and derivatives (10, spokes) in the order of `ORDERS` at (spokes, 3)."""
-        local = (coordinates - self.low) * self._scale - 1.0
+        local = self._scale[:, None] * (coordinates.T - self.low[:, None]) - 1.0
         limits = float(self.low[0]), float(self.high[0])
-        local[:, 0], slope, curve = unit_elongation(coordinates[:, 0], limits, self.straight_mm)
-        counts = (len(self.coefficients), *(self.sides.max(axis=0) + 1))
-        values = chebyshev_values(local, max(counts))
-        terms = len(self.sides)
-        lines = [
-            np.matmul(values[:count, :, axis].T, matrix).reshape(-1, 3, terms)
-            for axis, (count, matrix) in enumerate(zip(counts, self._derivatives, strict=True))
-        ]
-        along, beta, phi = lines
-        bend = curve[:, None] * along[:, 1]
-        s = along * np.stack([np.ones_like(slope), slope, slope**2], axis=1)[:, :, None]
-        s[:, 2] += bend
-        pairs = np.stack([beta[:, j] * phi[:, k] for j, k in SIDE_ORDERS], axis=2)
-        found: Array = (s @ pairs).transpose(1, 2, 0)[PLACES]
+        local[0], slope, curve = unit_elongation(coordinates[:, 0], limits, self.straight_mm)
+        degrees = [len(matrix) for matrix in self._derivatives]
+        values = chebyshev_values(local, max(degrees))
+        along, beta, phi = (
+            (values[:degree, axis].T @ matrix).reshape(len(coordinates), -1, len(self.sides))
+            for axis, (degree, matrix) in enumerate(zip(degrees, self._derivatives, strict=True))
+        )
+        products = along @ (beta * phi).swapaxes(1, 2)
+        found: Array = products.transpose(1, 2, 0)[PLACES]
+        # from x to s
+        found[ALONG_TWICE] = slope**2 * found[ALONG_TWICE] + curve * found[ALONG_ONCE[0]]
+        found[ALONG_ONCE] *= slope
         return found
 
     @cached_property
@@ -127,15 +127,17 @@ class SpokePolynomial:
 
     @cached_property
     def _derivatives(self) -> list[Array]:
-        """Matrices that multiply Chebyshev values of x, β and φ: arrays (degrees, 3 × terms).
+        """Matrices that multiply Chebyshev values of x, β and φ: arrays (degrees, orders × terms).
 
-        The three are the factor of each side term and its first two derivatives.
+        Each has the derivatives of the factor of each side term, by x three, by β and φ those of
+        `SIDE_ORDERS`.
         """
         scale = np.array([1.0, *self._scale[1:]])
         sides = [np.eye(own.max() + 1)[:, own] for own in self.sides.T]
+        orders = [(0, 1, 2), *zip(*SIDE_ORDERS, strict=True)]
         return [
             np.concatenate(
-                [scale[axis] ** order * differentiated(factor, order) for order in range(3)],
+                [scale[axis] ** order * differentiated(factor, order) for order in orders[axis]],
                 axis=1,
             )
             for axis, factor in enumerate([self.coefficients, *sides])
@@ -156,8 +158,12 @@ def chebyshev_values(x: Array, count: int) -> Array:
     values[0] = 1.0
     if count > 1:
         values[1] = x
-    double = 2.0 * x
-    for i in range(2, count):
-        np.multiply(double, values[i - 1], out=values[i])
-        values[i] -= values[i - 2]
+    known = 2
+    while known < count:
+        # T_(m+n) = 2 T_m T_n - T_(m-n) doubles their number
+        last = known - 1
+        more = min(last, count - known)
+        np.multiply(2.0 * values[last], values[1 : more + 1], out=values[known : known + more])
+        values[known : known + more] -= values[last - 1 :: -1][:more]
+        known += more
     return values

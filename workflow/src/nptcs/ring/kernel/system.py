@@ -9,7 +9,7 @@ import numpy as np
 
 from nptcs.arrays import Array, Index
 from nptcs.ring.feet import WideFeet
-from nptcs.ring.kernel.elementwise import UNKNOWNS
+from nptcs.ring.kernel.elementwise.places import UNKNOWNS
 from nptcs.ring.kernel.spokes import SpokePolynomial
 
 
@@ -37,6 +37,34 @@ NO_FEET = FootTangent(
 
 
 @dataclass(frozen=True)
+class Faces:
+    """Nodes under which a foot presses on the band's inner face.
+
+    Parameters
+    ----------
+    single : array (spokes with a foot of one node,)
+    wide : array (spokes with a wide foot,)
+        In the order of `WideFeet.nodes`.
+    nodes : array (nodes,)
+        Those of `single`, then those of the wide feet.
+    angle : array (nodes,)
+    """
+
+    single: Index
+    wide: Index
+    nodes: Index
+    angle: Array
+
+    @classmethod
+    def of(cls, theta: Array, feet: Index, wide: WideFeet) -> Faces:
+        """Sort the spokes."""
+        single, own = np.flatnonzero(wide.place < 0), np.flatnonzero(wide.place >= 0)
+        own = own[np.argsort(wide.place[own])]
+        nodes = np.concatenate([feet[single], wide.nodes.ravel()])
+        return cls(single, own, nodes, theta[nodes])
+
+
+@dataclass(frozen=True)
 class Ring:
     """Everything about a ring that the kernels read.
 
@@ -48,9 +76,9 @@ class Ring:
         D of the section.
     core : array (6,)
         Pull of the wires on the core by (e, κs, κf), the core's compliance a, the wires'
-        stiffness k and the curvature 1/R (see `elementwise.core_give`).
+        stiffness k and the curvature 1/R (see `elementwise.band.core_give`).
     dimensions : array (13,)
-        Constants of the section and the ground, places as in `elementwise`.
+        Constants of the section and the ground, places as in `elementwise.places`.
     theta, middle, length_mm : arrays (nodes,)
     feet : array (spokes,)
         Node of each spoke.
@@ -82,6 +110,11 @@ class Ring:
     high: Array
     coefficients: Array
     sides: Index
+
+    @cached_property
+    def faces(self) -> Faces:
+        """Where the spokes press on the band."""
+        return Faces.of(self.theta, self.feet, self.wide)
 
     @cached_property
     def polynomial(self) -> SpokePolynomial:
@@ -117,6 +150,8 @@ class System:
         (s, β, φ) of the spokes.
     feet : FootTangent
         Of the wide feet, which the blocks do not hold.
+    squeezed : array (feet, 3)
+        How far (u_r, u_θ, φ) the band gives way under each wide foot.
     """
 
     diagonal: Array
@@ -129,6 +164,7 @@ class System:
     reaction_slope: float
     coordinates: Array
     feet: FootTangent
+    squeezed: Array
 
     def transposed(self) -> tuple[Array, Array, Array]:
         """Blocks of the transposed matrix: diagonal, upper, lower."""
@@ -146,4 +182,5 @@ def empty_system(ring: Ring) -> System:
     force, slope, row = (np.zeros((nodes, UNKNOWNS)) for _ in range(3))
     coordinates = np.zeros((len(ring.feet), 3))
     feet = FootTangent(wide, np.zeros((*wide.shape, 3, UNKNOWNS)), np.zeros((len(wide), 3, 3)))
-    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, coordinates, feet)
+    squeezed = np.zeros((len(wide), 3))
+    return System(diagonal, upper, lower, force, slope, row, 0.0, 0.0, coordinates, feet, squeezed)
