@@ -140,6 +140,13 @@ def shown():
     }
 
 
+def figure_code():
+    """Hash of the code that draws the figures: those that are kept are of this code."""
+    folder = Path(str(package_files("nptcs.report") / "figures"))
+    modules = [f"nptcs.report.figures.{file.stem}" for file in sorted(folder.glob("*.py"))]
+    return FACTS.code_of("nptcs.report.plots", *modules, words=True)
+
+
 rule report:
     input:
         **all_results(),
@@ -156,6 +163,7 @@ rule report:
         job={
             **shown(),
             "figures": "results/7_report/figures",
+            "figure_code": figure_code(),
             "templates": {
                 template.name: sha256_of_file(template)
                 for folder in ("templates", "explorer/assets")

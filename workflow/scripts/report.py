@@ -12,7 +12,7 @@ from nptcs.report.stale import stale_name
 
 def report(job: dict[str, Any], page: str, threads: int, **files: Any) -> None:
     results = read_results(job, files)
-    with kept_figures(job["figures"], threads):
+    with kept_figures(job["figures"], job["figure_code"], threads):
         write_text(page, render_report(results))
     stale_name(page).unlink(missing_ok=True)
 
