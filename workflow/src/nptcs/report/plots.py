@@ -171,8 +171,14 @@ def figure_key(
     except (pickle.PicklingError, TypeError, AttributeError):
         return None
     words = f"{current_language()} {catalogue_digest(current_language())}"
-    name = f"{draw.__module__}.{draw.__qualname__} {code} {version('matplotlib')} {words} ".encode()
+    name = f"{draw.__module__}.{draw.__qualname__} {code} {_library()} {words} ".encode()
     return hashlib.sha256(name + content).hexdigest()
+
+
+@cache
+def _library() -> str:
+    """Return the version of the library that draws, without importing it."""
+    return version("matplotlib")
 
 
 def packed(csv: str) -> str:
