@@ -147,6 +147,11 @@ def figure_code():
     return FACTS.code_of("nptcs.report.plots", *modules, words=True)
 
 
+def drawers(wildcards):
+    """Processes that draw the figures: what else runs at the end of a run is short."""
+    return min(4, workflow.cores or 1)
+
+
 rule report:
     input:
         **all_results(),
@@ -158,7 +163,9 @@ rule report:
         ),
     log:
         "results/logs/report.log",
-    threads: 4  # or as many as the run has: processes that draw figures
+    threads: 1  # the workbook is written at the same time
+    resources:
+        drawers=drawers,
     params:
         job={
             **shown(),

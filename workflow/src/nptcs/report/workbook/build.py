@@ -14,6 +14,7 @@ from nptcs.language import language, tr, translatable
 from nptcs.report.data import Results
 from nptcs.report.tables.dictionary import dictionary_table
 from nptcs.report.tables.sheets import sheets_of
+from nptcs.report.workbook.cell_xml import quick_cells
 from nptcs.report.workbook.cells import write_row
 from nptcs.report.workbook.chart_data import charts_of
 from nptcs.report.workbook.charts import CHARTS, DATA, write_charts
@@ -59,7 +60,8 @@ def build_workbook(results: Results) -> bytes:
     with language(results.config.laboratory.language):
         workbook = _written(results)
     stream = io.BytesIO()
-    workbook.save(stream)
+    with quick_cells():
+        workbook.save(stream)
     return dated(stream.getvalue(), _date(results))
 
 
