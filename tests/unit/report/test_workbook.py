@@ -2,6 +2,7 @@
 
 import io
 import math
+import zipfile
 from dataclasses import replace
 from datetime import UTC, datetime
 
@@ -16,6 +17,7 @@ from nptcs.report.tables.dictionary import dictionary_table
 from nptcs.report.tables.entries import design_entry, result_entry
 from nptcs.report.tables.sheets import Sheet, sheets_of
 from nptcs.report.workbook.build import build_workbook
+from nptcs.report.workbook.cell_xml import quick_cells
 from nptcs.report.workbook.cells import WRAPPED
 from nptcs.report.workbook.chart_data import charts_of
 from nptcs.report.workbook.layout import LINE_HEIGHT, WIDEST, finish_table, fit_heights
@@ -265,3 +267,29 @@ def test_formats_follow_unit_and_size(unit, values, shown):
 def test_a_number_keeps_two_significant_digits_in_sight(value):
     text = shown_number(value, format_of_number(value)).replace(",", "")
     assert float(text) == pytest.approx(value, rel=0.01)
+
+
+def saved(workbook):
+    """Contents of the sheets of a workbook by the names of their files."""
+    stream = io.BytesIO()
+    workbook.save(stream)
+    with zipfile.ZipFile(stream) as parts:
+        return {name: parts.read(name) for name in parts.namelist() if "sheets/" in name}
+
+
+def test_cells_are_written_as_openpyxl_writes_them():
+    workbook = openpyxl.Workbook()
+    sheet = workbook.active
+    texts = ["a", "<a & b>", " blanks ", "", " ", "two\nlines", '"quoted"', "板厚", "=a formula"]
+    numbers = [1, -2.5, 0.1 + 0.2, 1e-300, np.float64(3.25), True, datetime(2026, 1, 2), "=A1&B1"]
+    for column, value in enumerate([*texts, *numbers, None], start=1):
+        for row in (1, 2):
+            sheet.cell(row, column).value = value
+        sheet.cell(2, column).fill = openpyxl.styles.PatternFill("solid", start_color="FFF2C4")
+    sheet.cell(1, len(texts)).data_type = "s"
+    sheet.cell(1, 1).hyperlink = "#A2"
+    slow = saved(workbook)
+    with quick_cells():
+        quick = saved(workbook)
+    assert quick == slow
+    assert b"&lt;a &amp; b&gt;" in quick["xl/worksheets/sheet1.xml"]

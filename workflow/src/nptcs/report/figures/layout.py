@@ -63,8 +63,9 @@ class PanelLayout(LayoutEngine):
         ticks = {axis: tick_room(axis, renderer) for one in fig.axes for axis in axes_of(one)}
         room = around(axes, ticks, renderer)
         below = max((legend_height(one, renderer) for one in fig.legends), default=0.0)
+        lift = power_height(axes.yaxis, renderer)
         left, bottom = PAD + max(room.left, LEAST), PAD + room.bottom + below
-        right, top = PAD + max(room.right, LEAST), PAD + max(room.top, LEAST)
+        right, top = PAD + max(room.right, LEAST), PAD + max(room.top + lift, LEAST)
         tall = height - bottom - top
         beside = 0.0
         for bar in bars:
@@ -75,6 +76,8 @@ class PanelLayout(LayoutEngine):
             place(bar, (left + wide + BAR_PAD, bottom, tall / BAR_SLIMNESS, tall))
         for axis, reach in ticks.items():
             place_label(axis, reach)
+        for title in words_of(axes) - set(axes.texts):
+            title.set_y(1 + lift / axes.bbox.height)
 
 
 def axes_of(axes: Axes) -> tuple[Axis, Axis]:
@@ -110,8 +113,7 @@ def around(axes: Axes, ticks: dict[Axis, Room], renderer: RendererBase) -> Room:
     A title or label may be longer than the axes without taking room from them.
     """
     x, y = (ticks[axis] for axis in axes_of(axes))
-    words = [text for text in axes.get_children() if isinstance(text, Text) and text.get_text()]
-    boxes = {text: text.get_window_extent(renderer) for text in words if text.get_visible()}
+    boxes = {text: text.get_window_extent(renderer) for text in words_of(axes)}
     notes = beyond(axes, [box for text, box in boxes.items() if text in axes.texts])
     above = beyond(axes, list(boxes.values()))
     sides = [max(three) for three in zip(x, y, notes, strict=True)]
@@ -122,6 +124,21 @@ def around(axes: Axes, ticks: dict[Axis, Room], renderer: RendererBase) -> Room:
     else:
         right += label_size(axes.yaxis, renderer)
     return Room(left, bottom, right, max(x.top, y.top, above.top))
+
+
+def words_of(axes: Axes) -> set[Text]:
+    """Return the title of axes and the notes in them."""
+    texts = [one for one in axes.get_children() if isinstance(one, Text)]
+    return {text for text in texts if text.get_text() and text.get_visible()}
+
+
+def power_height(axis: Axis, renderer: RendererBase) -> float:
+    """Return the height of the power of ten above a y axis, which a title must not cover."""
+    power = axis.get_offset_text()
+    power.set_text(axis.get_major_formatter().get_offset())
+    if not power.get_text():
+        return 0.0
+    return power.get_window_extent(renderer).height + axis.OFFSETTEXTPAD
 
 
 def label_size(axis: Axis, renderer: RendererBase) -> float:

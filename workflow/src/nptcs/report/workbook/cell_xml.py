@@ -1,7 +1,7 @@
 """Cells as XML text, in a third of the time: a workbook has some hundred thousand.
 
-openpyxl makes an element of each cell and a generic writer looks for namespaces in it. Here a number
-or a plain text is written as what comes out of that; every other cell goes openpyxl's way.
+openpyxl makes an element of each cell, and a generic writer looks for namespaces in it. Here a
+number or a plain text is written as what comes out of that; other cells go openpyxl's way.
 """
 
 from __future__ import annotations
