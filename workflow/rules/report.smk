@@ -143,7 +143,9 @@ def shown():
 def figure_code():
     """Hash of the code that draws the figures: those that are kept are of this code."""
     folder = Path(str(package_files("nptcs.report") / "figures"))
-    modules = [f"nptcs.report.figures.{file.stem}" for file in sorted(folder.glob("*.py"))]
+    modules = [
+        f"nptcs.report.figures.{file.stem}" for file in sorted(folder.glob("*.py"))
+    ]
     return FACTS.code_of("nptcs.report.plots", *modules, words=True)
 
 
