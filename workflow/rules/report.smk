@@ -150,7 +150,7 @@ def figure_code():
 
 
 def drawers(wildcards):
-    """Processes that draw the figures: what else runs at the end of a run is short."""
+    """Processes that draw the figures; only the workbook is written at the same time."""
     return min(4, workflow.cores or 1)
 
 

@@ -140,6 +140,9 @@ def test_a_power_of_ten_above_the_axis_lifts_the_title():
     figure = tiny()
     assert faults(figure) == []
     axes = figure.axes[0]
+    height = axes.bbox.height
+    assert faults(figure) == []  # drawn again
+    assert axes.bbox.height == pytest.approx(height, abs=1)  # points
     assert axes.yaxis.get_offset_text().get_text() == "1e−12"
 
 

@@ -60,6 +60,9 @@ class PanelLayout(LayoutEngine):
         width, height = fig.bbox.size
         axes, *bars = fig.axes
         axes.apply_aspect()
+        titles = words_of(axes) - set(axes.texts)
+        for title in titles:
+            title.set_y(1)
         ticks = {axis: tick_room(axis, renderer) for one in fig.axes for axis in axes_of(one)}
         room = around(axes, ticks, renderer)
         below = max((legend_height(one, renderer) for one in fig.legends), default=0.0)
@@ -76,7 +79,7 @@ class PanelLayout(LayoutEngine):
             place(bar, (left + wide + BAR_PAD, bottom, tall / BAR_SLIMNESS, tall))
         for axis, reach in ticks.items():
             place_label(axis, reach)
-        for title in words_of(axes) - set(axes.texts):
+        for title in titles:
             title.set_y(1 + lift / axes.bbox.height)
 
 
