@@ -28,8 +28,8 @@ if TYPE_CHECKING:
 DIGITS = 6
 """Significant digits of the numbers that a figure carries."""
 
-LIBRARY = "nptcs.report.figures.canvas"
-"""Module that imports what takes longest to import of all that draws figures."""
+LIBRARIES = ("nptcs.report.figures.layout", "nptcs.report.figures.canvas")
+"""Modules that import what takes longest to import of all that draws figures."""
 
 
 class Drawn(NamedTuple):
@@ -86,7 +86,8 @@ class Drawers:
             made = drawn(draw, *args, **kwargs)
             return lambda: made
         if self._pool is None:
-            importlib.import_module(LIBRARY)  # once for all forks
+            for module in LIBRARIES:  # once for all forks
+                importlib.import_module(module)
             self._pool = ProcessPoolExecutor(
                 self._processes, multiprocessing.get_context("fork"), _end_with_parent
             )
