@@ -140,6 +140,20 @@ def shown():
     }
 
 
+def figure_code():
+    """Hash of the code that draws the figures: those that are kept are of this code."""
+    folder = Path(str(package_files("nptcs.report") / "figures"))
+    modules = [
+        f"nptcs.report.figures.{file.stem}" for file in sorted(folder.glob("*.py"))
+    ]
+    return FACTS.code_of("nptcs.report.plots", *modules, words=True)
+
+
+def drawers(wildcards):
+    """Processes that draw the figures; only the workbook is written at the same time."""
+    return min(4, workflow.cores or 1)
+
+
 rule report:
     input:
         **all_results(),
@@ -151,11 +165,14 @@ rule report:
         ),
     log:
         "results/logs/report.log",
-    threads: 4  # or as many as the run has: processes that draw figures
+    threads: 1  # the workbook is written at the same time
+    resources:
+        drawers=drawers,
     params:
         job={
             **shown(),
             "figures": "results/7_report/figures",
+            "figure_code": figure_code(),
             "templates": {
                 template.name: sha256_of_file(template)
                 for folder in ("templates", "explorer/assets")

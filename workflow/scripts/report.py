@@ -10,14 +10,14 @@ from nptcs.report.plots import kept_figures
 from nptcs.report.stale import stale_name
 
 
-def report(job: dict[str, Any], page: str, threads: int, **files: Any) -> None:
+def report(job: dict[str, Any], page: str, drawers: int, **files: Any) -> None:
     results = read_results(job, files)
-    with kept_figures(job["figures"], threads):
+    with kept_figures(job["figures"], job["figure_code"], drawers):
         write_text(page, render_report(results))
     stale_name(page).unlink(missing_ok=True)
 
 
 if __name__ == "__main__":
     with clear_errors(snakemake.log[0]):
-        granted = {"threads": snakemake.threads}
+        granted = {"drawers": snakemake.resources.drawers}
         report(**snakemake.params, **granted, **snakemake.input, **snakemake.output)

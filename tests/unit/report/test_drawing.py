@@ -39,20 +39,20 @@ def test_two_processes_draw_what_one_draws_in_the_language_of_the_page():
 @pytest.fixture
 def named(monkeypatch):
     """A name for each figure of this file, whose code is not in a module of the package."""
-    monkeypatch.setattr("nptcs.report.plots.figure_key", lambda draw, count: f"{count}")
+    monkeypatch.setattr("nptcs.report.plots.figure_key", lambda code, draw, count: f"{code}{count}")
 
 
 @pytest.mark.usefixtures("named")
 @pytest.mark.parametrize("processes", [1, 2])
 def test_figures_are_kept_once_they_are_drawn(tmp_path, processes):
-    with kept_figures(tmp_path, processes):
+    with kept_figures(tmp_path, "code", processes):
         first = plot("a line", False, line, 3)
         again = plot("a line", False, line, 3)
         finish_figures()
     (kept,) = tmp_path.glob("*.json")
     assert first.svg == again.svg
     before = kept.stat().st_mtime_ns
-    with kept_figures(tmp_path, processes):
+    with kept_figures(tmp_path, "code", processes):
         taken = plot("a line", False, line, 3)
         finish_figures()
     assert taken.svg == first.svg

@@ -128,3 +128,41 @@ def test_every_figure_carries_its_numbers(compared, drawn):
         assert not data.select_dtypes(float).apply(np.isinf).any().any(), title
         assert all(axes.get_xlabel() or axes.get_ylabel() for axes in figure.axes), title
         assert title, "a figure without a title"
+
+
+def test_a_power_of_ten_above_the_axis_lifts_the_title():
+    @styled
+    def tiny():
+        figure, axes = panel("Residuals, a title over the axis", "x", "y")
+        axes.plot([0, 1], [0, 3e-12])
+        return figure
+
+    figure = tiny()
+    assert faults(figure) == []
+    axes = figure.axes[0]
+    height = axes.bbox.height
+    assert faults(figure) == []  # drawn again
+    assert axes.bbox.height == pytest.approx(height, abs=1)  # points
+    assert axes.yaxis.get_offset_text().get_text() == "1e−12"
+
+
+@pytest.mark.parametrize("equal", [False, True])
+def test_the_axes_take_what_their_words_leave(equal):
+    @styled
+    def drawn_figure():
+        figure, axes = panel("title", "x", "y")
+        axes.plot([0, 100], [0, 100], label="a line")
+        axes.set_aspect("equal" if equal else "auto")
+        figure.legend(loc="outside lower center")
+        return figure
+
+    figure = drawn_figure()
+    found = {words: box for words, box, _ in boxes(figure)}
+    axes, legend = figure.axes[0], found["a line"]
+    assert found["x"].y1 < axes.bbox.y0 < found["title"].y0
+    assert 0 < legend.y0 < legend.y1 < found["x"].y0
+    assert found["y"].x1 < found["80"].x0 < axes.bbox.x0 or equal
+    beside = figure.bbox.x1 - axes.bbox.x1, figure.bbox.y1 - found["title"].y1
+    assert min(beside) > 0
+    if not equal:
+        assert max(beside) < 20  # points

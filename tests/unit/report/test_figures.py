@@ -4,6 +4,7 @@ import numpy as np
 import pandas as pd
 import pytest
 from matplotlib.colors import to_hex
+from matplotlib.ticker import MaxNLocator
 
 from nptcs.report.factor_labels import factor_labels
 from nptcs.report.figures.impact import impact_bars, ranked
@@ -11,7 +12,14 @@ from nptcs.report.figures.lca import deformed_ring, load_displacement
 from nptcs.report.figures.materials import hyperelastic_fit
 from nptcs.report.figures.specimens import DRAWN_POINTS, evenly_spaced, stress_strain
 from nptcs.report.figures.style import to_svg
-from nptcs.report.figures.surface import STIFFNESS, contours, middle_level, slices
+from nptcs.report.figures.surface import (
+    LEVELS,
+    STIFFNESS,
+    contours,
+    middle_level,
+    round_levels,
+    slices,
+)
 from nptcs.tables.analysis.impact import Impact
 from nptcs.tables.io import empty_table
 from nptcs.tables.published.lca_validation import LcaNeutralLine, LcaValidation
@@ -170,3 +178,18 @@ def test_displacements_are_lines_by_rubber_with_the_printed_ones_on_them(results
     soft = table[table["spoke_c10_mpa"] == table["spoke_c10_mpa"].min()].sort_values("load_n")
     np.testing.assert_array_equal(drawn[rubbers[0]].get_xdata(), soft["load_n"])
     np.testing.assert_array_equal(drawn[rubbers[0]].get_ydata(), soft["displacement_mm"])
+
+
+@pytest.mark.parametrize("low", [0.0, 217.3, -1e-3, 4.0])
+@pytest.mark.parametrize("span", [0.0123, 3.0, 86.0, 4e5])
+def test_levels_are_those_of_matplotlib(low, span):
+    theirs = MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(low, low + span)
+    ours = round_levels(low, low + span, LEVELS)
+    np.testing.assert_allclose(ours, theirs, rtol=0, atol=1e-9 * span)
+
+
+def test_levels_of_one_value_enclose_it():
+    for value in (0.0, 300.0):
+        levels = round_levels(value, value, LEVELS)
+        assert levels[0] <= value <= levels[-1]
+        assert len(levels) > 1

@@ -10,15 +10,16 @@ from __future__ import annotations
 import warnings
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from scipy.linalg import cho_solve
 from scipy.optimize import minimize
-from sklearn.exceptions import ConvergenceWarning
-from sklearn.gaussian_process import GaussianProcessRegressor
 
 from nptcs.arrays import Array
+
+if TYPE_CHECKING:
+    from sklearn.gaussian_process import GaussianProcessRegressor
 
 ARRIVED = 1e-3
 """Slope of the log likelihood that counts as zero, by the log of a hyperparameter off its bounds:
@@ -77,6 +78,8 @@ def left_out_inflation(process: GaussianProcessRegressor) -> float:
 @contextmanager
 def bounds_are_answers() -> Iterator[None]:
     """Silence scikit-learn's remark that a hyperparameter lies on its bound, and nothing else."""
+    from sklearn.exceptions import ConvergenceWarning
+
     with warnings.catch_warnings():
         warnings.filterwarnings("ignore", "The optimal value found.*bound", ConvergenceWarning)
         yield

@@ -7,23 +7,29 @@ here (`nptcs.report.plots`).
 
 from __future__ import annotations
 
+import importlib
 import multiprocessing
 import os
 import sys
 import threading
 from collections.abc import Callable
 from concurrent.futures import ProcessPoolExecutor
-from typing import Any, NamedTuple
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import pandas as pd
-from matplotlib.figure import Figure
 
 from nptcs.language import Language, current_language, language
 from nptcs.report.figures.style import data_of, to_svg
 from nptcs.report.svg import compact
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 DIGITS = 6
 """Significant digits of the numbers that a figure carries."""
+
+LIBRARIES = ("nptcs.report.figures.layout", "nptcs.report.figures.canvas")
+"""Modules that import what takes longest to import of all that draws figures."""
 
 
 class Drawn(NamedTuple):
@@ -80,6 +86,8 @@ class Drawers:
             made = drawn(draw, *args, **kwargs)
             return lambda: made
         if self._pool is None:
+            for module in LIBRARIES:  # once for all forks
+                importlib.import_module(module)
             self._pool = ProcessPoolExecutor(
                 self._processes, multiprocessing.get_context("fork"), _end_with_parent
             )

@@ -1,8 +1,8 @@
 """Figures as SVG in the page, with their numbers as CSV; drawn figures are kept for reuse.
 
 Drawing takes most of the time of a report. A figure is kept under a name made of everything that
-it is drawn from: the plotting function with its code, its arguments, the version of matplotlib and
-the language.
+it is drawn from: the plotting function, the code of all figures, its arguments, the version of
+matplotlib and the language. Matplotlib itself is imported by the first figure that is drawn.
 """
 
 from __future__ import annotations
@@ -16,19 +16,20 @@ from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar
 from functools import cache
+from importlib.metadata import version
 from pathlib import Path
-from typing import ParamSpec
+from typing import TYPE_CHECKING, ParamSpec
 
-import matplotlib as mpl
 from markupsafe import escape
-from matplotlib.figure import Figure
 
 from nptcs.errors import InputError
 from nptcs.files import read_sealed, write_sealed
 from nptcs.language import catalogue_digest, current_language, tr
-from nptcs.provenance import code_hash
 from nptcs.report.blocks import Plot
 from nptcs.report.drawing import Drawers, Drawn, drawn
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 KIND = "Figure"
 
@@ -42,12 +43,15 @@ class KeptFigures:
     ----------
     folder : Path
         Is made if it does not exist.
+    code : str
+        Hash of the code that draws figures.
     drawers : Drawers
         They draw the figures that are not kept.
     """
 
-    def __init__(self, folder: Path, drawers: Drawers) -> None:
+    def __init__(self, folder: Path, code: str, drawers: Drawers) -> None:
         self.folder = folder
+        self.code = code
         self.drawers = drawers
         self.used: set[str] = set()
         self.started: dict[str, Callable[[], Drawn]] = {}
@@ -92,18 +96,20 @@ _KEPT: ContextVar[KeptFigures | None] = ContextVar("kept figures", default=None)
 
 
 @contextmanager
-def kept_figures(folder: str | Path, processes: int = 1) -> Iterator[None]:
+def kept_figures(folder: str | Path, code: str, processes: int = 1) -> Iterator[None]:
     """While the block runs, take figures from a folder, and keep those that are drawn in it.
 
     Parameters
     ----------
     folder : path
         Is made if it does not exist.
+    code : str
+        Hash of the code that draws figures: another code draws them anew.
     processes : int
         Number of processes that draw at the same time.
     """
     drawers = Drawers(processes)
-    kept = KeptFigures(Path(folder), drawers)
+    kept = KeptFigures(Path(folder), code, drawers)
     token = _KEPT.set(kept)
     try:
         yield
@@ -149,29 +155,30 @@ def plot(
 def _figure(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> Callable[[], Drawn]:
     """Return a function that gives a figure, which is kept, being drawn, or drawn here."""
     kept = _KEPT.get()
-    key = None if kept is None else figure_key(draw, *args, **kwargs)
+    key = None if kept is None else figure_key(kept.code, draw, *args, **kwargs)
     if kept is not None and key is not None:
         return kept.get(key, draw, *args, **kwargs)
     made = drawn(draw, *args, **kwargs)
     return lambda: made
 
 
-def figure_key(draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs) -> str | None:
+def figure_key(
+    code: str, draw: Callable[P, Figure], *args: P.args, **kwargs: P.kwargs
+) -> str | None:
     """Name a figure by everything that it is drawn from; None if an argument cannot be pickled."""
     try:
         content = pickle.dumps((args, sorted(kwargs.items())), protocol=5)
     except (pickle.PicklingError, TypeError, AttributeError):
         return None
-    code = _code_of(draw.__module__)
     words = f"{current_language()} {catalogue_digest(current_language())}"
-    name = f"{draw.__module__}.{draw.__qualname__} {code} {mpl.__version__} {words} ".encode()
+    name = f"{draw.__module__}.{draw.__qualname__} {code} {_library()} {words} ".encode()
     return hashlib.sha256(name + content).hexdigest()
 
 
 @cache
-def _code_of(module: str) -> str:
-    """Hash the code that draws a figure, with its words."""
-    return code_hash(module, __name__, words=True)
+def _library() -> str:
+    """Return the version of the library that draws, without importing it."""
+    return version("matplotlib")
 
 
 def packed(csv: str) -> str:

@@ -10,6 +10,7 @@ import hashlib
 import re
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from itertools import groupby
 from xml.etree import ElementTree
 
@@ -17,7 +18,7 @@ import numpy as np
 from markupsafe import escape
 
 from nptcs.report.figures.theme import LIGHT
-from nptcs.report.svg_path import Stroke, extent, read_path, short, thinned, write_path
+from nptcs.report.svg_path import Stroke, extent, extent_of, read_path, short, thinned, write_path
 
 FONTS = "Verdana,'DejaVu Sans',Geneva,sans-serif"
 """Fonts of the width that the layout was made for; every system has one of them."""
@@ -121,13 +122,17 @@ def _leaves(
 def _look(element: ElementTree.Element) -> dict[str, str]:
     """Read style and clip path of an element."""
     look = {name: value for name in ("fill", "stroke") if (value := element.get(name))}
-    for part in element.get("style", "").split(";"):
-        name, _, value = part.partition(":")
-        if value.strip():
-            look[name.strip()] = value.strip()
+    look.update(_style(element.get("style", "")))
     if clip := element.get("clip-path"):
         look["clip-path"] = clip
     return look
+
+
+@lru_cache(maxsize=1000)
+def _style(text: str) -> tuple[tuple[str, str], ...]:
+    """Read the attribute ``style``, which the marks of a line share."""
+    parts = (part.partition(":") for part in text.split(";"))
+    return tuple((name.strip(), value.strip()) for name, _, value in parts if value.strip())
 
 
 def _leaf(
@@ -139,30 +144,31 @@ def _leaf(
     if element.tag == "text":
         yield _text(element, look, axis)
         return
-    x, y = (round(100 * float(element.get(name, 0))) for name in ("x", "y"))
     drawn = element
     if element.tag == "use":
         name = next(value for key, value in element.attrib.items() if key.endswith("href"))
         drawn = ids[name.removeprefix("#")]
         look = look | _look(drawn)
+    x, y = (round(100 * float(element.get(name, 0))) for name in ("x", "y"))
     strokes = read_path(drawn.get("d", ""))
     if not strokes or look.get("fill") == look.get("stroke", "none") == "none":
         return
     if element.tag == "use" and sum(len(stroke.commands) for stroke in strokes) > 2:
-        low, high = (end * 100 for end in extent(strokes))
-        look = _unclipped(look, ids, (low[0] + x, low[1] + y), (high[0] + x, high[1] + y))
+        (left, top), (right, bottom) = extent_of(drawn.get("d", ""))
+        low, high = (100 * left + x, 100 * top + y), (100 * right + x, 100 * bottom + y)
+        look = _unclipped(look, ids, low, high)
         place = f'href="{name}" x="{short(x)}" y="{short(y)}"'
         yield Leaf("use", _attributes(look), place, axis=axis)
         return
     moved = strokes
     if x or y:
         shift = np.array([x / 100, y / 100])
-        moved = [
+        moved = tuple(
             replace(stroke, points=tuple(points + shift for points in stroke.points))
             for stroke in strokes
-        ]
-    low, high = extent(moved)
-    look = _unclipped(look, ids, tuple(100 * low), tuple(100 * high))
+        )
+    low, high = (tuple(100 * end for end in ends) for ends in extent(moved))
+    look = _unclipped(look, ids, low, high)
     yield Leaf("path", _attributes(look), axis=axis, strokes=tuple(map(thinned, moved)))
 
 
@@ -211,7 +217,12 @@ def _text(element: ElementTree.Element, look: dict[str, str], axis: str) -> Leaf
 
 def _attributes(look: dict[str, str]) -> tuple[tuple[str, str], ...]:
     """Write a look as attributes, with the variables of the page as colours."""
-    full = {"fill": "#000000", **look}
+    return _written_look(tuple(look.items()))
+
+
+@lru_cache(maxsize=1000)
+def _written_look(look: tuple[tuple[str, str], ...]) -> tuple[tuple[str, str], ...]:
+    full = {"fill": "#000000", **dict(look)}
     if full.get("stroke", "none") == "none":
         full = {name: value for name, value in full.items() if not name.startswith("stroke")}
     found = []
@@ -256,7 +267,7 @@ def _element(leaf: Leaf, attributes: str) -> str:
     written = {
         "text": f"<text{attributes} {leaf.place}>{escape(leaf.words)}</text>",
         "use": f"<use{attributes} {leaf.place}/>",
-        "path": f'<path{attributes} d="{write_path(list(leaf.strokes))}"/>',
+        "path": f'<path{attributes} d="{write_path(leaf.strokes)}"/>',
     }
     return written[leaf.tag]
 

@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Sequence
 from dataclasses import dataclass
+from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
@@ -36,7 +38,8 @@ class Stroke:
     closed: bool = False
 
 
-def read_path(text: str) -> list[Stroke]:
+@lru_cache(maxsize=200)  # a mark is read again for each point
+def read_path(text: str) -> tuple[Stroke, ...]:
     """Read the attribute ``d`` of a path with absolute commands, as Matplotlib writes it."""
     strokes: list[Stroke] = []
     commands = ""
@@ -54,13 +57,20 @@ def read_path(text: str) -> list[Stroke]:
         points += list(values)
     if commands:
         strokes.append(Stroke(commands, tuple(points)))
-    return strokes
+    return tuple(strokes)
 
 
-def extent(strokes: list[Stroke]) -> tuple[Array, Array]:
+def extent(strokes: Sequence[Stroke]) -> tuple[Array, Array]:
     """Return the lowest and the highest x and y of a path."""
     every = np.vstack([point for stroke in strokes for point in stroke.points])
     return every.min(axis=0), every.max(axis=0)
+
+
+@lru_cache(maxsize=200)
+def extent_of(text: str) -> tuple[list[float], list[float]]:
+    """Return the lowest and the highest x and y of a path, given as its attribute ``d``."""
+    low, high = extent(read_path(text))
+    return low.tolist(), high.tolist()
 
 
 def thinned(stroke: Stroke, tolerance: float = SEEN_PT) -> Stroke:
@@ -94,7 +104,7 @@ def distance(points: Array, start: Array, end: Array) -> Array:
     return np.hypot(*(points - start - place[:, None] * along).T)
 
 
-def write_path(strokes: list[Stroke]) -> str:
+def write_path(strokes: Sequence[Stroke]) -> str:
     """Write a path with relative commands and hundredths of a point."""
     parts: list[str] = []
     for stroke in strokes:

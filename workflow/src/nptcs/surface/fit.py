@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+from scipy.special import stdtrit
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
@@ -103,7 +103,7 @@ class Surface:
         """Half width of the prediction interval t·s·√(1 + x₀ᵀ(XᵀX)⁻¹x₀), shape (m, n) → (m,)."""
         matrix = self.polynomial.matrix(self.coded(x))
         variance = np.einsum("ij,jk,ik->i", matrix, self.covariance_coded, matrix)
-        factor = stats.t.ppf(0.5 + confidence / 2, self.points - len(self.polynomial))
+        factor = stdtrit(self.points - len(self.polynomial), 0.5 + confidence / 2)
         return factor * np.sqrt(variance + self.residual_sd**2)
 
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:

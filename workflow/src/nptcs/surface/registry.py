@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 import pandas as pd
-from scipy import stats
+from scipy.special import ndtr
 
 from nptcs.arrays import Array, Mask
 from nptcs.errors import InputError
@@ -15,7 +15,7 @@ from nptcs.surface.response_surface import ResponseSurface, box, inside_box
 STIFFNESS = "vertical_stiffness_n_per_mm"
 """Secant stiffness at the load of the study: the paper's response, of tables 6, 8 and 9."""
 
-ONE_SIGMA = float(stats.norm.cdf(1.0) - stats.norm.cdf(-1.0))
+ONE_SIGMA = float(ndtr(1.0) - ndtr(-1.0))
 """Confidence of an interval that is one standard error wide to each side."""
 
 

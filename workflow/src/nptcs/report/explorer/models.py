@@ -11,7 +11,7 @@ from collections.abc import Callable, Mapping
 from typing import Any
 
 import numpy as np
-from scipy import stats
+from scipy.special import ndtri, stdtrit
 
 from nptcs.arrays import Array
 from nptcs.report.explorer.shared import Plain
@@ -42,11 +42,11 @@ def plain_surface(surface: ResponseSurface) -> Plain:
 
 
 def _student(freedom: int) -> float:
-    return float(stats.t.ppf(0.5 + CONFIDENCE / 2, freedom))
+    return float(stdtrit(freedom, 0.5 + CONFIDENCE / 2))
 
 
 def _normal() -> float:
-    return float(stats.norm.ppf(0.5 + CONFIDENCE / 2))
+    return float(ndtri(0.5 + CONFIDENCE / 2))
 
 
 def _upper(matrix: Array) -> list[float]:

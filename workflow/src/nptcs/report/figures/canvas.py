@@ -8,10 +8,12 @@ run into each other.
 from __future__ import annotations
 
 import io
+from functools import lru_cache
 from typing import Any, TextIO
 
 from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
 from matplotlib.font_manager import FontProperties
+from matplotlib.textpath import text_to_path
 
 from nptcs.report.text import is_wide
 
@@ -24,6 +26,16 @@ AS_HIGH = "Åg"
 POINTS_PER_INCH = 72.0
 
 
+@lru_cache(maxsize=5000)
+def measured(text: str, font: FontProperties, formula: Any) -> tuple[float, float, float]:
+    """Return width, height and descent of a text, in points: figures share most of their words."""
+    wide = "".join(AS_WIDE if is_wide(letter) else letter for letter in text)
+    width, height, descent = text_to_path.get_text_width_height_descent(wide, font, formula)
+    if wide != text:
+        _, height, descent = text_to_path.get_text_width_height_descent(AS_HIGH, font, formula)
+    return width, height, descent
+
+
 class WideRenderer(RendererSVG):
     """Measures wide characters as one em; draws them as they are."""
 
@@ -31,11 +43,7 @@ class WideRenderer(RendererSVG):
         self, s: str, prop: FontProperties, ismath: Any
     ) -> tuple[float, float, float]:
         """Return width, height and descent of a text, in points."""
-        text = "".join(AS_WIDE if is_wide(letter) else letter for letter in s)
-        width, height, descent = super().get_text_width_height_descent(text, prop, ismath)
-        if text != s:
-            _, height, descent = super().get_text_width_height_descent(AS_HIGH, prop, ismath)
-        return width, height, descent
+        return measured(s, prop.copy(), ismath)
 
 
 class WideCanvas(FigureCanvasSVG):

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from nptcs.language import tr
 from nptcs.report.factor_labels import SYMBOLS
@@ -14,6 +14,9 @@ from nptcs.report.figures.style import BESIDE_LABELS, mark_synthetic, panel, sty
 from nptcs.report.figures.theme import COLOURS
 from nptcs.report.tables.headings import words
 from nptcs.report.tables.names import in_words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 def design_names(designs: Sequence[str]) -> list[str]:

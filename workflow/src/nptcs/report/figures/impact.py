@@ -3,15 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from nptcs.language import tr
 from nptcs.report.figures.style import BESIDE_LABELS, HATCHES, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.report.tables.headings import words
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @styled

@@ -3,17 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from nptcs.language import tr, translatable
-from nptcs.report.figures.style import HATCHES, Chart, line_look, mark_synthetic, panel, styled
+from nptcs.report.figures.style import (
+    HATCHES,
+    line_look,
+    line_sign,
+    mark_synthetic,
+    panel,
+    styled,
+)
 from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from nptcs.report.figures.layout import Chart
 
 SECTION_NAMES = {
     "sandwich": translatable("sandwich section"),
@@ -92,12 +102,10 @@ def load_displacement(
     axes.set_ylim(bottom=0)
     axes.legend(title=tr("spoke C10 (S-C) [MPa]"), ncols=3, loc="upper left")
     kinds = [
-        Line2D([], [], color=INK, label=tr("our LCA")),
-        Line2D([], [], color=INK, linestyle="", marker="o", label=tr("our FE")),
-        Line2D([], [], color=INK, linestyle="", marker="x", label=tr("paper, LCA")),
-        Line2D(
-            [], [], color=INK, linestyle="", marker="o", mfc="none", ms=8, label=tr("paper, FEM")
-        ),
+        line_sign(tr("our LCA"), color=INK),
+        line_sign(tr("our FE"), color=INK, linestyle="", marker="o"),
+        line_sign(tr("paper, LCA"), color=INK, linestyle="", marker="x"),
+        line_sign(tr("paper, FEM"), color=INK, linestyle="", marker="o", mfc="none", ms=8),
     ]
     figure.legend(handles=kinds, ncols=4, loc="outside lower center", columnspacing=1.2)
     figure.data = _loads(table, finite_elements)

@@ -4,16 +4,19 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Mapping
+from typing import TYPE_CHECKING
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from nptcs.arrays import Array
 from nptcs.language import tr
 from nptcs.report.figures.specimens import NORMAL, evenly_spaced
 from nptcs.report.figures.style import DASHES, MARKERS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK, PAPER, RANGE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 
 @styled

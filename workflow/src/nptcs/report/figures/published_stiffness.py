@@ -3,11 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import FactorLabel
@@ -22,6 +21,9 @@ from nptcs.report.figures.style import (
 )
 from nptcs.report.figures.theme import GREY, INK, PAPER
 from nptcs.tables.published.stiffness import COMPUTED_STIFFNESS, PUBLISHED_STIFFNESS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 BANDS_PERCENT = {3.0: ":", 8.0: "--"}
 """Differences marked in the parity figure, and the dashes of their lines."""

@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
-from scipy import stats
+from scipy.special import ndtri
 
 from nptcs.language import tr
 from nptcs.report.figures.style import mark_synthetic, note_sampled, panel, sampled, styled
 from nptcs.report.figures.theme import COLOURS, GREY
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 FAR = 3.0
 """Studentised residual beyond which a case is named."""
@@ -83,7 +87,7 @@ def residual_quantiles(influence: pd.DataFrame, title: str, synthetic: bool = Fa
     figure, axes = panel(title, tr("normal quantile"), tr("studentised residual"))
     ordered = np.sort(influence["studentised_residual"].dropna().to_numpy())
     ranks = np.arange(1, len(ordered) + 1)
-    quantiles = stats.norm.ppf((ranks - 0.375) / (len(ordered) + 0.25))
+    quantiles = ndtri((ranks - 0.375) / (len(ordered) + 0.25))
     if len(ordered):
         ends = np.array([quantiles[0], quantiles[-1]])
         axes.plot(ends, ends, color=GREY, linewidth=0.8)

@@ -4,17 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.figure import Figure
 
 from nptcs.language import tr, translatable
 from nptcs.report.figures.style import DASHES, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, GREY, INK
 from nptcs.report.text import text_width
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 DRAWN_POINTS = 200
 """Readings of a curve that are drawn; the curve files contain all of them."""

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
 
 from nptcs.language import tr, translatable
-from nptcs.report.figures.style import MARKERS, mark_synthetic, panel, styled
+from nptcs.report.figures.style import MARKERS, line_sign, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, INK, PAPER
 from nptcs.tables.tyres.spoke_stiffness import DIRECTIONS
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 TRAVEL = {
     "tension": translatable("elongation [mm]"),
@@ -90,21 +93,12 @@ def force_displacement(
     axes.set_ylim(bottom=0)
     axes.legend(title=tr("spoke C10 [MPa]"), ncols=2, loc="upper left")
     kinds = [
-        Line2D([], [], color=INK, label=tr("computed")),
-        Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("line through origin")),
+        line_sign(tr("computed"), color=INK),
+        line_sign(tr("line through origin"), color=INK, linestyle="--", linewidth=0.9),
     ]
     if lines[f"published_{stiffness}"].notna().any():
-        kinds.append(
-            Line2D(
-                [],
-                [],
-                linestyle="",
-                marker="o",
-                mfc="none",
-                mec=INK,
-                label=tr("paper, end of table 10's line"),
-            )
-        )
+        end_of_line = tr("paper, end of table 10's line")
+        kinds.append(line_sign(end_of_line, linestyle="", marker="o", mfc="none", mec=INK))
     figure.legend(handles=kinds, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

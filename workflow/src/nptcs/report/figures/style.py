@@ -9,21 +9,23 @@ from __future__ import annotations
 import io
 from collections.abc import Callable
 from functools import wraps
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
-import matplotlib as mpl
 import numpy as np
 import pandas as pd
 from cycler import cycler
-from matplotlib.axes import Axes
-from matplotlib.axis import Axis
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from nptcs.language import tr
-from nptcs.report.figures.canvas import WideCanvas
 from nptcs.report.figures.theme import COLOURS, GREY, GRID, WARNING
 from nptcs.report.text import text_width, wrapped
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.axis import Axis
+    from matplotlib.figure import Figure
+
+    from nptcs.report.figures.layout import Chart
 
 MARKERS = ("o", "s", "^", "D", "v", "P", "X")
 DASHES: tuple[Any, ...] = ("-", (0, (5, 1.5)), (0, (1.5, 1.5)), (0, (6, 1.5, 1.5, 1.5)))
@@ -31,6 +33,12 @@ HATCHES = ("", "///", "\\\\\\", "xx")
 MAP = "cividis"
 PANEL = (4.3, 3.3)
 """Width and height of a panel in inches; the report shows it at 96 pixels an inch or smaller."""
+
+FIRST_PLACE = (0.15, 0.17, 0.8, 0.7)
+"""Left, bottom, width and height of the axes as shares of the panel, before its words are known."""
+
+BAR_PLACE = (0.9, 0.17, 0.03, 0.7)
+"""The same of a colour bar."""
 
 TITLE_CHARACTERS = 36
 """Characters of a title that fit on one line above the axes of a panel."""
@@ -50,6 +58,7 @@ STYLE: Any = {
     "axes.titlesize": 10,
     "axes.titleweight": "bold",
     "axes.titlelocation": "left",
+    "axes.titley": 1.0,
     "axes.spines.top": False,
     "axes.spines.right": False,
     "axes.grid": True,
@@ -73,14 +82,10 @@ P = ParamSpec("P")
 R = TypeVar("R")
 
 
-class Chart(Figure):
-    """A figure together with the numbers that it shows."""
-
-    data: pd.DataFrame | None = None
-
-
 def data_of(figure: Figure) -> pd.DataFrame | None:
     """Return the numbers that a figure shows; None for a figure that has none."""
+    from nptcs.report.figures.layout import Chart
+
     return figure.data if isinstance(figure, Chart) else None
 
 
@@ -89,6 +94,8 @@ def styled(function: Callable[P, R]) -> Callable[P, R]:
 
     @wraps(function)
     def run(*args: P.args, **kwargs: P.kwargs) -> R:
+        import matplotlib as mpl
+
         with mpl.rc_context(STYLE):
             return function(*args, **kwargs)
 
@@ -112,8 +119,10 @@ def panel(
     fitting : int
         Characters of the title that fit on one line.
     """
-    figure = Chart(figsize=size, layout="constrained")
-    axes = figure.add_subplot()
+    from nptcs.report.figures.layout import Chart, PanelLayout
+
+    figure = Chart(figsize=size, layout=PanelLayout())
+    axes = figure.add_axes(FIRST_PLACE)
     lines = [wrapped(line, fitting) for line in title.split("\n")]
     axes.set(title="\n".join(lines), xlabel=tr(x_label), ylabel=tr(y_label))
     for axis in (axes.xaxis, axes.yaxis):
@@ -123,6 +132,8 @@ def panel(
 
 def round_ticks(axis: Axis, most: int = 7) -> None:
     """Put at most `most` ticks at round numbers; for an angle at multiples of 15 or 30 degrees."""
+    from matplotlib.ticker import MaxNLocator
+
     angle = axis.get_label_text().endswith(("[deg]", "[°]"))
     steps = [1, 1.5, 3, 4.5, 6, 9, 10] if angle else [1, 2, 5, 10]
     axis.set_major_locator(MaxNLocator(most, steps=steps))
@@ -131,6 +142,13 @@ def round_ticks(axis: Axis, most: int = 7) -> None:
 def line_look(number: int) -> dict[str, Any]:
     """Colour and marker of the line with this number in a figure, counted from 0."""
     return {"color": COLOURS[number % len(COLOURS)], "marker": MARKERS[number % len(MARKERS)]}
+
+
+def line_sign(label: str, **look: Any) -> Artist:
+    """Make the sign of a line or of a mark for a legend."""
+    from matplotlib.lines import Line2D
+
+    return Line2D([], [], label=label, **look)
 
 
 def mark_synthetic(figure: Figure, synthetic: bool) -> None:
@@ -179,6 +197,8 @@ def note_sampled(axes: Axes, drawn: int, of: int, what: str) -> None:
 @styled
 def to_svg(figure: Figure) -> str:
     """Draw a figure as Matplotlib writes SVG, without a date; words stay text."""
+    from nptcs.report.figures.canvas import WideCanvas
+
     stream = io.StringIO()
     WideCanvas(figure).write(stream)
     return stream.getvalue()

@@ -2,21 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from itertools import combinations
+from typing import TYPE_CHECKING
 
-import matplotlib as mpl
 import numpy as np
 import pandas as pd
-from matplotlib.axes import Axes
-from matplotlib.colors import BoundaryNorm
-from matplotlib.figure import Figure
-from matplotlib.ticker import MaxNLocator
 
 from nptcs.arrays import Array
 from nptcs.language import tr, translatable
 from nptcs.report.factor_labels import FactorLabel
 from nptcs.report.figures.style import (
+    BAR_PLACE,
     DASHES,
     MAP,
     MARKERS,
@@ -30,6 +28,11 @@ from nptcs.report.figures.style import (
 from nptcs.report.figures.theme import COLOURS
 from nptcs.surface.fit import Surface
 
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.colors import BoundaryNorm
+    from matplotlib.figure import Figure
+
 STIFFNESS = "vertical_stiffness_n_per_mm"
 STIFFNESS_LABEL = translatable("vertical stiffness [N/mm]")
 GRID = 41
@@ -38,6 +41,10 @@ SPARSE = 4
 MOST_LINES = 7
 LEVELS = 12
 """Steps of a colour scale, at most."""
+ROUND = (1.0, 2.0, 2.5, 5.0, 10.0)
+"""Round steps of a scale, in units of a power of ten."""
+ROUNDING = 1e-9
+"""Share of a step by which a level may be off only because of rounding."""
 INNER = 0.8
 """Share of the width and the height of a panel inside which its lines are named."""
 DARK = "#111111"
@@ -146,8 +153,23 @@ def common_levels(surfaces: Sequence[tuple[Surface, pd.DataFrame]]) -> list[floa
         for surface, cases in surfaces
     ]
     every = np.concatenate(heights)
-    ticks = MaxNLocator(LEVELS, steps=[1, 2, 2.5, 5, 10]).tick_values(every.min(), every.max())
-    return [float(tick) for tick in ticks]
+    return round_levels(float(every.min()), float(every.max()), LEVELS)
+
+
+def round_levels(low: float, high: float, most: int) -> list[float]:
+    """Return round levels with equal steps that enclose a range, with about `most` steps in it.
+
+    Examples
+    --------
+    >>> round_levels(217.0, 303.0, 12)
+    [210.0, 220.0, 230.0, 240.0, 250.0, 260.0, 270.0, 280.0, 290.0, 300.0, 310.0]
+    """
+    least = (high - low) / most or abs(low) / most or 1.0
+    unit = 10.0 ** math.floor(math.log10(least))
+    step = next(unit * size for size in ROUND if unit * size >= least * (1 - ROUNDING))
+    first = math.floor(low / step + ROUNDING)
+    last = max(math.ceil(high / step - ROUNDING), first + 1)
+    return [place * step for place in range(first, last + 1)]
 
 
 @styled
@@ -178,6 +200,9 @@ def contours(
     levels : sequence of float, optional
         Steps of the colour scale, as `common_levels` gives them; else those of this surface.
     """
+    import matplotlib as mpl
+    from matplotlib.colors import BoundaryNorm
+
     inside, held = at_middle(surface, cases, pair)
     shown = drawn_cases(inside, pair)
     x, y, z = _grid(surface, cases, *pair)
@@ -199,8 +224,9 @@ def contours(
         clip_on=False,
         zorder=5,
     )
-    bar = figure.colorbar(filled, ax=axes, label=tr(STIFFNESS_LABEL), ticks=steps[::2], format="%g")
-    bar.ax.grid(visible=False)
+    beside = figure.add_axes(BAR_PLACE)
+    figure.colorbar(filled, beside, label=tr(STIFFNESS_LABEL), ticks=steps[::2], format="%g")
+    beside.grid(visible=False)
     note_sampled(axes, len(shown), len(inside), tr("cases"))
     figure.data = _numbers(shown, (x, y, z), pair, held)
     axes.grid(visible=False)
@@ -220,6 +246,8 @@ def _contour_lines(
     A line is named once, away from the marks of the cases (rows of x and y); one that only crosses
     a corner is not named, because its name would reach over the edge.
     """
+    import matplotlib as mpl
+
     colours = [_readable_on(mpl.colormaps[MAP](norm(step))) for step in steps]
     lines = axes.contour(*grid, levels=steps, colors=colours, linewidths=0.6)
     places = []

@@ -2,14 +2,10 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 import pandas as pd
-from matplotlib.collections import PolyCollection
-from matplotlib.figure import Figure
-from matplotlib.lines import Line2D
-from matplotlib.patches import Patch
 
 from nptcs.compare.conditions import PAPER_LOAD_N
 from nptcs.language import tr
@@ -17,6 +13,7 @@ from nptcs.report.figures.style import (
     DASHES,
     MARKERS,
     line_look,
+    line_sign,
     mark_synthetic,
     note_sampled,
     panel,
@@ -24,6 +21,9 @@ from nptcs.report.figures.style import (
     styled,
 )
 from nptcs.report.figures.theme import COLOURS, GREY, INK, RANGE
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 WINDOW_MM = 110.0
 """Half the width of the drawn surroundings of the contact."""
@@ -114,6 +114,9 @@ def deformed_tyre(
     synthetic : bool
         Whether the materials are synthetic.
     """
+    from matplotlib.collections import PolyCollection
+    from matplotlib.patches import Patch
+
     figure, axes = panel(title, "x [mm]", "y [mm]", (4.3, 3.9 if near else 5.2))
     ground, solver = float(outlines["y_mm"].min()), str(outlines["solver"].iloc[0])
     if near:
@@ -145,11 +148,11 @@ def deformed_tyre(
     handles = [
         Patch(fc=RANGE, ec=GREY, label=tr("rubber of a spoke")),
         Patch(fc=COLOURS[1], label=tr("plates of a spoke")),
-        Line2D([], [], color=COLOURS[0], label=tr("band and tread")),
-        Line2D([], [], color=INK, label=tr("rim, ground")),
+        line_sign(tr("band and tread"), color=COLOURS[0]),
+        line_sign(tr("rim, ground"), color=INK),
     ]
     if near:
-        handles.append(Line2D([], [], color=GREY, linestyle=":", label=tr("before loading")))
+        handles.append(line_sign(tr("before loading"), color=GREY, linestyle=":"))
     figure.legend(handles=handles, title=solver, ncols=3, loc="outside lower center")
     places = ["x_mm", "y_mm", *(["x_undeformed_mm", "y_undeformed_mm"] if near else [])]
     figure.data = outlines[["part", "outline", *places]].round(dict.fromkeys(places, 2))
@@ -190,12 +193,11 @@ def plate_faces(stress: pd.DataFrame, title: str, synthetic: bool = False) -> Fi
     axes.set_ylim(bottom=0)
     figure.data = rows.drop(columns=["study", "along_mpa", "across_mpa", "shear_mpa"])
     handles, _ = axes.get_legend_handles_labels()
-    handles += [
-        Line2D([], [], linestyle="", marker="o", mfc="none", mec=INK, label=tr("element mean")),
-    ]
+    mean: dict[str, Any] = {"linestyle": "", "marker": "o", "mfc": "none", "mec": INK}
+    handles.append(line_sign(tr("element mean"), **mean))
     if compared:
-        line = Line2D([], [], color=INK, linestyle="--", linewidth=0.9, label=tr("paper, largest"))
-        handles.append(line)
+        largest: dict[str, Any] = {"color": INK, "linestyle": "--", "linewidth": 0.9}
+        handles.append(line_sign(tr("paper, largest"), **largest))
     figure.legend(handles=handles, ncols=2, loc="outside lower center")
     mark_synthetic(figure, synthetic)
     return figure

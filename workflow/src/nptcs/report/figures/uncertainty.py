@@ -2,14 +2,18 @@
 
 from __future__ import annotations
 
+from typing import TYPE_CHECKING
+
 import numpy as np
 import pandas as pd
-from matplotlib.figure import Figure
 
 from nptcs.language import tr
 from nptcs.report.figures.style import BESIDE_LABELS, mark_synthetic, panel, styled
 from nptcs.report.figures.theme import COLOURS, PAPER
 from nptcs.report.tables.headings import heading
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 KINDS = {
     "test": COLOURS[0],

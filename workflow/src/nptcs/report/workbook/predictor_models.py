@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from scipy import stats
+from scipy.special import stdtrit
 
 from nptcs.arrays import Array
 from nptcs.config.studies.study import Level, MeasuredRubber, Study
@@ -57,7 +57,7 @@ class PredictorModel:
     @property
     def t_quantile(self) -> float:
         """Factor of the prediction interval: Student's t for the degrees of freedom of the fit."""
-        return float(stats.t.ppf(0.5 + CONFIDENCE / 2, self.inner.points - self.inner.coefficients))
+        return float(stdtrit(self.inner.points - self.inner.coefficients, 0.5 + CONFIDENCE / 2))
 
     def bounds(self) -> tuple[Array, Array]:
         """Lowest and highest value of each factor among the cases of the fit."""

@@ -8,8 +8,8 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from scipy import stats
 from scipy.linalg import cho_solve, cholesky
+from scipy.special import stdtrit
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
@@ -182,7 +182,7 @@ class GaussianProcess:
         left-out cases require.
         """
         freedom = len(self.y) - self.coefficients
-        return float(stats.t.ppf(0.5 + confidence / 2, freedom)) * self._inflation
+        return float(stdtrit(freedom, 0.5 + confidence / 2)) * self._inflation
 
     def _moments(self, one: Component, coded: Array, slopes: Array) -> tuple[Array, Array]:
         """Mean and variance of a component over the mean surface, scaled, two of shape (m,)."""

@@ -19,8 +19,8 @@ from itertools import combinations, product
 from typing import Any
 
 import numpy as np
-from scipy import stats
 from scipy.optimize import least_squares
+from scipy.special import stdtrit
 
 from nptcs.arrays import Array
 from nptcs.errors import InputError
@@ -116,7 +116,7 @@ class Lamination:
         """Bounds of the prediction interval, linear in the parameters: two of shape (m,)."""
         jacobian = self.slopes(x)
         variance = np.einsum("ij,jk,ik->i", jacobian, self.covariance, jacobian)
-        quantile = stats.t.ppf(0.5 + confidence / 2, len(self.y) - self.coefficients)
+        quantile = stdtrit(len(self.y) - self.coefficients, 0.5 + confidence / 2)
         half_width = quantile * np.sqrt(variance + self.residual_sd**2)
         value = self.predict(x)
         return value - half_width, value + half_width

@@ -13,18 +13,20 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import product
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
-from scipy import stats
-from sklearn.gaussian_process import GaussianProcessRegressor
-from sklearn.gaussian_process.kernels import RBF, ConstantKernel, Kernel, WhiteKernel
+from scipy.special import ndtri
 
 from nptcs.arrays import Array, Index
 from nptcs.errors import InputError
 from nptcs.likelihood import SearchError, bounds_are_answers, left_out_inflation, maximise
 from nptcs.spoke_features import spoke_features
 from nptcs.surface.response_surface import Groups, Outside, refuse_unusable
+
+if TYPE_CHECKING:
+    from sklearn.gaussian_process import GaussianProcessRegressor
+    from sklearn.gaussian_process.kernels import Kernel
 
 SPOKE = ("spacing_mm", "thickness_mm", "angle_deg", "spoke_c10_mpa")
 FEWEST_SPOKES = 20
@@ -150,7 +152,7 @@ class SpokeProcess:
     def interval(self, x: Array, confidence: float = 0.95) -> tuple[Array, Array]:
         """Bounds of the prediction interval, two of shape (m,): processes and misfit."""
         mean, deviation = self._moments(x, errors=True)
-        half_width = stats.norm.ppf(0.5 + confidence / 2) * deviation
+        half_width = ndtri(0.5 + confidence / 2) * deviation
         low, high = mean - half_width, mean + half_width
         return (np.exp(low), np.exp(high)) if self.logarithmic else (low, high)
 
@@ -311,6 +313,8 @@ class SpokeProcess:
 
     @cached_property
     def _processes(self) -> list[GaussianProcessRegressor]:
+        from sklearn.gaussian_process import GaussianProcessRegressor
+
         unit, scores = self._unit(self._spokes[0]), self._scores()
         kernels = [_kernel(unit.shape[1]).clone_with_theta(theta) for theta in self.theta]
         return [
@@ -403,12 +407,16 @@ def _features(designs: Array, ply: Mapping[str, float]) -> Array:
 
 
 def _kernel(features: int, length: float = 1.0) -> Kernel:
+    from sklearn.gaussian_process.kernels import RBF, ConstantKernel, WhiteKernel
+
     smooth = ConstantKernel(1.0, VARIANCE_BOUNDS) * RBF(np.full(features, length), LENGTH_BOUNDS)
     return smooth + WhiteKernel(1e-6, NOISE_BOUNDS)
 
 
 def _fitted_theta(unit: Array, score: Array) -> Array:
     """Hyperparameters with the largest likelihood that the searches from all starts find."""
+    from sklearn.gaussian_process import GaussianProcessRegressor
+
     found: list[tuple[float, Array]] = []
     fault = ""
     for length in STARTS:
