@@ -2,6 +2,7 @@
 
 import re
 from dataclasses import replace
+from itertools import pairwise
 
 import numpy as np
 import pandas as pd
@@ -15,7 +16,8 @@ from nptcs.report.answer.tests_behind import tests_finding as findings_on_tests
 from nptcs.report.html import render_report
 from nptcs.report.sections.refused import all_refused
 from nptcs.report.sections.summary import findings, flag_lines
-from nptcs.report.sketches import BarRow, IntervalRow, bars, intervals
+from nptcs.report.sketches import BarRow, IntervalRow, Share, bar_of_shares, bars, intervals
+from nptcs.report.text import text_width
 from nptcs.tables.catalogue import TABLES
 from nptcs.tables.io import check
 from nptcs.tables.laboratory.flags import FlagsTable
@@ -252,3 +254,17 @@ def test_names_are_escaped_and_long_ones_leave_room_for_the_bar():
 def test_the_flags_table_of_a_run_without_flags_is_empty(results):
     assert flag_lines(results) == ()
     assert results.table(FlagsTable).empty
+
+
+@pytest.mark.parametrize(
+    "names", [("as the standard requires", "deviate from it", "left out"), ("符合标准", "偏离")]
+)
+def test_keys_of_shares_do_not_run_into_each_other(names):
+    shares = [Share(name, 20, "good") for name in names]
+    svg = bar_of_shares(shares, "shares").svg
+    texts = re.findall(r'<text x="([\d.]+)" y="([\d.]+)"[^>]*>([^<]*)<', svg)
+    ends = [(float(y), float(x), float(x) + 6.9 * text_width(text)) for x, y, text in texts]
+    assert len(ends) == len(names)
+    assert all(end <= 360 for _, _, end in ends)
+    for (y, _, end), (below, start, _) in pairwise(ends):
+        assert below > y or start - 15 > end

@@ -16,7 +16,8 @@ CHARACTER, GAP = 6.9, 9.0
 """Width of a character, on the wide side, and the gap between text and mark."""
 LEAST_SPAN = 60.0
 ROW, BAR = 24.0, 11.0
-LEGEND_COLUMN = 180.0
+KEY = 15.0
+"""Distance from the mark of a key to its text."""
 
 Tone = Literal["accent", "soft", "good", "warn", "bad"]
 """Colours of a mark, each a variable of the style sheet."""
@@ -142,15 +143,21 @@ def bar_of_shares(parts_of_it: Sequence[Share], alt: str) -> Sketch:
     """Draw the parts of a whole as one bar, with a legend that gives the counts."""
     total = sum(part.count for part in parts_of_it) or 1
     drawn, left = [], 0.0
-    shown = [part for part in parts_of_it if part.count]
-    for number, part in enumerate(shown):
+    x, y = 0.0, 38.0
+    for part in parts_of_it:
+        if not part.count:
+            continue
         length = WIDTH * part.count / total
         drawn.append(_rectangle(left, 2, max(length - 1.5, 1.0), 16, part.tone))
-        x, y = LEGEND_COLUMN * (number % 2), 38 + 20 * (number // 2)
-        drawn.append(_rectangle(x, y - 9, 10, 10, part.tone))
-        drawn.append(_text(x + 15, y, f"{part.count} {part.name}", "start"))
         left += length
-    return _sketch(drawn, 26 + 20 * ((len(shown) + 1) // 2), alt)
+        text = f"{part.count} {part.name}"
+        wide = KEY + CHARACTER * text_width(text)
+        if x and x + wide > WIDTH:
+            x, y = 0.0, y + 20
+        drawn.append(_rectangle(x, y - 9, 10, 10, part.tone))
+        drawn.append(_text(x + KEY, y, text, "start"))
+        x += wide + GAP
+    return _sketch(drawn, y + 8, alt)
 
 
 def _words(name: str, text: str, left: float, middle: float) -> list[Markup]:
