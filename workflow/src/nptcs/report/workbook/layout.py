@@ -16,6 +16,8 @@ from nptcs.report.workbook.cells import FONT, HEADER, SYNTHETIC, WRAPPED
 from nptcs.report.workbook.number_formats import shown_number
 
 WIDEST = 60
+BOLD = 1.15
+"""Width of bold characters over that of plain ones."""
 LINE_HEIGHT = 15.0
 MOST_LINES = 27
 """Lines of the highest row that a spreadsheet can show (409 points)."""
@@ -130,8 +132,9 @@ def mark_synthetic(worksheet: Worksheet) -> None:
 
 
 def _header_width(cell: Cell) -> int:
-    """Return the length of the longest word of a header, which may wrap at spaces."""
-    return max((ceil(text_width(word)) for word in str(cell.value or "").split()), default=0)
+    """Return the width of the longest word of a header, which may wrap at spaces."""
+    words = str(cell.value or "").split()
+    return max((ceil(BOLD * text_width(word)) for word in words), default=0)
 
 
 def _width(cell: Cell) -> int:
