@@ -151,7 +151,8 @@ def figure_code():
 
 def drawers(wildcards):
     """Processes that draw the figures; only the workbook is written at the same time."""
-    return min(4, workflow.cores or 1)
+    settings = workflow.resource_settings  # a run on a cluster has no number of cores
+    return min(4, settings.cores or settings.local_cores or 1)
 
 
 rule report:

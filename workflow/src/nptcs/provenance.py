@@ -83,19 +83,19 @@ def _file(module: str) -> Path | None:
     """Find the file of a module of this package; None if there is none."""
     if module.endswith(".py"):
         return Path(module).resolve() if Path(module).is_file() else None
-    return _file_of_package(module)
+    return _file_in(_ROOT, module)
 
 
 @cache
-def _file_of_package(module: str) -> Path | None:
+def _file_in(root: Path, module: str) -> Path | None:
     parts = module.split(".")
     if parts[0] != PACKAGE:
         return None
-    stem = _ROOT.joinpath(*parts[1:])
+    stem = root.joinpath(*parts[1:])
     package, plain = stem / "__init__.py", stem.with_suffix(".py")
     if package.is_file():
         return package
-    return plain if plain.is_file() and stem != _ROOT else None
+    return plain if plain.is_file() and stem != root else None
 
 
 @cache
