@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from functools import cache
 from math import ceil
 
 from openpyxl.cell import Cell
@@ -24,10 +25,17 @@ MOST_LINES = 27
 
 TOP = Alignment(vertical="top")
 HEADER_OF_NUMBERS = Alignment(horizontal="right", wrap_text=True, vertical="top")
-INDENTED = Alignment(horizontal="left", indent=1, vertical="top")
-INDENTED_WRAPPED = Alignment(horizontal="left", indent=1, vertical="top", wrap_text=True)
 PAGE_WIDTH = 330.0
 """Most characters across a page at which a table is still readable: about 5 points high."""
+
+
+@cache
+def indented(vertical: str | None, wrap_text: bool | None) -> Alignment:
+    """Return the alignment of a text that keeps a distance from the number to its left."""
+    return Alignment(horizontal="left", indent=1, vertical=vertical, wrap_text=wrap_text)
+
+
+INDENTED_WRAPPED = indented("top", True)
 
 
 def finish_table(worksheet: Worksheet, fill: PatternFill = HEADER) -> None:
@@ -75,7 +83,7 @@ def keep_numbers_apart(worksheet: Worksheet, header: int) -> None:
             cells[0].alignment = HEADER_OF_NUMBERS
         elif after_numbers:
             for cell in cells:
-                cell.alignment = INDENTED_WRAPPED if cell.alignment.wrap_text else INDENTED
+                cell.alignment = indented(cell.alignment.vertical, cell.alignment.wrap_text)
         after_numbers = numbers
 
 
