@@ -155,6 +155,14 @@ def drawers(wildcards):
     return min(4, settings.cores or settings.local_cores or 1)
 
 
+# report and workbook both hold the tables of all cases: where these are long, one after the other
+LONG_TABLES = any(
+    solved_in_bulk(study.name, solver)
+    for study in CONFIG.studies
+    for solver in study.solvers
+)
+
+
 rule report:
     input:
         **all_results(),
@@ -166,7 +174,7 @@ rule report:
         ),
     log:
         "results/logs/report.log",
-    threads: 1  # the workbook is written at the same time
+    threads: 4 if LONG_TABLES else 1  # with one, the workbook is written at the same time
     resources:
         drawers=drawers,
     params:
