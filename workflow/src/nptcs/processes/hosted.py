@@ -25,7 +25,7 @@ HOST = Path(__file__).with_name("script_host.py")
 GRACE_S = 2.0
 """Time that the host has to end."""
 
-IMPORT, HASH, BESIDE = "import", "hash", "import beside"
+IMPORT, HASH, IMPORT_IN_FORK = "import", "hash", "import in a fork"
 """What a host does in advance (`nptcs.processes.script_host.TASKS`)."""
 
 SPECIAL = ("conda_env", "container_img", "env_modules", "bench_record", "shadow_dir")
@@ -78,7 +78,7 @@ class ScriptHost:
             Modules that compile what they need when they are imported: each is imported in a
             process of its own, next to the scripts.
         """
-        tasks = [(BESIDE, module) for module in compiled]
+        tasks = [(IMPORT_IN_FORK, module) for module in compiled]
         tasks += [(IMPORT, str(script)) for script in scripts]
         tasks += [(HASH, module) for module in hashed]
         with suppress(OSError), self._lock:

@@ -118,16 +118,16 @@ def hash_code(module: str) -> None:
         code_hash(module)
 
 
-def import_beside(module: str) -> None:
+def import_in_fork(module: str) -> None:
     """Let a fork import a module at low priority.
 
     What is compiled then is kept on disk, so that the processes that need it only read it.
     """
     fork = multiprocessing.get_context("fork")
-    fork.Process(target=_import_in_fork, args=(module,), daemon=True).start()
+    fork.Process(target=_run_import, args=(module,), daemon=True).start()
 
 
-def _import_in_fork(module: str) -> None:
+def _run_import(module: str) -> None:
     os.nice(10)
     threading.Thread(target=_end_with_host, daemon=True).start()
     with suppress(Exception):  # what cannot be imported is for the case to say
@@ -137,7 +137,7 @@ def _import_in_fork(module: str) -> None:
 TASKS: Mapping[str, Callable[[str], None]] = {
     "import": import_for,
     "hash": hash_code,
-    "import beside": import_beside,
+    "import in a fork": import_in_fork,
 }
 
 
